@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/bus/qos.hpp"
+#include "common/bus/type_ops.hpp"
+
+namespace rds::bus {
+
+/// The bus could not be joined, or an endpoint not be made; the text names what and why.
+class BusError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Vendor { kFastDds, kCycloneDds };
+
+/// "fastdds" or "cyclonedds"; @throws std::invalid_argument otherwise, naming both.
+Vendor vendor_from_name(const std::string& name);
+std::string name_of(Vendor vendor);
+
+struct ParticipantOptions {
+  Vendor vendor = Vendor::kFastDds;
+  int domain = 0;
+  std::string node_name;     // as `ros2 node list` shows it, without the leading slash
+  bool loopback_only = false;  // this machine only: no multicast, nobody else is disturbed
+};
+
+/// Traffic of one endpoint since its creation.
+struct EndpointStatistics {
+  std::string topic;  // without "rt/"
+  bool publisher = false;
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t dropped = 0;    // lost by the bus, refused by the writer, or undecodable
+  int matched = 0;              // endpoints at the other side
+};
+
+/// An endpoint somebody announced on the bus.
+struct DiscoveredEndpoint {
+  std::string topic;  // without "rt/"
+  std::string type;   // DDS type name, e.g. "nav_msgs::msg::dds_::Odometry_"
+  bool publisher = false;
+};
+
+namespace detail {
+class PublisherEndpoint {
+ public:
+  virtual ~PublisherEndpoint() = default;
+  virtual bool write(const void* message) = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+};
+class SubscriptionEndpoint {
+ public:
+  virtual ~SubscriptionEndpoint() = default;
+  [[nodiscard]] virtual int matched() const = 0;
+};
+}  // namespace detail
+
+/// Writes messages of one type to one topic. Movable; the endpoint leaves the bus with it.
+template <class T>
+class Publisher {
+ public:
+  Publisher() = default;
+  explicit Publisher(std::unique_ptr<detail::PublisherEndpoint> endpoint) : endpoint_(std::move(endpoint)) {}
+
+  /// Never waits for readers. @return false if the message was dropped (counted in the statistics).
+  bool write(const T& message) { return endpoint_->write(&message); }
+  [[nodiscard]] int matched() const { return endpoint_->matched(); }
+
+ private:
+  std::unique_ptr<detail::PublisherEndpoint> endpoint_;
+};
+
+/// Keeps a callback subscribed; after its destructor returns the callback is not running and never runs again.
+class Subscription {
+ public:
+  Subscription() = default;
+  explicit Subscription(std::unique_ptr<detail::SubscriptionEndpoint> endpoint) : endpoint_(std::move(endpoint)) {}
+  [[nodiscard]] int matched() const { return endpoint_->matched(); }
+
+ private:
+  std::unique_ptr<detail::SubscriptionEndpoint> endpoint_;
+};
+
+/// This process on the bus. Callbacks run on threads of the participant, one message of a topic after the other:
+/// they convert and push, never compute. All members are safe to call from any thread.
+class Participant {
+ public:
+  /// @throws BusError
+  static std::unique_ptr<Participant> create(const ParticipantOptions& options);
+  virtual ~Participant() = default;
+
+  /// @param topic  without "rt/". @throws BusError
+  template <class T>
+  Publisher<T> advertise(const std::string& topic, const Qos& qos) {
+    return Publisher<T>(make_publisher(topic, type_ops<T>(), qos));
+  }
+
+  /// @param topic  without "rt/". @throws BusError
+  template <class T>
+  Subscription subscribe(const std::string& topic, const Qos& qos,
+                         std::function<void(std::shared_ptr<const T>)> callback) {
+    return Subscription(make_subscription(topic, type_ops<T>(), qos, [callback](std::shared_ptr<const void> m) {
+      callback(std::static_pointer_cast<const T>(std::move(m)));
+    }));
+  }
+
+  /// For tools that learn the type at run time: as subscribe(), and the size on the wire [bytes].
+  virtual std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
+      const std::string& topic, const TypeOps& type, const Qos& qos,
+      std::function<void(std::shared_ptr<const void>)> callback) = 0;
+  virtual std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
+                                                                    const Qos& qos) = 0;
+
+  [[nodiscard]] virtual std::vector<EndpointStatistics> statistics() const = 0;
+  [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;
+};
+
+}  // namespace rds::bus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace rds::bus {
+
+/// What a topic promises; both ends use the same profile. `depth` 0 keeps all samples up to `max_samples`.
+struct Qos {
+  bool reliable = true;
+  bool transient_local = false;
+  int depth = 10;
+  int max_samples = 5000;
+};
+
+// The profiles of the topic table (see common/bus/README.md).
+inline constexpr Qos kSensor{.reliable = true, .depth = 5};
+inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5};
+inline constexpr Qos kStream{.reliable = true, .depth = 10};
+inline constexpr Qos kTransform{.reliable = true, .depth = 100};
+inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, .depth = 20};
+inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};
+inline constexpr Qos kDelta{.reliable = true, .depth = 64};
+inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1};
+
+}  // namespace rds::bus

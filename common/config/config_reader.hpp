@@ -51,6 +51,9 @@ class ConfigReader {
   /// One of several words.
   void choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed);
 
+  /// True if the configuration gives this key.
+  [[nodiscard]] bool has(const std::string& key) const { return node_.IsMap() && node_[key]; }
+
   /// Reader of the map below `key` (empty if absent); its violations are added to this reader's by finish().
   ConfigReader& section(const std::string& key);
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/detector/core/detector_config.hpp"
+
+namespace rds::detector {
+
+void read(config::ConfigReader& reader, DetectorConfig& config) {
+  reader.value("network", config.network);
+  reader.value("threads", config.threads, 1, 64);
+  reader.value("score_threshold", config.score_threshold, 0.0, 1.0);
+  reader.value("other_label_iou", config.other_label_iou, 0.0, 1.0);
+  reader.value("max_boxes", config.max_boxes, 1, 10000);
+  read(reader.section("depth"), config.depth);
+}
+
+}  // namespace rds::detector

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "common/config/config_reader.hpp"
+#include "services/detector/core/box_depth.hpp"
+
+namespace rds::detector {
+
+/// Settings of the detector; what belongs to one network is in its NetworkDescription.
+struct DetectorConfig {
+  std::string network;         // name of the network; empty: the best one whose file is found
+  int threads = 1;             // of the inference library
+  double score_threshold = 0;  // 0: the network's own
+  double other_label_iou =
+      0.85;  // of two boxes with different labels that overlap by more, the worse is dropped; 1: never
+  int max_boxes = 100;  // per picture, the best
+  BoxDepthConfig depth;
+};
+
+void read(config::ConfigReader& reader, DetectorConfig& config);
+
+}  // namespace rds::detector

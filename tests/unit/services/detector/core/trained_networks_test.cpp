@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped networks on the shared photos. Needs RDS_SHARED (photos, most networks) or `rds models fetch`
+// (nanodet_g).
+#include <algorithm>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "services/detector/core/detector.hpp"
+#include "tests/unit/services/detector/core/shared_photos.hpp"
+
+namespace rds::detector {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::SizeIs;
+
+DetectorConfig everything_the_network_says() {
+  DetectorConfig config;
+  config.other_label_iou = 1;
+  return config;
+}
+
+class TrainedNetwork : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!test::photo_folder()) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
+    if (!test::network_is_there(GetParam()))
+      GTEST_SKIP() << "the file of network " << GetParam() << " is missing";
+  }
+};
+
+std::vector<Detection> with_label(const std::vector<Detection>& all, const std::string& label) {
+  std::vector<Detection> some;
+  std::ranges::copy_if(all, std::back_inserter(some), [&](const Detection& d) { return d.label == label; });
+  return some;
+}
+
+void expect_overlap(const std::vector<Detection>& found, const geometry::Box2& truth) {
+  const auto overlap = [&](const Detection& d) { return geometry::iou(d.box, truth); };
+  double best = 0;
+  for (const Detection& d : found) best = std::max(best, overlap(d));
+  EXPECT_GT(best, 0.7);
+}
+
+TEST_P(TrainedNetwork, FindsDogBicycleAndCar) {
+  Detector detector(load_network(GetParam(), model_folders()));
+  const auto found = detector.detect(test::load_photo("dog.jpg"));
+  expect_overlap(with_label(found, "bicycle"), {125, 130, 570, 425});
+  expect_overlap(with_label(found, "car"), {466, 75, 693, 172});
+  if (GetParam() != "nanodet_m_320") expect_overlap(with_label(found, "dog"), {131, 215, 320, 540});
+}
+
+TEST_P(TrainedNetwork, FindsBothPersonsAtTheirDesk) {
+  Detector detector(load_network(GetParam(), model_folders()));
+  const auto found = with_label(detector.detect(test::load_photo("tum_rgb.png")), "person");
+  EXPECT_THAT(found, SizeIs(2));
+  expect_overlap(found, {236, 172, 536, 461});
+  expect_overlap(found, {0, 102, 180, 459});
+}
+
+TEST_P(TrainedNetwork, GivesTheSameForEitherChannelOrderAndAnyNumberOfThreads) {
+  const Network network = load_network(GetParam(), model_folders());
+  DetectorConfig two_threads;
+  two_threads.threads = 2;
+  Detector one(network);
+  Detector two(network, two_threads);
+  const image::ColorImage bgr = test::load_photo("tum_rgb.png");
+  image::ColorImage rgb{{}, image::ChannelOrder::kRgb, nullptr};
+  cv::cvtColor(bgr.pixels, rgb.pixels, cv::COLOR_BGR2RGB);
+  const auto a = one.detect(bgr);
+  const auto b = two.detect(rgb);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].label, b[i].label);
+    EXPECT_EQ(a[i].score, b[i].score);
+    EXPECT_EQ(a[i].box, b[i].box);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, TrainedNetwork,
+                         ::testing::Values("mobilenetv2_ssdlite_voc", "nanodet_g", "nanodet_m_320",
+                                           "yolox_nano"),
+                         [](const auto& p) { return p.param; });
+
+class PapersNetwork : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(PapersNetwork, ReproducesAnIndependentDecoder) {
+  const auto folder = test::photo_folder();
+  if (!folder) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
+  std::ifstream file(*folder / "expected_ssdlite.json");
+  const auto expected = nlohmann::json::parse(file).at(GetParam());
+  Detector detector(load_network("mobilenetv2_ssdlite_voc", model_folders()), everything_the_network_says());
+  const auto found = detector.detect(test::load_photo(GetParam()));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].label, expected[i].at("label").get<std::string>());
+    EXPECT_NEAR(static_cast<double>(found[i].score), expected[i].at("score").get<double>(), 0.005);
+    const auto box = expected[i].at("box").get<std::vector<double>>();
+    EXPECT_NEAR(found[i].box.x0, box[0], 1);
+    EXPECT_NEAR(found[i].box.y0, box[1], 1);
+    EXPECT_NEAR(found[i].box.x1, box[2], 1);
+    EXPECT_NEAR(found[i].box.y1, box[3], 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Photos, PapersNetwork,
+                         ::testing::Values("dog.jpg", "tum_rgb.png", "tum_1341846434.710184.png"),
+                         [](const auto& p) { return "photo" + std::to_string(p.index); });
+
+TEST(TrainedNetworks, OneObjectWithTwoLabelsIsReportedOnceByDefault) {
+  if (!test::photo_folder()) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
+  Detector detector(load_network("mobilenetv2_ssdlite_voc", model_folders()));
+  const auto found = detector.detect(test::load_photo("dog.jpg"));
+  EXPECT_THAT(found, Contains(Field(&Detection::label, "dog")));
+  EXPECT_THAT(with_label(found, "cat"), SizeIs(0));
+}
+
+}  // namespace
+}  // namespace rds::detector

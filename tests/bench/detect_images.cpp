@@ -27,8 +27,8 @@ struct Options {
   rds::detector::DetectorConfig detector;
 };
 
-double rounded(double value, double unit) {
-  return std::round(value / unit) * unit;
+double rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
 }
 
 ordered_json to_json(const std::vector<Detection>& detections) {

@@ -51,7 +51,7 @@ TEST_P(TrainedNetwork, FindsDogBicycleAndCar) {
   const auto found = detector.detect(test::load_photo("dog.jpg"));
   expect_overlap(with_label(found, "bicycle"), {125, 130, 570, 425});
   expect_overlap(with_label(found, "car"), {466, 75, 693, 172});
-  if (GetParam() != "nanodet_m_320") expect_overlap(with_label(found, "dog"), {131, 215, 320, 540});
+  expect_overlap(with_label(found, "dog"), {131, 215, 320, 540});
 }
 
 TEST_P(TrainedNetwork, FindsBothPersonsAtTheirDesk) {

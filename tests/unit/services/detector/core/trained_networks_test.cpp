@@ -81,6 +81,24 @@ TEST_P(TrainedNetwork, GivesTheSameForEitherChannelOrderAndAnyNumberOfThreads) {
   }
 }
 
+TEST_P(TrainedNetwork, RefusesItsOwnFileCutShort) {
+  const Network whole = load_network(GetParam(), model_folders());
+  for (const std::size_t parts : {2, 3, 50, 1000}) {
+    Network cut{whole.description, whole.weights};
+    cut.weights.resize(whole.weights.size() / parts);
+    EXPECT_THROW(Detector{cut}, DetectorError) << "cut to 1 / " << parts;
+  }
+}
+
+TEST_P(TrainedNetwork, SurvivesUniformAndTinyPictures) {
+  Detector detector(load_network(GetParam(), model_folders()));
+  for (const auto& size : {cv::Size(1, 1), cv::Size(7, 3), cv::Size(641, 1), cv::Size(333, 777)})
+    for (const double value : {0.0, 255.0})
+      for (const Detection& d : detector.detect(
+               {cv::Mat(size, CV_8UC3, cv::Scalar::all(value)), image::ChannelOrder::kRgb, nullptr}))
+        EXPECT_EQ(d.box, d.box.clipped(size.width, size.height));
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, TrainedNetwork,
                          ::testing::Values("mobilenetv2_ssdlite_voc", "nanodet_g", "nanodet_m_320",
                                            "yolox_nano"),

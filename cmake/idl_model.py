@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the IDL this project writes: one struct per file, the constants of `module <Struct>_Constants`, no keys,
+unions, enums or typedefs; and computes the hash ROS 2 gives a type (REP-2011, RIHS01)."""
+
+import dataclasses
+import hashlib
+import json
+import pathlib
+import re
+
+# IDL name: (name in a .msg file, type id of type_description_interfaces/FieldType, bytes on the wire)
+PRIMITIVES = {
+    "int8": ("int8", 2, 1), "uint8": ("uint8", 3, 1), "int16": ("int16", 4, 2), "uint16": ("uint16", 5, 2),
+    "int32": ("int32", 6, 4), "uint32": ("uint32", 7, 4), "int64": ("int64", 8, 8), "uint64": ("uint64", 9, 8),
+    "float": ("float32", 10, 4), "double": ("float64", 11, 8), "boolean": ("bool", 15, 1), "char": ("char", 13, 1), "octet": ("byte", 16, 1),
+}
+STRING, BOUNDED_STRING, NESTED = 17, 21, 1
+ARRAY_OFFSET, UNBOUNDED_SEQUENCE_OFFSET = 48, 144
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    name: str
+    type: str  # key of PRIMITIVES, "string", or the ROS name of a struct ("std_msgs/msg/Header")
+    array: int = 0  # > 0: fixed-size array
+    sequence: bool = False
+    string_bound: int = 0  # > 0: string<bound>
+
+    @property
+    def nested(self):
+        return "/" in self.type
+
+
+@dataclasses.dataclass(frozen=True)
+class Struct:
+    package: str
+    name: str
+    fields: tuple
+    constants: tuple  # (IDL type, name, value)
+
+    @property
+    def ros_name(self):
+        return f"{self.package}/msg/{self.name}"
+
+    @property
+    def dds_name(self):
+        return f"{self.package}::msg::dds_::{self.name}_"
+
+    @property
+    def cpp_name(self):
+        return f"{self.package}::msg::{self.name}"
+
+    @property
+    def header(self):
+        return f"{self.ros_name}.h"
+
+
+_IDL_FILE = re.compile(
+    r"module (?P<package>\w+) \{ module msg \{ "
+    r"(?:module (?P<owner>\w+)_Constants \{ (?P<constants>(?:const [^;]+; )*)\}; )?"
+    r"struct (?P<name>\w+) \{ (?P<fields>(?:[^;{}]+; )+)\}; \}; \};")
+_FIELD = re.compile(r"(?:sequence<(?P<element>[\w:]+)>|string<(?P<bound>\d+)>|(?P<plain>[\w:]+))"
+                    r" (?P<name>[a-z]\w*)(?:\[(?P<array>\d+)\])?")
+_CONSTANT = re.compile(r"const (\w+) ([A-Z][A-Z0-9_]*) = (-?\d+)")
+
+
+def _type_name(idl_name, path):
+    if idl_name in PRIMITIVES or idl_name == "string":
+        return idl_name
+    if re.fullmatch(r"\w+::msg::\w+", idl_name):
+        return idl_name.replace("::", "/")
+    raise ValueError(f"{path}: '{idl_name}' is not a primitive of the restricted IDL and not pkg::msg::Name")
+
+
+def _parse_field(text, path):
+    match = _FIELD.fullmatch(text)
+    if not match:
+        raise ValueError(f"{path}: cannot read the member '{text}'")
+    element = match["element"] or ("string" if match["bound"] else match["plain"])
+    return Field(match["name"], _type_name(element, path), int(match["array"] or 0), bool(match["element"]),
+                 int(match["bound"] or 0))
+
+
+def parse_idl(path):
+    """The struct in an IDL file. Raises ValueError naming the file for anything outside the restricted IDL."""
+    text = re.sub(r"//[^\n]*|^\s*#[^\n]*", "", pathlib.Path(path).read_text(encoding="utf-8"), flags=re.M)
+    match = _IDL_FILE.fullmatch(" ".join(text.split()))
+    if not match:
+        raise ValueError(f"{path}: expected 'module <package> {{ module msg {{ [constants] struct <Name> {{ … }}; }}; }};'")
+    if match["owner"] not in (None, match["name"]) or match["name"] != pathlib.Path(path).stem:
+        raise ValueError(f"{path}: file, struct and constants module must have one name")
+    fields = tuple(_parse_field(f.strip(), path) for f in match["fields"].split(";") if f.strip())
+    return Struct(match["package"], match["name"], fields, tuple(_CONSTANT.findall(match["constants"] or "")))
+
+
+def load(roots):
+    """All structs below the folders: {ROS name: Struct}, every struct after those it contains."""
+    parsed = {}
+    for root in roots:
+        for path in sorted(pathlib.Path(root).glob("*/*.idl")):
+            struct = parse_idl(path)
+            parsed[struct.ros_name] = struct
+    ordered = {}
+
+    def add(name, user):
+        if name not in parsed:
+            raise ValueError(f"{user} contains {name}, which no IDL file defines")
+        for field in parsed[name].fields:
+            if field.nested and field.type not in ordered:
+                add(field.type, name)
+        ordered[name] = parsed[name]
+
+    for name in parsed:
+        add(name, name)
+    return ordered
+
+
+def _field_description(field):
+    if field.nested:
+        type_id = NESTED
+    elif field.type == "string":
+        type_id = BOUNDED_STRING if field.string_bound else STRING
+    else:
+        type_id = PRIMITIVES[field.type][1]
+    type_id += ARRAY_OFFSET if field.array else UNBOUNDED_SEQUENCE_OFFSET if field.sequence else 0
+    return {"name": field.name, "type": {"type_id": type_id, "capacity": field.array, "string_capacity": field.string_bound,
+                                         "nested_type_name": field.type if field.nested else ""}}
+
+
+def _description(struct):
+    return {"type_name": struct.ros_name, "fields": [_field_description(f) for f in struct.fields]}
+
+
+def _referenced(struct, structs):
+    names = set()
+    for field in struct.fields:
+        if field.nested:
+            names |= {field.type} | _referenced(structs[field.type], structs)
+    return names
+
+
+def type_hash(struct, structs):
+    """RIHS01_<sha256 of the type description as JSON>; constants and defaults do not count."""
+    description = {"type_description": _description(struct),
+                   "referenced_type_descriptions": [_description(structs[n]) for n in sorted(_referenced(struct, structs))]}
+    return "RIHS01_" + hashlib.sha256(json.dumps(description, ensure_ascii=True).encode()).hexdigest()
+
+
+def msg_lines(struct):
+    """The struct as the lines of its .msg file, without comments and blank lines."""
+    def ros_type(field):
+        base = PRIMITIVES[field.type][0] if field.type in PRIMITIVES else field.type.replace("/msg/", "/")
+        bound = f"<={field.string_bound}" if field.string_bound else ""
+        return base + bound + (f"[{field.array}]" if field.array else "[]" if field.sequence else "")
+    return ([f"{PRIMITIVES[t][0]} {name}={value}" for t, name, value in struct.constants] +
+            [f"{ros_type(f)} {f.name}" for f in struct.fields])

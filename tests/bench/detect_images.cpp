@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/image/tum_dataset.hpp"
 #include "services/detector/models/model_store.hpp"
-#include "tests/bench/recording.hpp"
 
 namespace {
 
@@ -55,12 +55,13 @@ void detect_in_images(Detector& detector, const Options& options, std::ostream& 
 }
 
 void detect_in_dataset(Detector& detector, const Options& options, std::ostream& out) {
-  const auto frames = rds::bench::list_frames(options.dataset);
-  const float scale = rds::bench::metres_per_unit(options.dataset);
-  for (std::size_t i = 0; i < frames.size(); i += options.every) {
-    const auto depth = rds::bench::load_depth(frames[i], scale);
-    const auto found = detector.detect(load_color(frames[i].color.string()), depth);
-    out << ordered_json{{"stamp", ordered_json::parse(frames[i].stamp)}, {"detections", to_json(found)}}
+  const auto dataset = rds::image::TumDataset::open(options.dataset);
+  if (!dataset) throw std::runtime_error(dataset.error());
+  for (std::size_t i = 0; i < dataset->frames().size(); i += options.every) {
+    const auto frame = dataset->load(dataset->frames()[i]);
+    if (!frame) throw std::runtime_error(frame.error());
+    out << ordered_json{{"stamp", ordered_json::parse(dataset->frames()[i].stamp_text)},
+                        {"detections", to_json(detector.detect(frame->color, frame->depth))}}
         << '\n';
   }
 }

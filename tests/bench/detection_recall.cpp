@@ -10,10 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "common/image/tum_dataset.hpp"
 #include "services/detector/models/model_store.hpp"
-#include "tests/bench/recording.hpp"
 
 namespace {
 
@@ -93,41 +92,46 @@ void print(const std::string& network, const std::string& dataset, const Figures
       quantile(f.depth_errors_m, 0.5), quantile(f.depth_errors_m, 0.9), f.without_depth);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+struct Options {
   std::string network;
   std::string dataset;
   std::string model_dir;
   std::size_t every = 5;
-  rds::detector::DetectorConfig config;
+  rds::detector::DetectorConfig detector;
+};
+
+void run(const Options& options) {
+  const auto people_at = read_people(options.dataset);
+  const auto dataset = rds::image::TumDataset::open(options.dataset);
+  if (!dataset) throw std::runtime_error(dataset.error());
+  const auto folders = rds::detector::model_folders(options.model_dir);
+  rds::detector::Detector detector(rds::detector::load_network(options.network, folders), options.detector);
+  Figures figures;
+  for (std::size_t i = 0; i < dataset->frames().size(); i += options.every) {
+    const auto people = people_at.find(dataset->frames()[i].stamp_text);
+    if (people == people_at.end()) continue;
+    const auto frame = dataset->load(dataset->frames()[i]);
+    if (!frame) throw std::runtime_error(frame.error());
+    score_frame(people->second, detector.detect(frame->color, frame->depth), figures);
+  }
+  print(detector.network().name, options.dataset, figures);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
   CLI::App app("Recall of a network on a recording with people.json");
-  app.add_option("network", network, "name of a network, or a YAML file that describes one")->required();
-  app.add_option("dataset", dataset, "TUM folder with people.json")->required();
-  app.add_option("--every", every, "only every n-th frame")->check(CLI::PositiveNumber);
-  app.add_option("--model-dir", model_dir, "folder that is searched for networks first");
-  app.add_option("--score", config.score_threshold, "lowest score; 0: the network's own")
+  app.add_option("network", options.network, "name of a network, or a YAML file that describes one")
+      ->required();
+  app.add_option("dataset", options.dataset, "TUM folder with people.json")->required();
+  app.add_option("--every", options.every, "only every n-th frame")->check(CLI::PositiveNumber);
+  app.add_option("--model-dir", options.model_dir, "folder that is searched for networks first");
+  app.add_option("--score", options.detector.score_threshold, "lowest score; 0: the network's own")
       ->check(CLI::Range(0., 1.));
-  app.add_option("--central-part", config.depth.central_part);
-  app.add_option("--object-extent", config.depth.object_extent_m);
-  app.add_option("--nearer-surface", config.depth.nearer_surface);
   CLI11_PARSE(app, argc, argv);
   try {
-    const auto people_at = read_people(dataset);
-    const auto frames = rds::bench::list_frames(dataset);
-    const float scale = rds::bench::metres_per_unit(dataset);
-    rds::detector::Detector detector(
-        rds::detector::load_network(network, rds::detector::model_folders(model_dir)), config);
-    Figures figures;
-    for (std::size_t i = 0; i < frames.size(); i += every) {
-      const rds::image::ColorImage color{cv::imread(frames[i].color.string()), rds::image::ChannelOrder::kBgr,
-                                         nullptr};
-      const auto people = people_at.find(frames[i].stamp);
-      if (people != people_at.end())
-        score_frame(people->second, detector.detect(color, rds::bench::load_depth(frames[i], scale)),
-                    figures);
-    }
-    print(detector.network().name, dataset, figures);
+    run(options);
   } catch (const std::exception& e) {
     std::cerr << e.what() << '\n';
     return 2;

@@ -27,7 +27,7 @@ DetectorConfig everything_the_network_says() {
 class TrainedNetwork : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (!test::photo_folder()) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
+    RDS_REQUIRE_SHARED(test::kPhotos);
     if (!test::network_is_there(GetParam()))
       GTEST_SKIP() << "the file of network " << GetParam() << " is missing";
   }
@@ -107,9 +107,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, TrainedNetwork,
 class PapersNetwork : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PapersNetwork, ReproducesAnIndependentDecoder) {
-  const auto folder = test::photo_folder();
-  if (!folder) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
-  std::ifstream file(*folder / "expected_ssdlite.json");
+  RDS_REQUIRE_SHARED(test::kPhotos);
+  std::ifstream file(rds::test::shared() / test::kPhotos / "expected_ssdlite.json");
   const auto expected = nlohmann::json::parse(file).at(GetParam());
   Detector detector(load_network("mobilenetv2_ssdlite_voc", model_folders()), everything_the_network_says());
   const auto found = detector.detect(test::load_photo(GetParam()));
@@ -130,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Photos, PapersNetwork,
                          [](const auto& p) { return "photo" + std::to_string(p.index); });
 
 TEST(TrainedNetworks, OneObjectWithTwoLabelsIsReportedOnceByDefault) {
-  if (!test::photo_folder()) GTEST_SKIP() << "RDS_SHARED does not lead to models/photos";
+  RDS_REQUIRE_SHARED(test::kPhotos);
   Detector detector(load_network("mobilenetv2_ssdlite_voc", model_folders()));
   const auto found = detector.detect(test::load_photo("dog.jpg"));
   EXPECT_THAT(found, Contains(Field(&Detection::label, "dog")));

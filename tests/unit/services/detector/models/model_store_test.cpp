@@ -2,11 +2,11 @@
 #include "services/detector/models/model_store.hpp"
 
 #include <cstdlib>
-#include <fstream>
 
 #include <gmock/gmock.h>
 
 #include "services/detector/models/file_digest.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace rds::detector {
 namespace {
@@ -22,13 +22,8 @@ using ::testing::IsEmpty;
 /// An empty folder of its own for each test, and environment variables that are put back.
 class ModelStore : public ::testing::Test {
  protected:
-  ModelStore() : folder_(fs::temp_directory_path() / fs::path("rds_model_store_XXXXXX")) {
-    std::string pattern = folder_.string();
-    folder_ = mkdtemp(pattern.data());
-  }
   ~ModelStore() override {
     for (const auto& [name, value] : before_) value ? setenv(name, value->c_str(), 1) : unsetenv(name);
-    fs::remove_all(folder_);
   }
   void set(const char* name, const char* value) {
     const char* old = std::getenv(name);
@@ -36,10 +31,11 @@ class ModelStore : public ::testing::Test {
     value == nullptr ? unsetenv(name) : setenv(name, value, 1);
   }
   void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name) << content;
+    rds::test::write_text(temporary_ / name, content);
   }
 
-  fs::path folder_;
+  rds::test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 
  private:
   std::vector<std::pair<const char*, std::optional<std::string>>> before_;

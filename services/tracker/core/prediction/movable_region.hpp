@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/geometry/box.hpp"
+
+namespace rds::tracker {
+
+/// A part of the picture where something that can move is expected: features inside the box whose depth lies
+/// in the interval, or that have no depth, are not to be trusted.
+struct MovableRegion {
+  geometry::Box2 box_px;  // in the picture as the camera gives it (with distortion)
+  float min_depth_m = 0;
+  float max_depth_m = 0;
+};
+
+}  // namespace rds::tracker

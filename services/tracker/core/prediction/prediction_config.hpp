@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/config/config_reader.hpp"
+
+namespace rds::tracker::prediction {
+
+/// The paper's Algorithm 1.
+struct PlaneSortConfig {
+  double min_iou = 0.3;              // SORT's, in each coordinate plane
+  double max_age_s = 1.0;            // a track without a match is forgotten
+  double units_per_metre = 200;      // scale of the planes: SORT's noise is published in pixels
+  double frame_period_s = 1.0 / 30;  // ... per frame of its videos
+};
+
+/// One constant-velocity filter per object in 3-D.
+struct Kalman3dConfig {
+  double acceleration = 2.0;      // [m/s²/√Hz], process noise: people start, stop and turn
+  double lateral_noise_m = 0.05;  // of a detected centre, across the viewing direction
+  double depth_noise_m = 0.12;    // along it
+  double initial_speed = 0.7;     // [m/s], standard deviation before motion has been seen
+  double size_noise_m = 0.06;     // of a detected width or height
+  double size_drift = 0.25;       // [m/√s], how fast sizes wander (people turn, arms move)
+  double max_distance_m = 0.9;    // an observation further from the prediction starts a new object
+  double max_age_s = 1.0;         // an object not seen for longer is forgotten
+  double growth_sigma = 0.25;     // standard deviations of the centre that the box grows per side
+  double max_growth_m = 0.3;      // ... at most
+};
+
+/// From the predicted box to the features that are dropped.
+struct RegionConfig {
+  double margin_px = 4;         // added to each side of the region's box
+  double margin_depth_m = 0.1;  // added to each end of the depth interval
+};
+
+struct PredictionConfig {
+  std::string algorithm = "kalman3d";  // or "paper"
+  std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
+  double min_score = 0.0;          // detections with less are ignored
+  double duplicate_overlap = 0.7;  // share of the smaller box: two boxes of one object
+  PlaneSortConfig paper;
+  Kalman3dConfig kalman3d;
+  RegionConfig region;
+};
+
+void read(config::ConfigReader& reader, PredictionConfig& config);
+
+bool is_movable(const PredictionConfig& config, std::string_view label);
+
+}  // namespace rds::tracker::prediction

@@ -3,7 +3,6 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_package(fastcdr REQUIRED)
 find_program(FASTDDSGEN fastddsgen REQUIRED)
-set(RDS_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 # rds_idl_library(NAME ROOTS dirs...)
 # Generates <build>/<package>/msg/<Name>.h and .cxx for every <root>/<package>/<Name>.idl and builds them as one static
@@ -34,9 +33,9 @@ function(rds_idl_library name)
   foreach(package IN LISTS packages)
     add_custom_command(
       OUTPUT ${generated_${package}}
-      COMMAND Python3::Interpreter -B ${RDS_CMAKE_DIR}/idl_fastddsgen.py --fastddsgen ${FASTDDSGEN} ${root_arguments}
+      COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_fastddsgen.py --fastddsgen ${FASTDDSGEN} ${root_arguments}
               --scratch ${CMAKE_CURRENT_BINARY_DIR}/scratch/${package} --out ${out} ${idl_${package}}
-      DEPENDS ${files} ${RDS_CMAKE_DIR}/idl_fastddsgen.py
+      DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_fastddsgen.py
       COMMENT "fastddsgen ${package}" VERBATIM)
     list(APPEND sources ${generated_${package}})
   endforeach()
@@ -49,4 +48,30 @@ function(rds_idl_library name)
   target_link_libraries(${name} PUBLIC fastcdr)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20 CXX_CLANG_TIDY "" EXPORT_COMPILE_COMMANDS OFF)
   set(${name}_IDL_FILES ${files} PARENT_SCOPE)
+endfunction()
+
+# rds_message_support(OUT_VAR OUT dir ROOTS dirs... FILES idl files...)
+# Generates the per-package sources of cmake/idl_support.py below dir; OUT_VAR lists those to compile.
+function(rds_message_support out_var)
+  cmake_parse_arguments(A "" "OUT" "ROOTS;FILES" ${ARGN})
+  set(root_arguments)
+  foreach(root IN LISTS A_ROOTS)
+    list(APPEND root_arguments --root ${root})
+  endforeach()
+  set(sources ${A_OUT}/message_registry.cpp)
+  set(headers)
+  foreach(file IN LISTS A_FILES)
+    cmake_path(GET file PARENT_PATH folder)
+    cmake_path(GET folder FILENAME package)
+    list(APPEND sources ${A_OUT}/${package}/message_support.cpp)
+    list(APPEND headers ${A_OUT}/${package}/message_fields.hpp)
+  endforeach()
+  list(REMOVE_DUPLICATES sources)
+  list(REMOVE_DUPLICATES headers)
+  add_custom_command(
+    OUTPUT ${sources} ${headers}
+    COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_support.py ${root_arguments} --out ${A_OUT}
+    DEPENDS ${A_FILES} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_support.py ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_model.py
+    COMMENT "message support" VERBATIM)
+  set(${out_var} ${sources} ${headers} PARENT_SCOPE)
 endfunction()

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <tl/expected.hpp>
+
+namespace rds::messages {
+
+/// Keeps the members in wire order.
+using Json = nlohmann::ordered_json;
+
+/// The message as an object with its members in wire order. A float that is NaN or infinite becomes null.
+/// Instantiated for every IDL type.
+template <class Message>
+Json to_json(const Message& message);
+
+/// Sets the members of `message` that the object names; null sets a float to NaN.
+///
+/// @return what is wrong, with the path of the member, e.g. "header.stamp.sec: 5000000000 is out of range";
+/// members
+///         before it are already set.
+template <class Message>
+tl::expected<void, std::string> from_json(const Json& json, Message& message);
+
+}  // namespace rds::messages

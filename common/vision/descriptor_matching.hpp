@@ -19,6 +19,8 @@ struct DescriptorMatch {
 struct DescriptorMatchConfig {
   int max_distance = 60;   // bits of 256
   double max_ratio = 0.8;  // best to second best distance, Lowe 2004
+
+  bool operator==(const DescriptorMatchConfig&) const = default;
 };
 
 /// Number of differing bits of two 32-byte descriptors.

@@ -77,7 +77,8 @@ void PlaceIndex::add(std::uint64_t id, const cv::Mat& descriptors) {
   slot_of_id_[id] = slot;
   Keyframe& keyframe = keyframes_[slot];
   keyframe.id = id;
-  keyframe.words.reserve(static_cast<std::size_t>(descriptors.rows * config_.tables));
+  keyframe.words.reserve(static_cast<std::size_t>(descriptors.rows) *
+                         static_cast<std::size_t>(config_.tables));
   for (int row = 0; row < descriptors.rows; ++row) {
     const auto* descriptor = descriptors.ptr<std::uint8_t>(row);
     for (int table = 0; table < config_.tables; ++table) {

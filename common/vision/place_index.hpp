@@ -13,6 +13,8 @@ namespace rds::vision {
 struct PlaceIndexConfig {
   int tables = 6;              // hash tables, 1 … 12
   int max_signature_bits = 9;  // a posting counts if at most so many of 64 further bits differ, 0 … 64
+
+  bool operator==(const PlaceIndexConfig&) const = default;
 };
 
 /// A keyframe that looks like the query.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/core/keyframe_graph.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rds::loop_closer {
+namespace {
+
+using geometry::Pose;
+
+constexpr std::size_t kRecent =
+    10;  // newest keyframes whose poses follow the tracker between two corrections
+
+}  // namespace
+
+std::optional<std::size_t> KeyframeGraph::find(std::uint64_t id) const {
+  const auto found = index_of_id_.find(id);
+  return found == index_of_id_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> covisible) {
+  const std::size_t newest = keyframes_.size();
+  index_of_id_[pose.id] = newest;
+  const Pose from_previous =
+      newest == 0 ? Pose::Identity() : keyframes_.back().map_from_camera.inverse() * pose.map_from_camera;
+  corrected_.push_back(newest == 0 ? pose.map_from_camera : corrected_.back() * from_previous);
+  keyframes_.push_back(pose);
+  Snapshot snapshot{{newest, pose.map_from_camera}};
+  for (const Covisible& other : covisible)
+    if (const auto index = find(other.id)) snapshot[*index] = other.map_from_camera;
+  snapshot[newest] = pose.map_from_camera;
+  add_edges(newest, covisible);
+  take(snapshot);
+}
+
+void KeyframeGraph::add_edges(std::size_t newest, std::span<const Covisible> covisible) {
+  if (newest == 0) return;
+  const Pose& pose = keyframes_[newest].map_from_camera;
+  const Pose& previous = keyframes_[newest - 1].map_from_camera;
+  edges_.push_back({newest - 1, newest, previous.inverse() * pose, EdgeKind::kOdometry});
+  int added = 0;
+  for (const Covisible& other : covisible) {
+    const auto index = find(other.id);
+    if (!index || *index + 1 >= newest || static_cast<int>(other.weight) < config_.min_covisible_weight)
+      continue;
+    if (added++ == config_.max_covisible_edges) break;
+    edges_.push_back({*index, newest, other.map_from_camera.inverse() * pose, EdgeKind::kCovisible});
+  }
+}
+
+void KeyframeGraph::refresh(std::span<const KeyframePose> snapshot) {
+  Snapshot known;
+  for (const KeyframePose& pose : snapshot)
+    if (const auto index = find(pose.id)) known[*index] = pose.map_from_camera;
+  take(known);
+}
+
+void KeyframeGraph::take(const Snapshot& snapshot) {
+  for (PoseGraphEdge& edge : edges_) {
+    if (edge.kind == EdgeKind::kLoop) continue;
+    const auto from = snapshot.find(edge.from);
+    const auto to = snapshot.find(edge.to);
+    if (from != snapshot.end() && to != snapshot.end())
+      edge.from_from_to = from->second.inverse() * to->second;
+  }
+  const std::size_t first_recent = keyframes_.size() > kRecent ? keyframes_.size() - kRecent : 0;
+  const auto anchor = snapshot.lower_bound(first_recent);
+  for (const auto& [index, pose] : snapshot) {
+    keyframes_[index].map_from_camera = pose;
+    if (!is_corrected_)
+      corrected_[index] = pose;
+    else if (anchor != snapshot.end() && index > anchor->first)
+      corrected_[index] = corrected_[anchor->first] * anchor->second.inverse() * pose;
+  }
+}
+
+bool KeyframeGraph::close(std::span<const PoseGraphEdge> loops) {
+  std::vector<Pose> optimized = corrected_;
+  std::vector<PoseGraphEdge> edges = edges_;
+  edges.insert(edges.end(), loops.begin(), loops.end());
+  if (!optimize_pose_graph(optimized, edges, config_)) return false;
+  const bool satisfied = std::all_of(loops.begin(), loops.end(), [&](const PoseGraphEdge& loop) {
+    const EdgeResidual residual = residual_of(loop, optimized);
+    return residual.translation_m <= config_.max_loop_residual_m &&
+           residual.rotation_rad <= config_.max_loop_residual_rad;
+  });
+  if (!satisfied) return false;
+  corrected_ = std::move(optimized);
+  edges_ = std::move(edges);
+  is_corrected_ = true;
+  return true;
+}
+
+std::vector<KeyframePose> KeyframeGraph::poses() const {
+  std::vector<KeyframePose> poses = keyframes_;
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].map_from_camera = corrected_[i];
+  return poses;
+}
+
+double KeyframeGraph::path_length(std::size_t from, std::size_t to) const {
+  double length = 0;
+  for (std::size_t i = std::min(from, to); i < std::max(from, to); ++i)
+    length += (corrected_[i + 1].translation() - corrected_[i].translation()).norm();
+  return length;
+}
+
+}  // namespace rds::loop_closer

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/core/loop_closer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rds::loop_closer {
+namespace {
+
+using geometry::Pose;
+
+constexpr std::size_t kMaxFeatures = 100'000;  // of a message that can be meant
+constexpr float kMinDepth = 0.1F;
+constexpr double kMaxPosition = 1e6;  // [m]
+
+bool is_rigid(const Pose& pose) {
+  return geometry::is_finite(pose) && pose.translation().norm() < kMaxPosition &&
+         (pose.linear() * pose.linear().transpose()).isIdentity(1e-3) && pose.linear().determinant() > 0;
+}
+
+/// The features that are static and have a depth, at most `max_features`.
+KeyframeView view_of(const KeyframeFeatures& features, int max_features, double max_depth_m) {
+  KeyframeView view;
+  view.descriptors.reserve(static_cast<std::size_t>(std::min<int>(max_features, features.descriptors.rows)));
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    if (static_cast<int>(view.points.size()) == max_features) break;
+    const Eigen::Vector3f& point = features.points[i];
+    if (!features.movable.empty() && features.movable[i] != 0) continue;
+    if (!point.allFinite() || point.z() < kMinDepth || static_cast<double>(point.z()) > max_depth_m) continue;
+    if (point.head<2>().norm() > 5 * point.z()) continue;  // no camera of ours sees so far aside
+    view.points.push_back(point.cast<double>());
+    view.descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
+  }
+  return view;
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopCloserConfig& config)
+    : config_(config), index_(config.place_index), graph_(config.pose_graph), history_(config.consistency) {}
+
+void LoopCloser::reset() {
+  *this = LoopCloser(config_);
+}
+
+std::string LoopCloser::why_impossible(const KeyframeFeatures& f) const {
+  const auto rows = static_cast<std::size_t>(f.descriptors.rows);
+  if (rows > kMaxFeatures) return "more than 100000 features";
+  if (!f.descriptors.empty() && (f.descriptors.type() != CV_8UC1 || f.descriptors.cols != 32))
+    return "descriptors are not N×32 bytes";
+  if (f.points.size() != rows) return "points and descriptors differ in number";
+  if (!f.movable.empty() && f.movable.size() != rows) return "movable flags and descriptors differ in number";
+  const auto rigid = [](const Covisible& c) { return is_rigid(c.map_from_camera); };
+  if (!is_rigid(f.map_from_camera) || !std::all_of(f.covisible.begin(), f.covisible.end(), rigid))
+    return "a pose is not a finite rigid transform";
+  if (map_epoch_ == f.map_epoch && graph_.size() > 0 && f.id <= graph_.id(graph_.size() - 1))
+    return "keyframe id does not count up";
+  return {};
+}
+
+LoopAnswer LoopCloser::add(const KeyframeFeatures& features) {
+  LoopAnswer answer;
+  answer.map_epoch = features.map_epoch;
+  answer.keyframe_id = features.id;
+  answer.refused = why_impossible(features);
+  if (answer.refused.empty()) {
+    if (map_epoch_ && map_epoch_ != features.map_epoch) reset();
+    map_epoch_ = features.map_epoch;
+    const std::size_t query = graph_.size();
+    graph_.add({features.id, features.stamp_ns, features.map_from_camera}, features.covisible);
+    views_.push_back(view_of(features, config_.max_features, config_.verification.max_depth_m));
+    if (close_loop(query, features)) {
+      ++revision_;
+      answer.poses = graph_.poses();
+    }
+    index_.add(features.id, views_[query].descriptors);
+  }
+  answer.revision = revision_;
+  answer.loops_closed = static_cast<std::uint32_t>(revision_);
+  return answer;
+}
+
+void LoopCloser::update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local) {
+  const auto rigid = [](const KeyframePose& pose) { return is_rigid(pose.map_from_camera); };
+  if (map_epoch_ != map_epoch || !std::all_of(local.begin(), local.end(), rigid)) return;
+  graph_.refresh(local);
+}
+
+std::vector<std::size_t> LoopCloser::candidates_for(std::size_t query,
+                                                    const KeyframeFeatures& features) const {
+  const auto& config = config_.candidates;
+  std::vector<std::size_t> chosen;
+  for (const auto& found : index_.query(views_[query].descriptors, graph_.size())) {
+    if (found.score < config.min_score || static_cast<int>(chosen.size()) == config.max_candidates) break;
+    const auto candidate = graph_.find(found.id);
+    if (!candidate || *candidate + static_cast<std::size_t>(config.min_gap_keyframes) > query) continue;
+    const auto is_found = [&](const Covisible& other) { return other.id == found.id; };
+    if (std::any_of(features.covisible.begin(), features.covisible.end(), is_found)) continue;
+    const auto is_near = [&](std::size_t other) {
+      return std::max(other, *candidate) - std::min(other, *candidate) <
+             static_cast<std::size_t>(config.min_separation_keyframes);
+    };
+    if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(*candidate);
+  }
+  return chosen;
+}
+
+std::optional<LoopDetection> LoopCloser::detect(std::size_t query, std::size_t candidate) const {
+  const auto verified = verify_loop(views_[query], views_[candidate], config_.matching, config_.verification);
+  if (!verified) return std::nullopt;
+  const Pose& estimated = graph_.map_from_camera(query);
+  const Pose measured = graph_.map_from_camera(candidate) * verified->candidate_from_query;
+  return LoopDetection{query, candidate, verified->candidate_from_query, measured * estimated.inverse(),
+                       estimated.translation()};
+}
+
+/// Large enough to be worth a correction, and not larger than drift can be.
+bool LoopCloser::is_believable(const LoopDetection& detection) const {
+  const auto& config = config_.consistency;
+  const double moved_m = (detection.correction * detection.query_in_map - detection.query_in_map).norm();
+  const double turned_rad = geometry::rotation_angle_rad(detection.correction.linear());
+  if (moved_m < config.min_correction_m && turned_rad < config.min_correction_rad) return false;
+  const double path_m = graph_.path_length(detection.candidate, detection.query);
+  return moved_m <= config.max_drift_floor_m + config.max_drift_share * path_m &&
+         turned_rad <= config.max_drift_rad;
+}
+
+bool LoopCloser::close_loop(std::size_t query, const KeyframeFeatures& features) {
+  for (const std::size_t candidate : candidates_for(query, features)) {
+    const auto detection = detect(query, candidate);
+    if (!detection || !is_believable(*detection)) continue;
+    std::vector<PoseGraphEdge> loops;
+    for (const LoopDetection& agreeing : history_.add(*detection))
+      loops.push_back({agreeing.candidate, agreeing.query, agreeing.candidate_from_query, EdgeKind::kLoop});
+    if (loops.empty() || !graph_.close(loops)) continue;
+    history_.clear();
+    return true;
+  }
+  return false;
+}
+
+}  // namespace rds::loop_closer

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/vision/place_index.hpp"
+#include "services/loop_closer/core/keyframe_graph.hpp"
+#include "services/loop_closer/core/loop_closer_config.hpp"
+#include "services/loop_closer/core/loop_history.hpp"
+#include "services/loop_closer/core/loop_types.hpp"
+#include "services/loop_closer/core/loop_verification.hpp"
+
+namespace rds::loop_closer {
+
+/// Notices that the camera is back at a place it has seen, and corrects the poses of all keyframes.
+///
+/// Place recognition (earlier keyframes that look alike, not covisible) → geometric verification → several
+/// keyframes in a row that ask for the same correction → pose-graph optimisation. Precision comes first: a
+/// missed loop costs drift, a wrong one the map. A loop whose error is below the configured minimum counts as
+/// closed already and changes nothing. Features on movable objects and features without depth are ignored.
+///
+/// A pure function of the calls: same calls, same answers. About 140 kB per keyframe of 1000 features.
+/// Source: Mur-Artal & Tardós 2017, §III-D; every count is a config value.
+class LoopCloser {
+ public:
+  explicit LoopCloser(const LoopCloserConfig& config = {});
+
+  /// Takes the next keyframe; ids count up within an epoch, and another epoch starts anew.
+  ///
+  /// A keyframe that is impossible (array lengths that differ, a pose that is not rigid, an id that is not
+  /// new) changes nothing; the answer says why.
+  LoopAnswer add(const KeyframeFeatures& features);
+
+  /// Takes the relative poses of keyframes from a snapshot of the tracker, where it knows better since their
+  /// bundle adjustment. Not needed where every keyframe's `covisible` carries poses. Another epoch is
+  /// ignored.
+  void update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local);
+
+  void reset();
+
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  [[nodiscard]] std::vector<KeyframePose> poses() const { return graph_.poses(); }
+
+ private:
+  [[nodiscard]] std::string why_impossible(const KeyframeFeatures& features) const;
+  [[nodiscard]] std::vector<std::size_t> candidates_for(std::size_t query,
+                                                        const KeyframeFeatures& features) const;
+  [[nodiscard]] std::optional<LoopDetection> detect(std::size_t query, std::size_t candidate) const;
+  [[nodiscard]] bool is_believable(const LoopDetection& detection) const;
+  bool close_loop(std::size_t query, const KeyframeFeatures& features);
+
+  LoopCloserConfig config_;
+  std::optional<std::uint64_t> map_epoch_;
+  vision::PlaceIndex index_;
+  KeyframeGraph graph_;
+  LoopHistory history_;
+  std::vector<KeyframeView> views_;  // as in graph_
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace rds::loop_closer

@@ -67,7 +67,7 @@ void score_frame(const std::vector<Person>& people, const std::vector<Detection>
     if (best->depth_m <= 0)
       ++figures.without_depth;
     else
-      figures.depth_errors_m.push_back(std::abs(static_cast<double>(best->depth_m) - person.distance_m));
+      figures.depth_errors_m.push_back(static_cast<double>(best->depth_m) - person.distance_m);
   }
   for (const Detection& d : found) {
     const auto touches = [&](const Person& p) { return iou(d.box, p.box) > kTouchesIou; };
@@ -82,14 +82,24 @@ double quantile(std::vector<double> values, double q) {
 }
 
 void print(const std::string& network, const std::string& dataset, const Figures& f) {
+  const double bias_m =
+      quantile(f.depth_errors_m, 0.5);  // `distance` is the person's middle, depth that of the surface
+  std::vector<double> errors_m;
+  std::vector<double> spread_m;
+  for (const double error : f.depth_errors_m) {
+    errors_m.push_back(std::abs(error));
+    spread_m.push_back(std::abs(error - bias_m));
+  }
+  fmt::print("{} {}: {} frames, recall {:.3f} ({} of {} visible people), false persons per frame {:.3f}, ",
+             network, dataset, f.frames,
+             static_cast<double>(f.found) / std::max(1.0, static_cast<double>(f.visible)), f.found, f.visible,
+             static_cast<double>(f.false_persons) / std::max(1.0, static_cast<double>(f.frames)));
   fmt::print(
-      "{} {}: recall {:.3f} ({} of {} visible people, {} frames), false persons per frame {:.3f}, depth "
-      "error "
-      "median {:.3f} m, 90 % {:.3f} m, without depth {}\n",
-      network, dataset, static_cast<double>(f.found) / std::max(1.0, static_cast<double>(f.visible)), f.found,
-      f.visible, f.frames,
-      static_cast<double>(f.false_persons) / std::max(1.0, static_cast<double>(f.frames)),
-      quantile(f.depth_errors_m, 0.5), quantile(f.depth_errors_m, 0.9), f.without_depth);
+      "depth error median {:.3f} m, median difference {:+.3f} m, from which 50 % / 90 % / all lie within "
+      "{:.3f} / "
+      "{:.3f} / {:.3f} m, without depth {}\n",
+      quantile(errors_m, 0.5), bias_m, quantile(spread_m, 0.5), quantile(spread_m, 0.9),
+      quantile(spread_m, 1), f.without_depth);
 }
 
 struct Options {

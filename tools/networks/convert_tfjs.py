@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Converts a TensorFlow.js graph model of a convolutional detector to ONNX.
 
-    convert_tfjs.py MODEL.json OUT.onnx
+    convert_tfjs.py MODEL.json OUT.onnx [--height PIXELS --width PIXELS]
 
 MODEL.json stands beside the weight files that it names. Written for networks that were once converted from ONNX to
 TensorFlow: every convolution stands between two transpositions (NCHW to NHWC and back), and shapes of Reshape nodes are
 computed from constants. Transpositions are carried along as a permutation instead of being written, paddings are
 folded into the convolution or pooling behind them, additions of a constant into the convolution before them.
+Such a network takes inputs of any size that its strides divide; --height and --width choose another than the model's.
 Weights become float32, whatever they are stored as. The same input gives the same bytes.
 
 Outputs are called output_0, output_1, … in the order of their TensorFlow names.
@@ -232,7 +233,7 @@ class Converter:
         shape = np.asarray(shape, np.int64)
         known = int(np.prod(shape[shape >= 0]))
         final = [int(n) if n >= 0 else int(np.prod(x.shape)) // known for n in shape]
-        name = self.constant(f"shape_{self.counts['Reshape'] + 1}", np.array(final, np.int64))
+        name = self.constant(f"shape_{self.counts['Reshape'] + 1}", shape)
         return self.emit("Reshape", [x.name, name], final, tuple(range(len(final))))
 
     def op_sparsetodense(self, node, indices, shape, values, default):
@@ -263,16 +264,24 @@ class Converter:
         result = method(node, *(self.lookup(i) for i in node.get("input", []) if not i.startswith("^")))
         (self.constants if isinstance(result, np.ndarray) else self.values)[node["name"]] = result
 
-    def finish(self, output_names):
+    def finish(self, output_names, size):
+        """The model, for inputs of `size` (height, width)."""
         for i, name in enumerate(output_names):
             value = self.lookup(name)
             for node in self.nodes:
                 node.input[:] = [f"output_{i}" if n == value.name else n for n in node.input]
                 node.output[:] = [f"output_{i}" if n == value.name else n for n in node.output]
-            self.outputs.append(helper.make_tensor_value_info(f"output_{i}", onnx.TensorProto.FLOAT, value.shape))
+            self.outputs.append(helper.make_tensor_value_info(f"output_{i}", onnx.TensorProto.FLOAT, None))
+        for dimension, pixels in zip(self.inputs[0].type.tensor_type.shape.dim[2:], size):
+            dimension.dim_value = pixels or dimension.dim_value
         graph = helper.make_graph(self.nodes, "network", self.inputs, self.outputs, list(self.initializers.values()))
         model = helper.make_model(graph, producer_name="rds-slam", ir_version=IR_VERSION,
                                   opset_imports=[helper.make_operatorsetid("", OPSET)])
+        try:
+            model = onnx.shape_inference.infer_shapes(model, strict_mode=True, data_prop=True)
+        except onnx.shape_inference.InferenceError as error:
+            raise ConversionError("expected a size of the input that the network's strides divide") from error
+        del model.graph.value_info[:]
         onnx.checker.check_model(model, full_check=True)
         return model
 
@@ -300,7 +309,7 @@ def in_topological_order(nodes):
     return order
 
 
-def convert_model(model_path):
+def convert_model(model_path, size):
     model = json.loads(model_path.read_text())
     if model.get("format") != "graph-model":
         raise ConversionError(f"{model_path}: expected a TensorFlow.js graph model")
@@ -310,16 +319,18 @@ def convert_model(model_path):
     for node in in_topological_order(nodes):
         if node["op"] != "Const":
             converter.convert(node)
-    return converter.finish(sorted(model["signature"]["outputs"]))
+    return converter.finish(sorted(model["signature"]["outputs"]), size)
 
 
 def main():
     parser = argparse.ArgumentParser(description="Converts a TensorFlow.js graph model to ONNX")
     parser.add_argument("model", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--height", type=int, help="of the input, default: the model's")
+    parser.add_argument("--width", type=int)
     arguments = parser.parse_args()
     try:
-        model = convert_model(arguments.model)
+        model = convert_model(arguments.model, (arguments.height, arguments.width))
     except (ConversionError, OSError, KeyError, ValueError) as error:
         sys.exit(f"{arguments.model}: cannot be converted: {error}")
     arguments.out.write_bytes(model.SerializeToString(deterministic=True))

@@ -63,6 +63,7 @@ Detector::Detector(const NetworkDescription& description, std::unique_ptr<Infere
 
 void Detector::check_outputs() {
   const std::array<int, 4> shape{1, 3, description_.input.height, description_.input.width};
+  const ThreadScope threads(config_.threads);
   try {
     static_cast<void>(candidates_in(cv::Mat(4, shape.data(), CV_32F, cv::Scalar(0))));
   } catch (const DetectorError& e) {
@@ -71,7 +72,6 @@ void Detector::check_outputs() {
 }
 
 std::vector<Candidate> Detector::candidates_in(const cv::Mat& input) {
-  const ThreadScope threads(config_.threads);
   return decoder_->decode(backend_->infer(input), static_cast<float>(config_.score_threshold));
 }
 
@@ -80,6 +80,7 @@ std::vector<Detection> Detector::detect(const image::ColorImage& picture) {
   if (pixels.empty() || pixels.dims != 2 || pixels.type() != CV_8UC3)
     throw DetectorError(fmt::format("picture of {} × {} pixels, type {}: expected an 8-bit colour picture",
                                     pixels.cols, pixels.rows, cv::typeToString(pixels.type())));
+  const ThreadScope threads(config_.threads);
   const InputTransform place = place_picture(description_.input, pixels.cols, pixels.rows);
   auto found = candidates_in(make_input(description_.input, place, picture));
   std::vector<Detection> detections;

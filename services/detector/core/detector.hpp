@@ -18,7 +18,10 @@ struct Network {
   std::vector<unsigned char> weights;
 };
 
-/// Finds objects in single pictures. Not thread-safe; the same picture always gives the same detections.
+/// Finds objects in single pictures. Not thread-safe.
+///
+/// The same picture and number of threads give the same detections, bit by bit; another
+/// DetectorConfig::threads changes the last digits, because OpenCV then divides its sums at other places.
 class Detector {
  public:
   /// Reads the network and computes it once on an empty picture.

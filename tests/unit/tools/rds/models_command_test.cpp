@@ -66,7 +66,7 @@ TEST_F(ModelsCommand, FetchGivesTheCacheToTheNetworksScript) {
 }
 
 TEST_F(ModelsCommand, FetchDoesNotTrustTheScript) {
-  write_script("fetch_nanodet_g.sh", "mkdir -p \"$1\"; echo wrong > \"$1/nanodet_g.onnx\"");
+  write_script("fetch_nanodet_g.sh", "mkdir -p \"$1\"; echo wrong > \"$1/nanodet_g_416x320.onnx\"");
   EXPECT_THAT(error_of([&] { fetch_models(out_, {"nanodet_g"}); }), HasSubstr("expected SHA-256"));
 }
 

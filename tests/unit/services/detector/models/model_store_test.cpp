@@ -82,19 +82,19 @@ TEST_F(ModelStore, DefaultsToThePapersNetworkWhereItIsFound) {
 
 TEST_F(ModelStore, SaysWhereAMissingFileWasLookedForAndWhatBringsIt) {
   EXPECT_THAT(error_of("nanodet_g", {folder_}),
-              AllOf(HasSubstr("nanodet_g.onnx was not found in " + folder_.string()),
+              AllOf(HasSubstr("nanodet_g_416x320.onnx was not found in " + folder_.string()),
                     HasSubstr("rds models fetch nanodet_g")));
   EXPECT_THAT(error_of("yolox_nano", {folder_}), HasSubstr("--model-dir"));
 }
 
 TEST_F(ModelStore, RefusesAnAlteredFile) {
-  write("nanodet_g.onnx", "altered");
+  write("nanodet_g_416x320.onnx", "altered");
   EXPECT_THAT(error_of("nanodet_g", {folder_}),
-              AllOf(HasSubstr((folder_ / "nanodet_g.onnx").string()), HasSubstr("expected SHA-256")));
+              AllOf(HasSubstr((folder_ / "nanodet_g_416x320.onnx").string()), HasSubstr("expected SHA-256")));
 }
 
 TEST_F(ModelStore, RefusesAnEmptyFile) {
-  write("nanodet_g.onnx", "");
+  write("nanodet_g_416x320.onnx", "");
   EXPECT_THAT(error_of("nanodet_g", {folder_}), HasSubstr("cannot be read"));
 }
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/run_score.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/geometry/trajectory.hpp"
+#include "common/image/tum_list.hpp"
+#include "tools/evaluation/box_score.hpp"
+#include "tools/evaluation/frame_times.hpp"
+#include "tools/evaluation/map_score.hpp"
+#include "tools/evaluation/statistics.hpp"
+#include "tools/evaluation/trajectory_evaluation.hpp"
+
+namespace rds::evaluation {
+namespace {
+using Figures = nlohmann::ordered_json;
+using Result = tl::expected<void, std::string>;
+
+Result add_trajectories(const RunScoreInput& input, Figures& figures) {
+  const auto frames = image::read_tum_list(input.dataset / "rgb.txt");
+  if (!frames) return tl::unexpected(frames.error());
+  const auto truth = geometry::read_trajectory(input.dataset / "groundtruth.txt");
+  if (!truth) return tl::unexpected(truth.error());
+  const auto count = static_cast<double>(frames->entries.size() + frames->repeated);
+  for (const auto& [name, file] :
+       {std::pair("live", "trajectory.txt"), std::pair("final", "trajectory_optimized.txt")}) {
+    const auto path = input.out / file;
+    if (!std::filesystem::exists(path)) continue;
+    const auto estimate = geometry::read_trajectory(path);
+    if (!estimate) return tl::unexpected(estimate.error());
+    if (name == std::string("live")) figures["tracked"] = static_cast<double>(estimate->size()) / count;
+    const auto errors = evaluate_trajectory(*truth, *estimate);
+    if (!errors)
+      return tl::unexpected(
+          fmt::format("{}: expected at least 3 poses that match groundtruth.txt in time", path.string()));
+    figures[fmt::format("ate_{}", name)] = errors->absolute_m.rmse;
+  }
+  return {};
+}
+
+Result add_times(const RunScoreInput& input, Figures& figures) {
+  const auto file = input.out / "frames.csv";
+  if (!std::filesystem::exists(file)) return {};
+  const auto columns = read_csv_columns(file, {"total_ms", "predict_ms"});
+  if (!columns) return tl::unexpected(columns.error());
+  for (const std::string stage : {"total", "predict"}) {
+    const auto found = columns->find(stage + "_ms");
+    if (found == columns->end()) continue;
+    figures["ms_" + stage + "_median"] = percentile(found->second, 50);
+    figures["ms_" + stage + "_p99"] = percentile(found->second, 99);
+  }
+  return {};
+}
+
+Result add_boxes(const RunScoreInput& input, Figures& figures) {
+  if (!std::filesystem::exists(input.out / "predictions.jsonl")) return {};
+  if (!std::filesystem::exists(input.dataset / "people.json")) return {};
+  const auto people = read_people(input.dataset / "people.json");
+  if (!people) return tl::unexpected(people.error());
+  const auto predictions = read_predictions(input.out / "predictions.jsonl");
+  if (!predictions) return tl::unexpected(predictions.error());
+  const BoxScore score = score_boxes(*people, *predictions);
+  figures["box_people"] = score.people;
+  figures["box_recall"] = score.recall;
+  figures["box_iou"] = score.mean_iou;
+  figures["box_cover"] = score.cover;
+  figures["box_waste"] = score.waste;
+  return {};
+}
+
+Result add_map(const RunScoreInput& input, Figures& figures) {
+  if (!input.background || !std::filesystem::exists(input.out / "map.ot")) return {};
+  const auto score = score_map({input.dataset, *input.background, input.out, input.every});
+  if (!score) return tl::unexpected(score.error());
+  figures["map_nodes"] = score->nodes;
+  figures["map_occupied"] = score->occupied;
+  figures["resolution"] = score->resolution_m;
+  figures["static_recall"] = score->static_recall;
+  figures["map_precision"] = score->precision;
+  if (!score->residue) return {};
+  figures["people_voxels"] = score->residue->people_voxels;
+  figures["residue"] = score->residue->residue;
+  figures["residue_map"] = score->residue->residue_map;
+  return {};
+}
+
+}  // namespace
+
+tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
+  if (!std::filesystem::is_directory(input.out))
+    return tl::unexpected(
+        fmt::format("{}: no such folder, expected what `rds run --out` wrote", input.out.string()));
+  Figures figures = Figures::object();
+  for (const auto add : {add_trajectories, add_times, add_boxes, add_map})
+    if (const auto added = add(input, figures); !added) return tl::unexpected(added.error());
+  if (figures.empty())
+    return tl::unexpected(
+        fmt::format("{}: nothing to score, expected trajectory.txt, frames.csv, predictions.jsonl or map.ot",
+                    input.out.string()));
+  return figures;
+}
+
+std::string to_text(const Figures& figures) {
+  std::string text;
+  for (const auto& [name, value] : figures.items())
+    text += value.is_number_float() ? fmt::format("{:<18} {:.4f}\n", name, value.get<double>())
+                                    : fmt::format("{:<18} {}\n", name, value.dump());
+  return text;
+}
+
+}  // namespace rds::evaluation

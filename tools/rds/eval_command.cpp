@@ -14,7 +14,7 @@
 #include "tools/evaluation/trajectory_plot.hpp"
 #include "tools/rds/exit.hpp"
 
-namespace rds::cli {
+namespace rds::tools {
 namespace {
 using evaluation::ErrorStatistics;
 using evaluation::TrajectoryErrors;
@@ -123,4 +123,4 @@ void add_eval_command(CLI::App& rds) {
   });
 }
 
-}  // namespace rds::cli
+}  // namespace rds::tools

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace rds::cli {
+namespace rds::tools {
 
 /// `rds eval GROUNDTRUTH TRAJECTORY`: ATE and RPE of a trajectory, with a plot.
 /// `rds eval DATASET OUT [--background DIR]`: the figures of a whole run.
@@ -12,4 +12,4 @@ namespace rds::cli {
 /// CLI::RuntimeError(2).
 void add_eval_command(CLI::App& rds);
 
-}  // namespace rds::cli
+}  // namespace rds::tools

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <tl/expected.hpp>
 
-namespace rds::cli {
+namespace rds::tools {
 
 inline constexpr int kExitFault = 1;     // something is not as it should be
 inline constexpr int kExitBadInput = 2;  // bad usage or unreadable input
@@ -27,4 +27,4 @@ T value_or_exit(tl::expected<T, std::string> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-}  // namespace rds::cli
+}  // namespace rds::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/keyframe_policy.hpp"
+
+#include <algorithm>
+
+namespace rds::tracker {
+namespace {
+
+constexpr double kUsualDepth = 2;    // m, that max_translation_m is meant for
+constexpr double kForgetting = 0.1;  // of the running mean
+constexpr int kMinExpected = 50;     // fewer points say nothing about a change
+
+}  // namespace
+
+bool is_keyframe(const KeyframeFacts& facts, const KeyframeConfig& config) {
+  if (facts.since_last_s < config.min_interval_s) return false;
+  const bool losing_reference = facts.inliers < config.reference_ratio * facts.reference_points;
+  const bool close_points_wanted =
+      facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;
+  const double depth_ratio = std::clamp(facts.median_depth_m / kUsualDepth, 0.25, 4.0);
+  const bool view_changed = facts.rotation_rad > config.max_rotation_rad ||
+                            facts.translation_m > config.max_translation_m * depth_ratio;
+  const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
+  // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
+  constexpr double kJitter = 0.01;
+  return losing_reference || close_points_wanted || view_changed || facts.since_last_s >= longest - kJitter;
+}
+
+bool ChangeDetector::update(int expected, int found) {
+  if (expected < kMinExpected) return false;
+  const double share = static_cast<double>(found) / expected;
+  const bool changed = mean_ > 0 && share < (1 - drop_) * mean_;
+  mean_ = mean_ > 0 ? mean_ + kForgetting * (share - mean_) : share;
+  return changed;
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/tracker/core/association.hpp"
+
+namespace rds::tracker {
+
+/// What the decision about a keyframe rests on.
+struct KeyframeFacts {
+  double since_last_s = 0;          // since the last keyframe
+  int inliers = 0;                  // map points that support the frame's pose
+  int reference_points = 0;         // well observed map points of the reference keyframe
+  int close_tracked = 0;            // of the inliers, those at close depth
+  int close_new = 0;                // close features without map point
+  double rotation_rad = 0;          // since the last keyframe
+  double translation_m = 0;         // since the last keyframe
+  double median_depth_m = 2;        // of the frame's features
+  bool movable_or_changed = false;  // movable objects are there, or the picture changes faster than the view
+};
+
+/// True if the frame should become a keyframe.
+///
+/// Often while the picture changes, because the detector looks at keyframes only; seldom in a static scene.
+/// Source: Mur-Artal & Tardós 2017, §III-E; the paper, §III-A (keyframes allocate the detector's time).
+bool is_keyframe(const KeyframeFacts& facts, const KeyframeConfig& config);
+
+/// Notices that expected map points vanish, as they do when something enters the picture.
+class ChangeDetector {
+ public:
+  explicit ChangeDetector(double drop) : drop_(drop) {}
+
+  /// @param expected, found  map points that should show in the frame, and those that did.
+  /// @return true if the share found is well below its running mean.
+  bool update(int expected, int found);
+  void reset() { mean_ = 0; }
+
+ private:
+  double drop_;
+  double mean_ = 0;  // 0: nothing known yet
+};
+
+}  // namespace rds::tracker

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/orb_extractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <opencv2/imgproc.hpp>
+
+namespace rds::tracker {
+namespace {
+
+constexpr int kPatchRadius = 15;  // of the orientation's round patch
+constexpr int kFastRadius = 3;
+constexpr int kBorder = 19;  // the steered descriptor patch reaches this far
+constexpr int kPatchSize = 31;
+constexpr float kRadPerDegree = static_cast<float>(CV_PI / 180);
+
+std::vector<int> features_per_level(const ExtractionConfig& config) {
+  const double ratio = 1 / config.scale_factor;
+  double wanted = config.features * (1 - ratio) / (1 - std::pow(ratio, config.levels));
+  std::vector<int> quota;
+  int given = 0;
+  for (int l = 0; l + 1 < config.levels; ++l, wanted *= ratio) {
+    quota.push_back(static_cast<int>(std::lround(wanted)));
+    given += quota.back();
+  }
+  quota.push_back(std::max(0, config.features - given));
+  return quota;
+}
+
+}  // namespace
+
+OrbExtractor::OrbExtractor(const ExtractionConfig& config)
+    : config_(config),
+      quota_(features_per_level(config)),
+      pyramid_(static_cast<std::size_t>(config.levels)),
+      orb_(cv::ORB::create(config.features, 1.2F, 1, kBorder - 1, 0, 2, cv::ORB::HARRIS_SCORE, kPatchSize)) {
+  for (int dy = -kPatchRadius; dy <= kPatchRadius; ++dy)
+    patch_half_width_.push_back(
+        static_cast<int>(std::sqrt(kPatchRadius * kPatchRadius - dy * dy + kPatchRadius)));
+}
+
+void OrbExtractor::build_pyramid(const cv::Mat& gray) {
+  pyramid_[0] = gray;
+  double scale = 1;
+  for (std::size_t l = 1; l < pyramid_.size(); ++l) {
+    scale *= config_.scale_factor;
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(gray.cols / scale))),
+                        std::max(1, static_cast<int>(std::lround(gray.rows / scale))));
+    cv::resize(pyramid_[l - 1], pyramid_[l], size, 0, 0, cv::INTER_LINEAR);
+  }
+}
+
+void OrbExtractor::fill_empty_cells(const cv::Mat& image, const cv::Rect& inner) {
+  const int cell = config_.cell_px;
+  const int columns = (inner.width + cell - 1) / cell;
+  const int rows = (inner.height + cell - 1) / cell;
+  corners_in_cell_.assign(static_cast<std::size_t>(columns * rows), 0);
+  for (const Corner& c : corners_)
+    ++corners_in_cell_[static_cast<std::size_t>(static_cast<int>(c.y) / cell * columns +
+                                                static_cast<int>(c.x) / cell)];
+  for (int i = 0; i < columns * rows; ++i) {
+    if (corners_in_cell_[static_cast<std::size_t>(i)] > 0) continue;
+    const cv::Rect place =
+        cv::Rect(inner.x + i % columns * cell, inner.y + i / columns * cell, cell, cell) & inner;
+    const cv::Rect seen(place.x - kFastRadius, place.y - kFastRadius, place.width + 2 * kFastRadius,
+                        place.height + 2 * kFastRadius);
+    cv::FAST(image(seen), keypoints_, config_.fast_threshold_low, true);
+    for (const cv::KeyPoint& k : keypoints_)
+      corners_.push_back({k.pt.x + static_cast<float>(seen.x - inner.x),
+                          k.pt.y + static_cast<float>(seen.y - inner.y), k.response});
+  }
+}
+
+void OrbExtractor::find_corners(const cv::Mat& image) {
+  corners_.clear();
+  const cv::Rect inner(kBorder, kBorder, image.cols - 2 * kBorder, image.rows - 2 * kBorder);
+  if (inner.width <= 0 || inner.height <= 0) return;
+  const cv::Rect seen(inner.x - kFastRadius, inner.y - kFastRadius, inner.width + 2 * kFastRadius,
+                      inner.height + 2 * kFastRadius);
+  cv::FAST(image(seen), keypoints_, config_.fast_threshold, true);
+  for (const cv::KeyPoint& k : keypoints_)
+    corners_.push_back({k.pt.x - kFastRadius, k.pt.y - kFastRadius, k.response});
+  fill_empty_cells(image, inner);
+}
+
+float OrbExtractor::orientation(const cv::Mat& image, int x, int y) const {
+  int moment_x = 0;
+  int moment_y = 0;
+  for (int dy = -kPatchRadius; dy <= kPatchRadius; ++dy) {
+    const int half = patch_half_width_[static_cast<std::size_t>(dy + kPatchRadius)];
+    const std::uint8_t* row = image.ptr<std::uint8_t>(y + dy) + x;
+    int row_sum = 0;
+    for (int dx = -half; dx <= half; ++dx) {
+      row_sum += row[dx];
+      moment_x += dx * row[dx];
+    }
+    moment_y += dy * row_sum;
+  }
+  return cv::fastAtan2(static_cast<float>(moment_y), static_cast<float>(moment_x));
+}
+
+void OrbExtractor::describe_level(int level, const std::vector<Corner>& corners,
+                                  std::vector<Feature>& features) {
+  const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
+  keypoints_.clear();
+  for (const Corner& c : corners) {
+    const float x = c.x + kBorder;
+    const float y = c.y + kBorder;
+    const float angle = orientation(image, static_cast<int>(x), static_cast<int>(y));
+    keypoints_.emplace_back(x, y, static_cast<float>(kPatchSize), angle, c.score, 0);
+  }
+  if (keypoints_.empty()) return;
+  orb_->compute(image, keypoints_, descriptors_);
+  // resize() keeps the centres of the corner pixels half a pixel inside, so levels differ by half pixels.
+  const float scale_x = static_cast<float>(pyramid_[0].cols) / static_cast<float>(image.cols);
+  const float scale_y = static_cast<float>(pyramid_[0].rows) / static_cast<float>(image.rows);
+  for (std::size_t i = 0; i < keypoints_.size(); ++i) {
+    Feature feature;
+    feature.image_px = {(keypoints_[i].pt.x + 0.5F) * scale_x - 0.5F,
+                        (keypoints_[i].pt.y + 0.5F) * scale_y - 0.5F};
+    feature.px = feature.image_px;
+    feature.angle_rad = keypoints_[i].angle * kRadPerDegree;
+    feature.level = static_cast<std::uint8_t>(level);
+    std::memcpy(feature.descriptor.data(), descriptors_.ptr(static_cast<int>(i)), feature.descriptor.size());
+    features.push_back(feature);
+  }
+}
+
+void OrbExtractor::extract(const cv::Mat& gray, std::vector<Feature>& features) {
+  features.clear();
+  build_pyramid(gray);
+  for (int l = 0; l < config_.levels; ++l) {
+    const cv::Mat& image = pyramid_[static_cast<std::size_t>(l)];
+    find_corners(image);
+    const auto chosen = spread_evenly(corners_, static_cast<float>(image.cols - 2 * kBorder),
+                                      static_cast<float>(image.rows - 2 * kBorder),
+                                      static_cast<std::size_t>(quota_[static_cast<std::size_t>(l)]));
+    describe_level(l, chosen, features);
+  }
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/slam_map.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace rds::tracker {
+namespace {
+
+auto find_observation(MapPoint& point, KeyframeId keyframe) {
+  return std::ranges::lower_bound(point.observations, keyframe, {}, &Observation::keyframe);
+}
+
+/// The descriptor whose median distance to the others is smallest.
+Descriptor most_typical(const std::vector<Descriptor>& descriptors) {
+  std::size_t best = 0;
+  int best_median = 257;
+  std::vector<int> distances(descriptors.size());
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    for (std::size_t j = 0; j < descriptors.size(); ++j)
+      distances[j] = descriptor_distance(descriptors[i], descriptors[j]);
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    if (*middle < best_median) {
+      best_median = *middle;
+      best = i;
+    }
+  }
+  return descriptors[best];
+}
+
+constexpr std::size_t kMaxTypicalOf = 12;  // newest observations that the descriptor is chosen from
+
+}  // namespace
+
+Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
+                                std::shared_ptr<const FeatureSet> features) {
+  Keyframe keyframe;
+  keyframe.id = keyframes_.next_id();
+  keyframe.stamp_ns = stamp_ns;
+  keyframe.map_from_camera = map_from_camera;
+  keyframe.points.assign(features->size(), kNoId);
+  keyframe.movable.resize(features->size());
+  for (std::size_t i = 0; i < features->size(); ++i) keyframe.movable[i] = (*features)[i].movable;
+  keyframe.features = std::move(features);
+  records_.push_back({stamp_ns, kNoId, Pose::Identity()});
+  return keyframes_.emplace(std::move(keyframe));
+}
+
+MapPoint& SlamMap::add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature) {
+  if (keyframes_.find(keyframe) == nullptr) throw std::out_of_range("SlamMap::add_point: no such keyframe");
+  MapPoint fresh;
+  fresh.id = points_.next_id();
+  fresh.position = position;
+  fresh.created_by = keyframe;
+  MapPoint& point = points_.emplace(std::move(fresh));
+  observe(point.id, keyframe, feature);
+  refresh(point);
+  return point;
+}
+
+bool SlamMap::observe(PointId point, KeyframeId keyframe, std::uint32_t feature) {
+  Keyframe* k = keyframes_.find(keyframe);
+  MapPoint* p = points_.find(point);
+  if (k == nullptr || p == nullptr || feature >= k->points.size()) return false;
+  if (k->points[feature] != kNoId || k->movable[feature]) return false;
+  const auto place = find_observation(*p, keyframe);
+  if (place != p->observations.end() && place->keyframe == keyframe) return false;
+  p->observations.insert(place, {keyframe, feature});
+  k->points[feature] = point;
+  return true;
+}
+
+void SlamMap::forget(PointId point, KeyframeId keyframe) {
+  MapPoint* p = points_.find(point);
+  if (p == nullptr) return;
+  const auto place = find_observation(*p, keyframe);
+  if (place == p->observations.end() || place->keyframe != keyframe) return;
+  if (Keyframe* k = keyframes_.find(keyframe)) k->points[place->feature] = kNoId;
+  p->observations.erase(place);
+  if (p->observations.empty()) points_.erase(point);
+}
+
+void SlamMap::erase_point(PointId point) {
+  MapPoint* p = points_.find(point);
+  if (p == nullptr) return;
+  for (const Observation& o : p->observations)
+    if (Keyframe* k = keyframes_.find(o.keyframe)) k->points[o.feature] = kNoId;
+  points_.erase(point);
+}
+
+void SlamMap::merge(PointId keep, PointId drop) {
+  MapPoint* kept = points_.find(keep);
+  const MapPoint* dropped = points_.find(drop);
+  if (keep == drop || kept == nullptr || dropped == nullptr) return;
+  const auto observations = dropped->observations;
+  kept->visible += dropped->visible;
+  kept->found += dropped->found;
+  erase_point(drop);
+  for (const Observation& o : observations) observe(keep, o.keyframe, o.feature);
+  refresh(*kept);
+}
+
+void SlamMap::refresh(MapPoint& point) const {
+  std::vector<Descriptor> descriptors;
+  Eigen::Vector3d directions = Eigen::Vector3d::Zero();
+  const std::size_t skip =
+      point.observations.size() > kMaxTypicalOf ? point.observations.size() - kMaxTypicalOf : 0;
+  for (std::size_t i = 0; i < point.observations.size(); ++i) {
+    const Keyframe* k = keyframes_.find(point.observations[i].keyframe);
+    const Feature& feature = (*k->features)[point.observations[i].feature];
+    const Eigen::Vector3d ray = point.position - k->map_from_camera.translation();
+    const double distance = ray.norm();
+    if (distance > 0) directions += ray / distance;
+    if (i == 0) point.level_0_distance = distance * pyramid_.scale(feature.level);
+    if (i >= skip) descriptors.push_back(feature.descriptor);
+  }
+  if (descriptors.empty()) return;
+  point.normal = directions.normalized();
+  point.descriptor = most_typical(descriptors);
+}
+
+void SlamMap::set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const {
+  std::erase_if(keyframe.covisible, [other](const CovisibleKeyframe& c) { return c.id == other; });
+  if (weight <= 0) return;
+  const auto place = std::ranges::find_if(keyframe.covisible, [&](const CovisibleKeyframe& c) {
+    return c.weight < weight || (c.weight == weight && c.id > other);
+  });
+  keyframe.covisible.insert(place, {other, weight});
+}
+
+void SlamMap::update_covisibility(KeyframeId id) {
+  Keyframe* keyframe = keyframes_.find(id);
+  if (keyframe == nullptr) return;
+  std::map<KeyframeId, int> shared;
+  for (const PointId p : keyframe->points)
+    if (const MapPoint* point = points_.find(p))
+      for (const Observation& o : point->observations)
+        if (o.keyframe != id) ++shared[o.keyframe];
+  CovisibleKeyframe strongest;
+  for (const auto& [other, weight] : shared)
+    if (weight > strongest.weight) strongest = {other, weight};
+  for (const CovisibleKeyframe& old : std::vector(keyframe->covisible))
+    if (Keyframe* other = keyframes_.find(old.id)) set_covisible(*other, id, 0);
+  keyframe->covisible.clear();
+  for (const auto& [other, weight] : shared) {
+    if (weight < config_.min_covisible_weight && other != strongest.id) continue;
+    set_covisible(*keyframe, other, weight);
+    set_covisible(*keyframes_.find(other), id, weight);
+  }
+}
+
+void SlamMap::cull_keyframe(KeyframeId id) {
+  Keyframe* keyframe = keyframes_.find(id);
+  if (keyframe == nullptr || keyframes_.size() < 2) return;
+  KeyframeId anchor = kNoId;
+  if (!keyframe->covisible.empty()) {
+    anchor = keyframe->covisible.front().id;
+  } else {
+    keyframes_.for_each([&](const Keyframe& other) {
+      if (other.id != id && (anchor == kNoId || other.id < id)) anchor = other.id;
+    });
+  }
+  records_[id].anchor = anchor;
+  records_[id].anchor_from_camera = pose_of(anchor).inverse() * keyframe->map_from_camera;
+  for (const PointId p : std::vector(keyframe->points)) {
+    forget(p, id);
+    if (MapPoint* point = points_.find(p)) refresh(*point);
+  }
+  for (const CovisibleKeyframe& c : keyframe->covisible)
+    if (Keyframe* other = keyframes_.find(c.id)) set_covisible(*other, id, 0);
+  keyframes_.erase(id);
+}
+
+Pose SlamMap::pose_of(KeyframeId id) const {
+  if (id >= records_.size()) throw std::out_of_range("SlamMap::pose_of: no such keyframe");
+  Pose keyframe_from_camera = Pose::Identity();
+  while (records_[id].anchor != kNoId) {
+    keyframe_from_camera = records_[id].anchor_from_camera * keyframe_from_camera;
+    id = records_[id].anchor;
+  }
+  return keyframes_.find(id)->map_from_camera * keyframe_from_camera;
+}
+
+void SlamMap::set_pose(KeyframeId id, const Pose& map_from_camera) {
+  if (Keyframe* k = keyframes_.find(id)) {
+    k->map_from_camera = map_from_camera;
+  } else if (id < records_.size()) {
+    records_[id].anchor_from_camera = pose_of(records_[id].anchor).inverse() * map_from_camera;
+  }
+}
+
+std::vector<KeyframePose> SlamMap::keyframe_poses() const {
+  std::vector<KeyframePose> poses;
+  for (KeyframeId id = 0; id < records_.size(); ++id)
+    poses.push_back({id, records_[id].stamp_ns, pose_of(id)});
+  return poses;
+}
+
+}  // namespace rds::tracker

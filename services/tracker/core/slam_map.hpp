@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry/pose.hpp"
+#include "services/tracker/core/feature_set.hpp"
+#include "services/tracker/core/id_table.hpp"
+#include "services/tracker/core/scale_pyramid.hpp"
+#include "services/tracker/core/tracker_config.hpp"
+
+namespace rds::tracker {
+
+using geometry::Pose;
+using KeyframeId = std::uint64_t;
+using PointId = std::uint64_t;
+inline constexpr std::uint64_t kNoId = std::numeric_limits<std::uint64_t>::max();
+
+/// A feature of a keyframe that sees a map point.
+struct Observation {
+  KeyframeId keyframe = kNoId;
+  std::uint32_t feature = 0;
+};
+
+struct MapPoint {
+  PointId id = kNoId;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m, map
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    // mean direction from the observing cameras
+  double level_0_distance = 0;                         // m; from there it would show at pyramid level 0
+  Descriptor descriptor{};                             // nearest to all others of its features
+  std::vector<Observation> observations;               // by ascending keyframe, each keyframe once
+  KeyframeId created_by = kNoId;
+  std::uint32_t visible = 1;  // frames that should have seen it
+  std::uint32_t found = 1;    // frames that did
+  std::uint64_t mark = 0;     // scratch of whoever walks over points
+};
+
+struct CovisibleKeyframe {
+  KeyframeId id = kNoId;
+  int weight = 0;  // shared map points
+};
+
+struct Keyframe {
+  KeyframeId id = kNoId;
+  std::int64_t stamp_ns = 0;
+  Pose map_from_camera = Pose::Identity();
+  std::shared_ptr<const FeatureSet> features;
+  std::vector<PointId> points;               // per feature; kNoId
+  std::vector<bool> movable;                 // per feature; more than the set knows after late boxes
+  std::vector<CovisibleKeyframe> covisible;  // most shared points first, then by id
+  int tracked_points = 0;                    // map points that its frame saw when it became a keyframe
+};
+
+/// Identity and pose of a keyframe; what outlives its culling.
+struct KeyframePose {
+  std::uint64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  Pose map_from_camera = Pose::Identity();
+};
+
+/// Keyframes, map points and who sees what. Owned by one thread.
+///
+/// Invariant: keyframe k's feature f sees point p exactly if p's observations contain (k, f).
+class SlamMap {
+ public:
+  SlamMap(const MapConfig& config, const ScalePyramid& pyramid) : config_(config), pyramid_(pyramid) {}
+
+  [[nodiscard]] Keyframe* keyframe(KeyframeId id) { return keyframes_.find(id); }
+  [[nodiscard]] const Keyframe* keyframe(KeyframeId id) const { return keyframes_.find(id); }
+  [[nodiscard]] MapPoint* point(PointId id) { return points_.find(id); }
+  [[nodiscard]] const MapPoint* point(PointId id) const { return points_.find(id); }
+  [[nodiscard]] std::size_t keyframes() const { return keyframes_.size(); }
+  [[nodiscard]] std::size_t points() const { return points_.size(); }
+  /// The id of the point that is made next.
+  [[nodiscard]] PointId next_point_id() const { return points_.next_id(); }
+  IdTable<MapPoint>& all_points() { return points_; }
+  IdTable<Keyframe>& all_keyframes() { return keyframes_; }
+
+  Keyframe& add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
+                         std::shared_ptr<const FeatureSet> features);
+  /// A new point seen by this feature. @throws std::out_of_range for an unknown keyframe.
+  MapPoint& add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature);
+
+  /// Lets a free feature see a point. @return false if either is unknown, the feature taken or movable, or
+  /// the keyframe sees the point already.
+  bool observe(PointId point, KeyframeId keyframe, std::uint32_t feature);
+  /// Forgets that a keyframe sees a point; a point that nobody sees any more is erased.
+  void forget(PointId point, KeyframeId keyframe);
+  void erase_point(PointId point);
+  /// All that saw `drop` see `keep`; `drop` is erased.
+  void merge(PointId keep, PointId drop);
+  /// Computes descriptor, normal and distance of a point anew from its observations.
+  void refresh(MapPoint& point) const;
+
+  /// Computes a keyframe's covisibility edges from its points, at both ends.
+  void update_covisibility(KeyframeId keyframe);
+
+  /// Removes a keyframe; its pose lives on relative to the covisible keyframe that shares most points.
+  void cull_keyframe(KeyframeId keyframe);
+  /// True once a keyframe with this id was there, culled or not.
+  [[nodiscard]] bool knows(KeyframeId id) const { return id < keyframes_.next_id(); }
+  /// map_from_camera, also of culled keyframes. @throws std::out_of_range for an unknown id.
+  [[nodiscard]] Pose pose_of(KeyframeId id) const;
+  /// Stamp, also of culled keyframes. @throws std::out_of_range for an unknown id.
+  [[nodiscard]] std::int64_t keyframe_stamp_ns(KeyframeId id) const { return records_.at(id).stamp_ns; }
+  /// Sets the pose, also of a culled keyframe. Points stay.
+  void set_pose(KeyframeId id, const Pose& map_from_camera);
+  /// Every keyframe that ever was, by id.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
+
+ private:
+  /// What stays of every keyframe.
+  struct Record {
+    std::int64_t stamp_ns = 0;
+    KeyframeId anchor = kNoId;  // kNoId while the keyframe itself is there
+    Pose anchor_from_camera = Pose::Identity();
+  };
+
+  void set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const;
+
+  MapConfig config_;
+  ScalePyramid pyramid_;
+  IdTable<Keyframe> keyframes_;
+  IdTable<MapPoint> points_;
+  std::vector<Record> records_;  // by keyframe id
+};
+
+}  // namespace rds::tracker

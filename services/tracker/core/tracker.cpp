@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/tracker.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "services/tracker/core/local_map.hpp"
+#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/se3.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kNsPerSecond = 1e9;
+constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
+constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
+constexpr int kEnoughInliers = 10;        // after it
+constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
+
+std::int64_t microseconds_since(Clock::time_point start) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
+}
+
+bool is_usable(const image::RgbdFrame& frame) {
+  const cv::Size size(frame.camera.width, frame.camera.height);
+  const int depth_type = frame.depth.values.type();
+  return frame.camera.is_valid() && frame.color.pixels.type() == CV_8UC3 &&
+         frame.color.pixels.size() == size && frame.depth.values.size() == size &&
+         (depth_type == CV_16UC1 || depth_type == CV_32FC1) && frame.depth.metres_per_unit > 0;
+}
+
+std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
+  std::vector<KeypointVerdict> all;
+  all.reserve(frame.features->size());
+  for (std::size_t i = 0; i < frame.features->size(); ++i) {
+    const Feature& f = (*frame.features)[i];
+    const auto use = f.movable                  ? KeypointVerdict::Use::kDynamic
+                     : frame.points[i] != kNoId ? KeypointVerdict::Use::kUsed
+                                                : KeypointVerdict::Use::kUnused;
+    all.push_back({f.image_px, use});
+  }
+  return all;
+}
+
+}  // namespace
+
+Tracker::Tracker(const TrackerConfig& config)
+    : config_(config),
+      pyramid_(config.extraction.levels, config.extraction.scale_factor),
+      extractor_(config.extraction),
+      map_(config.map, pyramid_),
+      change_(config.keyframe.changed_share) {}
+
+void Tracker::reset() {
+  *this = Tracker(config_);
+}
+
+void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                         TrackedFrame& frame) {
+  picture.color.to_gray(gray_);
+  std::vector<Feature> features;
+  features.reserve(static_cast<std::size_t>(config_.extraction.features));
+  extractor_.extract(gray_, features);
+  complete_features(picture.camera, picture.depth, movable, config_.depth.max_depth_m, features);
+  frame.stamp_ns = picture.stamp_ns;
+  frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
+  frame.clear_matches();
+}
+
+FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const MovableRegion> movable) {
+  FrameResult result;
+  result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
+  if (!is_usable(picture)) return result;
+  const auto start = Clock::now();
+  TrackedFrame frame;
+  make_frame(picture, movable, frame);
+  result.times.extract_us = microseconds_since(start);
+  const auto extracted = Clock::now();
+  result.features = static_cast<unsigned>(frame.features->size());
+  result.dynamic_features =
+      static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
+  if (state_ == State::kNotInitialized)
+    initialize(frame, result);
+  else
+    state_ = track_motion(frame);
+  result.state = state_;
+  if (has_pose(state_)) {
+    result.inliers = static_cast<unsigned>(frame.matches());
+    if (!result.keyframe) decide_keyframe(frame, !movable.empty(), result);
+    result.map_from_camera = frame.camera_from_map.inverse();
+    result.reference_keyframe_id = reference_;
+    result.reference_from_camera = map_.pose_of(reference_).inverse() * result.map_from_camera;
+  }
+  result.verdicts = verdicts(frame);
+  remember(std::move(frame), state_);
+  result.times.track_us = microseconds_since(extracted);
+  return result;
+}
+
+void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
+  const auto with_depth = std::ranges::count_if(frame.features->all(),
+                                                [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
+  if (with_depth < config_.quality.min_features_to_start) return;
+  frame.camera_from_map = Pose::Identity();
+  state_ = State::kTracking;
+  make_keyframe(frame, result);
+}
+
+Pose Tracker::last_map_from_camera() const {
+  return map_.pose_of(last_->reference) * last_->reference_from_camera;
+}
+
+Pose Tracker::predicted_pose(std::int64_t stamp_ns) const {
+  const Pose last = last_map_from_camera().inverse();
+  const double gap = static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
+  if (!velocity_ || gap <= 0 || gap > kMaxPredictedGap) return last;
+  return se3_exp(gap * *velocity_) * last;
+}
+
+bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const Pose predicted = predicted_pose(frame.stamp_ns);
+  const Pose still = last_map_from_camera().inverse();
+  const double window = config_.matching.motion_window_px;
+  for (const auto& [guess, window_px] :
+       {std::pair{predicted, window}, {predicted, 2 * window}, {still, kWideWindow * window}}) {
+    frame.camera_from_map = guess;
+    if (match_last_frame(map_, last_->frame, model, pyramid_, config_.matching, window_px, frame) <
+        kEnoughMatches)
+      continue;
+    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
+  }
+  return false;
+}
+
+bool Tracker::estimate_from_keyframe(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  for (const KeyframeId id : {reference_, newest_keyframe_}) {
+    const Keyframe* keyframe = map_.keyframe(id);
+    if (keyframe == nullptr) continue;
+    frame.camera_from_map = last_map_from_camera().inverse();
+    if (match_keyframe(map_, *keyframe, config_.matching, frame) < config_.relocalization.min_matches)
+      continue;
+    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
+  }
+  return false;
+}
+
+int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const LocalMap local = select_local_map(map_, frame, config_.map, ++mark_);
+  if (local.reference == kNoId) return 0;
+  for (const PointId id : frame.points)
+    if (MapPoint* point = map_.point(id)) ++point->visible;
+  match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
+  const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
+  for (const PointId id : frame.points)
+    if (MapPoint* point = map_.point(id)) ++point->found;
+  reference_ = local.reference;
+  return inliers;
+}
+
+bool Tracker::relocalize(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const RelocalizationTools tools{model, pyramid_, config_.matching, config_.pose, config_.relocalization};
+  const auto candidates = places_.query(static_descriptors(*frame.features),
+                                        static_cast<std::size_t>(config_.relocalization.candidates));
+  return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
+    return relocalize_against(map_, candidate.id, tools, frame);
+  });
+}
+
+State Tracker::track_motion(TrackedFrame& frame) {
+  const QualityConfig& quality = config_.quality;
+  int inliers = 0;
+  if (last_) {
+    if (estimate_from_last_frame(frame))
+      inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
+    if (inliers < quality.min_inliers && estimate_from_keyframe(frame))
+      inliers = refine_with_local_map(frame, config_.matching.lost_window_factor);
+    if (inliers >= quality.min_inliers) return State::kTracking;
+    const bool was_weak = state_ == State::kWeak;
+    if (!was_weak) weak_since_ns_ = frame.stamp_ns;
+    const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
+    if (inliers >= quality.min_inliers_weak && weak_s <= quality.weak_s) return State::kWeak;
+  }
+  if (!relocalize(frame)) return State::kLost;
+  inliers = refine_with_local_map(frame, config_.matching.lost_window_factor);
+  return inliers >= config_.relocalization.min_inliers ? State::kRelocalised : State::kLost;
+}
+
+void Tracker::remember(TrackedFrame&& frame, State state) {
+  if (!has_pose(state)) {
+    last_.reset();
+    velocity_.reset();
+    return;
+  }
+  const Pose map_from_camera = frame.camera_from_map.inverse();
+  if (last_ && frame.stamp_ns > last_->frame.stamp_ns) {
+    const double gap = static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
+    velocity_ = se3_log(frame.camera_from_map * last_map_from_camera()) / gap;
+  } else {
+    velocity_.reset();
+  }
+  const Pose reference_from_camera = map_.pose_of(reference_).inverse() * map_from_camera;
+  last_ = LastFrame{std::move(frame), reference_, reference_from_camera};
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/image/rgbd_frame.hpp"
+#include "common/vision/place_index.hpp"
+#include "services/tracker/core/association.hpp"
+#include "services/tracker/core/keyframe_policy.hpp"
+#include "services/tracker/core/local_mapping.hpp"
+#include "services/tracker/core/orb_extractor.hpp"
+#include "services/tracker/core/se3.hpp"
+#include "services/tracker/core/slam_map.hpp"
+#include "services/tracker/core/tracker_config.hpp"
+#include "services/tracker/core/tracking_types.hpp"
+
+namespace rds::tracker {
+
+/// RGB-D tracking against a map of ORB features that it builds.
+///
+/// Owned by one thread. Local mapping is a pure function on a snapshot: take_mapping_job() after a keyframe,
+/// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
+/// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
+/// Same calls, same results, bit by bit.
+class Tracker {
+ public:
+  explicit Tracker(const TrackerConfig& config);
+
+  /// Tracks the next picture.
+  ///
+  /// @param movable  features in these regions are dropped and never become map points.
+  /// @return state and pose; a frame that could not be localised has state kLost (kNotInitialized before the
+  /// first keyframe) and no pose. Pictures that are empty, of other sizes or types than promised count as
+  /// pictures without features.
+  FrameResult track(const image::RgbdFrame& frame, std::span<const MovableRegion> movable);
+
+  /// Snapshot around the newest keyframe; nullopt if there is no keyframe since the last call.
+  std::optional<LocalMappingJob> take_mapping_job();
+  /// Moves keyframes and points; removes, fuses and adds observations. What has changed since the snapshot
+  /// is left alone.
+  void apply(const LocalMappingResult& result);
+  /// Moves keyframes to corrected poses; keyframes that the correction does not know and all points move
+  /// with the keyframes they hang on.
+  void apply(const PoseGraphCorrection& correction);
+  /// Late boxes of a keyframe: its features in them are taken out of the map.
+  void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
+
+  /// Every keyframe since the last reset, culled ones too, by id.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return map_.keyframe_poses(); }
+  [[nodiscard]] const SlamMap& map() const { return map_; }
+  /// Forgets everything.
+  void reset();
+
+ private:
+  struct LastFrame {
+    TrackedFrame frame;
+    KeyframeId reference = kNoId;
+    Pose reference_from_camera = Pose::Identity();
+  };
+
+  void make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                  TrackedFrame& frame);
+  void initialize(TrackedFrame& frame, FrameResult& result);
+  State track_motion(TrackedFrame& frame);
+  bool estimate_from_last_frame(TrackedFrame& frame);
+  bool estimate_from_keyframe(TrackedFrame& frame);
+  bool relocalize(TrackedFrame& frame);
+  int refine_with_local_map(TrackedFrame& frame, double window_factor);
+  [[nodiscard]] Pose predicted_pose(std::int64_t stamp_ns) const;
+  void remember(TrackedFrame&& frame, State state);
+  void decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result);
+  void make_keyframe(TrackedFrame& frame, FrameResult& result);
+  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers);
+  [[nodiscard]] Pose last_map_from_camera() const;
+
+  TrackerConfig config_;
+  ScalePyramid pyramid_;
+  OrbExtractor extractor_;
+  SlamMap map_;
+  vision::PlaceIndex places_;
+  ChangeDetector change_;
+  cv::Mat gray_;
+  std::optional<LastFrame> last_;  // the last frame with a pose
+  std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
+  State state_ = State::kNotInitialized;
+  KeyframeId reference_ = kNoId;
+  KeyframeId newest_keyframe_ = kNoId;
+  std::uint64_t revision_ = 0;  // of the map's geometry, counts corrections
+  bool job_due_ = false;
+  bool changed_ = false;
+  std::int64_t weak_since_ns_ = 0;
+  std::uint64_t mark_ = 0;
+  std::vector<PointId> recent_points_;
+};
+
+}  // namespace rds::tracker

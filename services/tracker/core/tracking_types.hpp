@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "services/tracker/core/slam_map.hpp"
+
+namespace rds::tracker {
+
+/// Values equal rds_msgs/TrackingState's.
+enum class State : std::uint8_t {
+  kNotInitialized = 0,
+  kTracking = 1,
+  kWeak = 2,
+  kLost = 3,
+  kRelocalised = 4
+};
+
+/// True for the states in which a frame has a pose.
+constexpr bool has_pose(State state) {
+  return state == State::kTracking || state == State::kWeak || state == State::kRelocalised;
+}
+
+struct StageTimes {
+  std::int64_t extract_us = 0;
+  std::int64_t track_us = 0;
+};
+
+/// What became of a feature, for pictures.
+struct KeypointVerdict {
+  enum class Use : std::uint8_t { kUnused = 0, kUsed = 1, kDynamic = 2 };
+  Eigen::Vector2f image_px = Eigen::Vector2f::Zero();
+  Use use = Use::kUnused;
+};
+
+/// A feature of a keyframe as other services see it.
+struct KeyframeFeature {
+  Feature feature;
+  Eigen::Vector3f point_in_camera = Eigen::Vector3f::Zero();  // m; NaN without depth
+  std::int64_t map_point_id = -1;                             // -1 where it sees none
+};
+
+struct CovisiblePose {
+  std::uint64_t id = 0;
+  int weight = 0;                           // shared map points
+  Pose map_from_camera = Pose::Identity();  // at the moment of the keyframe
+};
+
+/// A new keyframe.
+struct KeyframeData {
+  std::uint64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  Pose map_from_camera = Pose::Identity();
+  std::vector<KeyframeFeature> features;
+  std::vector<CovisiblePose> covisible;  // most shared points first
+};
+
+struct FrameResult {
+  State state = State::kNotInitialized;
+  Pose map_from_camera = Pose::Identity();  // identity unless has_pose(state)
+  std::uint64_t reference_keyframe_id = 0;
+  Pose reference_from_camera = Pose::Identity();
+  unsigned features = 0;          // extracted
+  unsigned dynamic_features = 0;  // of these on movable objects
+  unsigned inliers = 0;           // map points that support the pose
+  StageTimes times;
+  std::optional<KeyframeData> keyframe;   // if the frame became one
+  std::vector<KeypointVerdict> verdicts;  // one per feature
+};
+
+/// Corrected keyframe poses after a loop was closed.
+struct PoseGraphCorrection {
+  std::vector<KeyframePose> poses;
+};
+
+}  // namespace rds::tracker

@@ -29,7 +29,7 @@ std::string name_of(Vendor vendor);
 struct ParticipantOptions {
   Vendor vendor = Vendor::kFastDds;
   int domain = 0;
-  std::string node_name;     // as `ros2 node list` shows it, without the leading slash
+  std::string node_name;       // as `ros2 node list` shows it, without the leading slash
   bool loopback_only = false;  // this machine only: no multicast, nobody else is disturbed
 };
 
@@ -39,8 +39,8 @@ struct EndpointStatistics {
   bool publisher = false;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t dropped = 0;    // lost by the bus, refused by the writer, or undecodable
-  int matched = 0;              // endpoints at the other side
+  std::uint64_t dropped = 0;  // lost by the bus, refused by the writer, or undecodable
+  int matched = 0;            // endpoints at the other side
 };
 
 /// An endpoint somebody announced on the bus.
@@ -79,19 +79,21 @@ class Publisher {
   std::unique_ptr<detail::PublisherEndpoint> endpoint_;
 };
 
-/// Keeps a callback subscribed; after its destructor returns the callback is not running and never runs again.
+/// Keeps a callback subscribed; after its destructor returns the callback is not running and never runs
+/// again.
 class Subscription {
  public:
   Subscription() = default;
-  explicit Subscription(std::unique_ptr<detail::SubscriptionEndpoint> endpoint) : endpoint_(std::move(endpoint)) {}
+  explicit Subscription(std::unique_ptr<detail::SubscriptionEndpoint> endpoint)
+      : endpoint_(std::move(endpoint)) {}
   [[nodiscard]] int matched() const { return endpoint_->matched(); }
 
  private:
   std::unique_ptr<detail::SubscriptionEndpoint> endpoint_;
 };
 
-/// This process on the bus. Callbacks run on threads of the participant, one message of a topic after the other:
-/// they convert and push, never compute. All members are safe to call from any thread.
+/// This process on the bus. Callbacks run on threads of the participant, one message of a topic after the
+/// other: they convert and push, never compute. All members are safe to call from any thread.
 class Participant {
  public:
   /// @throws BusError
@@ -108,17 +110,18 @@ class Participant {
   template <class T>
   Subscription subscribe(const std::string& topic, const Qos& qos,
                          std::function<void(std::shared_ptr<const T>)> callback) {
-    return Subscription(make_subscription(topic, type_ops<T>(), qos, [callback](std::shared_ptr<const void> m) {
-      callback(std::static_pointer_cast<const T>(std::move(m)));
-    }));
+    return Subscription(
+        make_subscription(topic, type_ops<T>(), qos, [callback](std::shared_ptr<const void> m) {
+          callback(std::static_pointer_cast<const T>(std::move(m)));
+        }));
   }
 
   /// For tools that learn the type at run time: as subscribe(), and the size on the wire [bytes].
   virtual std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
       const std::string& topic, const TypeOps& type, const Qos& qos,
       std::function<void(std::shared_ptr<const void>)> callback) = 0;
-  virtual std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
-                                                                    const Qos& qos) = 0;
+  virtual std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic,
+                                                                    const TypeOps& type, const Qos& qos) = 0;
 
   [[nodiscard]] virtual std::vector<EndpointStatistics> statistics() const = 0;
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;

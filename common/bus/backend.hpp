@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bus/participant.hpp"
+
+/// What a DDS vendor has to provide. Everything else (threads, statistics, node announcement) is written
+/// once, in participant.cpp. Topic names are DDS names here ("rt/rds/odometry").
+namespace rds::bus::detail {
+
+/// An endpoint's or participant's RTPS GUID: 12 bytes of the participant, 4 of the entity.
+using Guid = std::array<std::uint8_t, 16>;
+
+/// True if both GUIDs belong to one participant.
+inline bool same_participant(const Guid& a, const Guid& b) {
+  return std::equal(a.begin(), a.begin() + 12, b.begin());
+}
+
+/// Where a back end puts a received message: it hands the bytes to decode() while it holds them.
+struct Sample {
+  const TypeOps* type = nullptr;
+  void* message = nullptr;
+  std::size_t bytes = 0;
+  bool decoded = false;
+
+  void decode(const std::uint8_t* data, std::size_t size) {
+    bytes = size;
+    decoded = type->decode(data, size, message);
+  }
+};
+
+class BackendWriter {
+ public:
+  virtual ~BackendWriter() = default;
+  virtual bool write(const void* message) = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+  [[nodiscard]] virtual Guid guid() const = 0;
+};
+
+class BackendReader {
+ public:
+  virtual ~BackendReader() = default;
+  /// Blocks until take() may find something or wake() was called, once and for all.
+  virtual void wait() = 0;
+  virtual void wake() = 0;
+  /// Takes the next message into `sample`. @return false if there is none.
+  virtual bool take(Sample& sample) = 0;
+  /// Messages the bus knows that it did not deliver.
+  [[nodiscard]] virtual std::uint64_t lost() const = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+  [[nodiscard]] virtual Guid guid() const = 0;
+};
+
+/// One participant of a vendor; outlives its readers and writers. Every creation throws BusError.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
+                                                     const Qos& qos) = 0;
+  virtual std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
+                                                     const Qos& qos) = 0;
+  [[nodiscard]] virtual Guid guid() const = 0;
+  /// Endpoints of all other participants.
+  [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;
+};
+
+std::unique_ptr<Backend> make_fastdds_backend(const ParticipantOptions& options);
+std::unique_ptr<Backend> make_cyclonedds_backend(const ParticipantOptions& options);
+
+/// Content of the USER_DATA policies, as ROS 2 writes them.
+inline std::string endpoint_user_data(const TypeOps& type) {
+  return "typehash=" + type.type_hash + ";";
+}
+inline constexpr const char* kParticipantUserData = "enclave=/;";
+
+// Both vendors: the highest participant number searched on 127.0.0.1, how often a participant announces
+// itself, and after which silence the others give it up. A loaded machine must not lose participants that
+// live.
+inline constexpr int kLoopbackParticipants = 60;
+inline constexpr int kAnnouncementPeriodS = 1;
+inline constexpr int kLeaseDurationS = 10;
+
+/// History both vendors keep: "all" is the last `max_samples`, so that no writer ever waits for a reader.
+inline int history_depth(const Qos& qos) {
+  return qos.depth > 0 ? qos.depth : qos.max_samples;
+}
+
+}  // namespace rds::bus::detail

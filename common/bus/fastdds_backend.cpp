@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include <fastdds/dds/core/condition/GuardCondition.hpp>
+#include <fastdds/dds/core/condition/StatusCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include "common/bus/backend.hpp"
+#include "common/bus/fastdds_settings.hpp"
+
+namespace rds::bus::detail {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+Guid to_guid(const rtps::GUID_t& source) {
+  Guid guid{};
+  std::copy(std::begin(source.guidPrefix.value), std::end(source.guidPrefix.value), guid.begin());
+  std::copy(std::begin(source.entityId.value), std::end(source.entityId.value), guid.begin() + 12);
+  return guid;
+}
+
+/// Carries any message type. A writer gives a message, a reader a Sample: so a reader learns size and
+/// outcome, and no bytes make Fast DDS itself stumble.
+class CarriedType final : public dds::TopicDataType {
+ public:
+  explicit CarriedType(const TypeOps& type) : type_(type) {
+    setName(type.dds_name.c_str());
+    m_typeSize = kFirstAllocation;
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool serialize(void* message, rtps::SerializedPayload_t* payload) override {
+    const std::size_t size = type_.encode(message, payload->data, payload->max_size);
+    payload->length = static_cast<std::uint32_t>(size);
+    payload->encapsulation = CDR_LE;
+    return size > 0;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* sample) override {
+    static_cast<Sample*>(sample)->decode(payload->data, payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* message) override {
+    return [this, message] { return static_cast<std::uint32_t>(type_.encoded_size(message)); };
+  }
+  void* createData() override { return type_.create(); }
+  void deleteData(void* message) override { type_.destroy(message); }
+  bool getKey(void* /*message*/, rtps::InstanceHandle_t* /*handle*/, bool /*force_md5*/) override {
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kFirstAllocation = 256;  // bytes; grows with the first larger message
+  const TypeOps& type_;
+};
+
+/// The endpoints of other participants, kept up to date by Fast DDS's discovery thread.
+class DiscoveryListener final : public dds::DomainParticipantListener {
+ public:
+  void on_subscriber_discovery(dds::DomainParticipant* /*p*/, rtps::ReaderDiscoveryInfo&& info) override {
+    update(info.info.guid(), info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER,
+           {info.info.topicName().to_string(), info.info.typeName().to_string(), false});
+  }
+  void on_publisher_discovery(dds::DomainParticipant* /*p*/, rtps::WriterDiscoveryInfo&& info) override {
+    update(info.info.guid(), info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER,
+           {info.info.topicName().to_string(), info.info.typeName().to_string(), true});
+  }
+  void on_participant_discovery(dds::DomainParticipant* /*p*/,
+                                rtps::ParticipantDiscoveryInfo&& info) override {
+    using Info = rtps::ParticipantDiscoveryInfo;
+    if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) return;
+    const std::lock_guard lock(mutex_);
+    const Guid gone = to_guid(info.info.m_guid);
+    std::erase_if(endpoints_, [&gone](const auto& entry) { return same_participant(entry.first, gone); });
+  }
+
+  std::vector<DiscoveredEndpoint> endpoints() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<DiscoveredEndpoint> result;
+    for (const auto& [guid, endpoint] : endpoints_) result.push_back(endpoint);
+    return result;
+  }
+
+ private:
+  void update(const rtps::GUID_t& guid, bool removed, DiscoveredEndpoint endpoint) {
+    const std::lock_guard lock(mutex_);
+    if (removed) {
+      endpoints_.erase(to_guid(guid));
+    } else {
+      endpoints_[to_guid(guid)] = std::move(endpoint);
+    }
+  }
+
+  mutable std::mutex mutex_;
+  std::map<Guid, DiscoveredEndpoint> endpoints_;
+};
+
+class FastWriter final : public BackendWriter {
+ public:
+  FastWriter(dds::Publisher* publisher, dds::Topic* topic, const dds::DataWriterQos& qos)
+      : publisher_(publisher), writer_(publisher->create_datawriter(topic, qos)) {
+    if (writer_ == nullptr) throw BusError("Fast DDS refused a writer on " + topic->get_name());
+  }
+  ~FastWriter() override { publisher_->delete_datawriter(writer_); }
+  FastWriter(const FastWriter&) = delete;
+  FastWriter& operator=(const FastWriter&) = delete;
+
+  bool write(const void* message) override { return writer_->write(const_cast<void*>(message)); }
+  [[nodiscard]] int matched() const override {
+    dds::PublicationMatchedStatus status;
+    writer_->get_publication_matched_status(status);
+    return status.current_count;
+  }
+  [[nodiscard]] Guid guid() const override { return to_guid(writer_->guid()); }
+
+ private:
+  dds::Publisher* publisher_;
+  dds::DataWriter* writer_;
+};
+
+class FastReader final : public BackendReader {
+ public:
+  FastReader(dds::Subscriber* subscriber, dds::Topic* topic, const dds::DataReaderQos& qos)
+      : subscriber_(subscriber), reader_(subscriber->create_datareader(topic, qos)) {
+    if (reader_ == nullptr) throw BusError("Fast DDS refused a reader on " + topic->get_name());
+    reader_->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
+    wait_set_.attach_condition(reader_->get_statuscondition());
+    wait_set_.attach_condition(stop_);
+  }
+  ~FastReader() override {
+    wait_set_.detach_condition(stop_);
+    wait_set_.detach_condition(reader_->get_statuscondition());
+    subscriber_->delete_datareader(reader_);
+  }
+  FastReader(const FastReader&) = delete;
+  FastReader& operator=(const FastReader&) = delete;
+
+  void wait() override {
+    dds::ConditionSeq active;
+    wait_set_.wait(active, eprosima::fastrtps::c_TimeInfinite);
+  }
+  void wake() override { stop_.set_trigger_value(true); }
+  bool take(Sample& sample) override {
+    dds::SampleInfo info;
+    while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] std::uint64_t lost() const override {
+    dds::SampleLostStatus status;
+    reader_->get_sample_lost_status(status);
+    return static_cast<std::uint64_t>(std::max(status.total_count, 0));
+  }
+  [[nodiscard]] int matched() const override {
+    dds::SubscriptionMatchedStatus status;
+    reader_->get_subscription_matched_status(status);
+    return status.current_count;
+  }
+  [[nodiscard]] Guid guid() const override { return to_guid(reader_->guid()); }
+
+ private:
+  dds::Subscriber* subscriber_;
+  dds::DataReader* reader_;
+  dds::WaitSet wait_set_;
+  dds::GuardCondition stop_;
+};
+
+class FastBackend final : public Backend {
+ public:
+  explicit FastBackend(const ParticipantOptions& options) {
+    const dds::DomainParticipantQos qos = fastdds_participant_qos(options);
+    // No status for the participant's listener: it would swallow the readers' data-available.
+    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<dds::DomainId_t>(options.domain), qos, &listener_, dds::StatusMask::none());
+    if (participant_ == nullptr) {
+      throw BusError("Fast DDS could not join domain " + std::to_string(options.domain) +
+                     ": no free port or no usable network interface");
+    }
+    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  }
+  ~FastBackend() override {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  FastBackend(const FastBackend&) = delete;
+  FastBackend& operator=(const FastBackend&) = delete;
+
+  std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
+                                             const Qos& qos) override {
+    return std::make_unique<FastWriter>(publisher_, find_topic(topic, type), fastdds_writer_qos(type, qos));
+  }
+  std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
+                                             const Qos& qos) override {
+    return std::make_unique<FastReader>(subscriber_, find_topic(topic, type), fastdds_reader_qos(type, qos));
+  }
+  [[nodiscard]] Guid guid() const override { return to_guid(participant_->guid()); }
+  [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override { return listener_.endpoints(); }
+
+ private:
+  /// Topics live as long as the participant: few, and shared by its endpoints.
+  dds::Topic* find_topic(const std::string& name, const TypeOps& type) {
+    const std::lock_guard lock(topics_mutex_);
+    dds::Topic*& topic = topics_[name];
+    if (topic != nullptr) return topic;
+    if (participant_->find_type(type.dds_name).empty()) {
+      dds::TypeSupport(new CarriedType(type)).register_type(participant_);
+    }
+    topic = participant_->create_topic(name, type.dds_name, dds::TOPIC_QOS_DEFAULT);
+    if (topic == nullptr) throw BusError("Fast DDS refused topic " + name + " of type " + type.dds_name);
+    return topic;
+  }
+
+  DiscoveryListener listener_;
+  dds::DomainParticipant* participant_ = nullptr;
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
+  std::mutex topics_mutex_;
+  std::map<std::string, dds::Topic*> topics_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_fastdds_backend(const ParticipantOptions& options) {
+  return std::make_unique<FastBackend>(options);
+}
+
+}  // namespace rds::bus::detail

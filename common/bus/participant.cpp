@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/bus/participant.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "common/bus/backend.hpp"
+#include "common/bus/message_pool.hpp"
+#include "common/bus/node_announcer.hpp"
+
+namespace rds::bus {
+namespace {
+
+using detail::Backend;
+using detail::BackendReader;
+using detail::BackendWriter;
+
+constexpr int kHighestDomain = 232;  // RTPS port numbers end there
+const std::string kRosPrefix = "rt/";
+
+class Endpoint {
+ public:
+  virtual ~Endpoint() = default;
+  [[nodiscard]] virtual EndpointStatistics endpoint_statistics() const = 0;
+  [[nodiscard]] virtual DiscoveredEndpoint description() const = 0;
+};
+
+/// What a participant and its endpoints share; whoever of them lives longest closes it.
+struct Shared {
+  explicit Shared(const ParticipantOptions& options)
+      : backend(options.vendor == Vendor::kFastDds ? detail::make_fastdds_backend(options)
+                                                   : detail::make_cyclonedds_backend(options)),
+        announcer(*backend, options.node_name) {}
+
+  /// A participant carries one type per topic: both vendors would refuse a second one, each in its own way.
+  void check_type(const std::string& topic, const TypeOps& type) {
+    const std::lock_guard lock(mutex);
+    const auto [known, added] = types.emplace(topic, type.dds_name);
+    if (known->second == type.dds_name) return;
+    throw BusError("topic " + topic + " already carries " + known->second + ", not " + type.dds_name);
+  }
+  void add(const Endpoint* endpoint) {
+    const std::lock_guard lock(mutex);
+    endpoints.insert(endpoint);
+  }
+  void remove(const Endpoint* endpoint) {
+    const std::lock_guard lock(mutex);
+    endpoints.erase(endpoint);
+  }
+
+  std::unique_ptr<Backend> backend;
+  detail::NodeAnnouncer announcer;
+  std::mutex mutex;
+  std::set<const Endpoint*> endpoints;
+  std::map<std::string, std::string> types;
+};
+
+class WriterEndpoint final : public detail::PublisherEndpoint, public Endpoint {
+ public:
+  WriterEndpoint(std::shared_ptr<Shared> shared, std::string topic, const TypeOps& type, const Qos& qos)
+      : shared_(std::move(shared)),
+        topic_(std::move(topic)),
+        type_(type),
+        writer_(shared_->backend->make_writer(kRosPrefix + topic_, type, qos)) {
+    shared_->announcer.add_writer(writer_->guid());
+    shared_->add(this);
+  }
+  ~WriterEndpoint() override {
+    shared_->remove(this);
+    shared_->announcer.remove(writer_->guid());
+  }
+  WriterEndpoint(const WriterEndpoint&) = delete;
+  WriterEndpoint& operator=(const WriterEndpoint&) = delete;
+
+  bool write(const void* message) override {
+    const bool written = writer_->write(message);
+    if (written) {
+      ++messages_;
+      bytes_ += type_.encoded_size(message);
+    } else {
+      ++refused_;
+    }
+    return written;
+  }
+  [[nodiscard]] int matched() const override { return writer_->matched(); }
+  [[nodiscard]] EndpointStatistics endpoint_statistics() const override {
+    return {topic_, true, messages_, bytes_, refused_, matched()};
+  }
+  [[nodiscard]] DiscoveredEndpoint description() const override { return {topic_, type_.dds_name, true}; }
+
+ private:
+  std::shared_ptr<Shared> shared_;
+  std::string topic_;
+  const TypeOps& type_;
+  std::unique_ptr<BackendWriter> writer_;
+  std::atomic<std::uint64_t> messages_ = 0;
+  std::atomic<std::uint64_t> bytes_ = 0;
+  std::atomic<std::uint64_t> refused_ = 0;
+};
+
+class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoint {
+ public:
+  using Callback = std::function<void(std::shared_ptr<const void>)>;
+
+  ReaderEndpoint(std::shared_ptr<Shared> shared, std::string topic, const TypeOps& type, const Qos& qos,
+                 Callback callback)
+      : shared_(std::move(shared)),
+        topic_(std::move(topic)),
+        type_(type),
+        callback_(std::move(callback)),
+        pool_(type),
+        reader_(shared_->backend->make_reader(kRosPrefix + topic_, type, qos)),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {
+    shared_->announcer.add_reader(reader_->guid());
+    shared_->add(this);
+  }
+  ~ReaderEndpoint() override {
+    shared_->remove(this);
+    thread_.request_stop();
+    reader_->wake();
+    thread_.join();
+    shared_->announcer.remove(reader_->guid());
+  }
+  ReaderEndpoint(const ReaderEndpoint&) = delete;
+  ReaderEndpoint& operator=(const ReaderEndpoint&) = delete;
+
+  [[nodiscard]] int matched() const override { return reader_->matched(); }
+  [[nodiscard]] EndpointStatistics endpoint_statistics() const override {
+    return {topic_, false, messages_, bytes_, undecodable_ + reader_->lost(), matched()};
+  }
+  [[nodiscard]] DiscoveredEndpoint description() const override { return {topic_, type_.dds_name, false}; }
+
+ private:
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      reader_->wait();
+      while (!stop.stop_requested() && take_one()) {
+      }
+    }
+  }
+
+  bool take_one() {
+    const std::shared_ptr<void> message = pool_.get();
+    detail::Sample sample{.type = &type_, .message = message.get()};
+    if (!reader_->take(sample)) return false;
+    if (sample.decoded) {
+      ++messages_;
+      bytes_ += sample.bytes;
+      callback_(message);
+    } else {
+      ++undecodable_;
+    }
+    return true;
+  }
+
+  std::shared_ptr<Shared> shared_;
+  std::string topic_;
+  const TypeOps& type_;
+  Callback callback_;
+  detail::MessagePool pool_;
+  std::unique_ptr<BackendReader> reader_;
+  std::atomic<std::uint64_t> messages_ = 0;
+  std::atomic<std::uint64_t> bytes_ = 0;
+  std::atomic<std::uint64_t> undecodable_ = 0;
+  std::jthread thread_;  // last: it uses the others
+};
+
+class DdsParticipant final : public Participant {
+ public:
+  explicit DdsParticipant(const ParticipantOptions& options) : shared_(std::make_shared<Shared>(options)) {}
+
+  std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
+                                                            const Qos& qos) override {
+    shared_->check_type(topic, type);
+    return std::make_unique<WriterEndpoint>(shared_, topic, type, qos);
+  }
+
+  std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
+      const std::string& topic, const TypeOps& type, const Qos& qos,
+      std::function<void(std::shared_ptr<const void>)> callback) override {
+    shared_->check_type(topic, type);
+    return std::make_unique<ReaderEndpoint>(shared_, topic, type, qos, std::move(callback));
+  }
+
+  [[nodiscard]] std::vector<EndpointStatistics> statistics() const override {
+    std::vector<EndpointStatistics> result;
+    const std::lock_guard lock(shared_->mutex);
+    for (const Endpoint* endpoint : shared_->endpoints) result.push_back(endpoint->endpoint_statistics());
+    std::ranges::sort(result, {},
+                      [](const EndpointStatistics& s) { return std::pair(s.topic, s.publisher); });
+    return result;
+  }
+
+  [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
+    std::vector<DiscoveredEndpoint> result;
+    for (DiscoveredEndpoint& endpoint : shared_->backend->discovered()) {
+      if (!endpoint.topic.starts_with(kRosPrefix)) continue;
+      endpoint.topic.erase(0, kRosPrefix.size());
+      result.push_back(std::move(endpoint));
+    }
+    const std::lock_guard lock(shared_->mutex);
+    for (const Endpoint* endpoint : shared_->endpoints) result.push_back(endpoint->description());
+    std::ranges::sort(result, {},
+                      [](const DiscoveredEndpoint& e) { return std::tuple(e.topic, e.publisher, e.type); });
+    return result;
+  }
+
+ private:
+  std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace
+
+Vendor vendor_from_name(const std::string& name) {
+  if (name == "fastdds") return Vendor::kFastDds;
+  if (name == "cyclonedds") return Vendor::kCycloneDds;
+  throw std::invalid_argument("bus '" + name + "', expected fastdds or cyclonedds");
+}
+
+std::string name_of(Vendor vendor) {
+  return vendor == Vendor::kFastDds ? "fastdds" : "cyclonedds";
+}
+
+std::unique_ptr<Participant> Participant::create(const ParticipantOptions& options) {
+  if (options.domain < 0 || options.domain > kHighestDomain) {
+    throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
+                   std::to_string(kHighestDomain));
+  }
+  return std::make_unique<DdsParticipant>(options);
+}
+
+}  // namespace rds::bus

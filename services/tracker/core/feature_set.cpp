@@ -50,17 +50,19 @@ bool FeatureSet::sees(const Eigen::Vector2d& px) const {
   return p.x() >= lowest_.x() && p.x() <= highest_.x() && p.y() >= lowest_.y() && p.y() <= highest_.y();
 }
 
+float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, double max_depth_m) {
+  const int x = std::clamp(static_cast<int>(std::lround(image_px.x())), 0, depth.values.cols - 1);
+  const int y = std::clamp(static_cast<int>(std::lround(image_px.y())), 0, depth.values.rows - 1);
+  const float z = depth.at(x, y);
+  return z > static_cast<float>(max_depth_m) ? 0 : z;
+}
+
 void complete_features(const geometry::CameraModel& camera, const image::DepthImage& depth,
-                       std::span<const MovableRegion> movable, double max_depth_m,
-                       std::vector<Feature>& features) {
+                       double max_depth_m, std::vector<Feature>& features) {
   for (Feature& f : features) {
-    const int x = std::clamp(static_cast<int>(std::lround(f.image_px.x())), 0, depth.values.cols - 1);
-    const int y = std::clamp(static_cast<int>(std::lround(f.image_px.y())), 0, depth.values.rows - 1);
-    f.depth_m = depth.at(x, y);
-    if (f.depth_m > static_cast<float>(max_depth_m)) f.depth_m = 0;
-    f.px = camera.undistort(f.image_px.cast<double>()).cast<float>();
-    f.movable = std::ranges::any_of(
-        movable, [&](const MovableRegion& region) { return region.covers(f.image_px, f.depth_m); });
+    f.depth_m = depth_at(depth, f.image_px, max_depth_m);
+    const Eigen::Vector2d px = camera.undistort(f.image_px.cast<double>());
+    if (px.allFinite()) f.px = px.cast<float>();
   }
 }
 

@@ -5,25 +5,19 @@
 #include <span>
 #include <vector>
 
-#include "common/geometry/box.hpp"
 #include "common/geometry/camera_model.hpp"
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/feature.hpp"
+#include "services/tracker/core/prediction/movable_region.hpp"
 
 namespace rds::tracker {
 
-/// Features inside the box, at a depth in the interval or without depth, belong to a movable object.
-struct MovableRegion {
-  geometry::Box2 box_px;  // in the picture (not undistorted)
-  float min_depth_m = 0;
-  float max_depth_m = 0;
-
-  /// @param depth_m  0 without measurement.
-  [[nodiscard]] bool covers(const Eigen::Vector2f& image_px, float depth_m) const {
-    return box_px.contains(image_px.x(), image_px.y()) &&
-           (depth_m <= 0 || (depth_m >= min_depth_m && depth_m <= max_depth_m));
-  }
-};
+/// True if a feature at this pixel of the picture is in the region: inside the box, and its depth in the
+/// interval or unknown (0).
+inline bool covers(const MovableRegion& region, const Eigen::Vector2f& image_px, float depth_m) {
+  return region.box_px.contains(image_px.x(), image_px.y()) &&
+         (depth_m <= 0 || (depth_m >= region.min_depth_m && depth_m <= region.max_depth_m));
+}
 
 /// The features of one picture with a grid for look-up by place. Immutable once built; shared by frame,
 /// keyframe and mapping jobs.
@@ -78,11 +72,11 @@ class FeatureSet {
   std::vector<std::uint32_t> cell_items_;
 };
 
-/// Undistorts features, gives them depth and marks those on movable objects.
-///
-/// @param max_depth_m  measurements beyond are as good as none.
+/// Depth [m] at a place in the picture; 0 without measurement or beyond max_depth_m.
+float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, double max_depth_m);
+
+/// Undistorts features and gives them depth.
 void complete_features(const geometry::CameraModel& camera, const image::DepthImage& depth,
-                       std::span<const MovableRegion> movable, double max_depth_m,
-                       std::vector<Feature>& features);
+                       double max_depth_m, std::vector<Feature>& features);
 
 }  // namespace rds::tracker

@@ -115,7 +115,7 @@ void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion>
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
     const Feature& f = (*keyframe->features)[i];
     if (!std::ranges::any_of(regions,
-                             [&](const MovableRegion& r) { return r.covers(f.image_px, f.depth_m); }))
+                             [&](const MovableRegion& r) { return covers(r, f.image_px, f.depth_m); }))
       continue;
     keyframe->movable[i] = true;
     const MapPoint* point = map.point(keyframe->points[i]);

@@ -113,27 +113,52 @@ void OrbExtractor::describe_level(int level, const std::vector<Corner>& corners,
   }
   if (keypoints_.empty()) return;
   orb_->compute(image, keypoints_, descriptors_);
-  // resize() keeps the centres of the corner pixels half a pixel inside, so levels differ by half pixels.
-  const float scale_x = static_cast<float>(pyramid_[0].cols) / static_cast<float>(image.cols);
-  const float scale_y = static_cast<float>(pyramid_[0].rows) / static_cast<float>(image.rows);
   for (std::size_t i = 0; i < keypoints_.size(); ++i) {
-    Feature feature;
-    feature.image_px = {(keypoints_[i].pt.x + 0.5F) * scale_x - 0.5F,
-                        (keypoints_[i].pt.y + 0.5F) * scale_y - 0.5F};
-    feature.px = feature.image_px;
+    Feature feature = feature_at(level, corners[i]);
     feature.angle_rad = keypoints_[i].angle * kRadPerDegree;
-    feature.level = static_cast<std::uint8_t>(level);
     std::memcpy(feature.descriptor.data(), descriptors_.ptr(static_cast<int>(i)), feature.descriptor.size());
     features.push_back(feature);
   }
 }
 
-void OrbExtractor::extract(const cv::Mat& gray, std::vector<Feature>& features) {
+Feature OrbExtractor::feature_at(int level, const Corner& corner) const {
+  // resize() keeps the centres of the corner pixels half a pixel inside, so levels differ by half pixels.
+  const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
+  const float scale_x = static_cast<float>(pyramid_[0].cols) / static_cast<float>(image.cols);
+  const float scale_y = static_cast<float>(pyramid_[0].rows) / static_cast<float>(image.rows);
+  Feature feature;
+  feature.image_px = {(corner.x + kBorder + 0.5F) * scale_x - 0.5F,
+                      (corner.y + kBorder + 0.5F) * scale_y - 0.5F};
+  feature.px = feature.image_px;
+  feature.level = static_cast<std::uint8_t>(level);
+  return feature;
+}
+
+void OrbExtractor::split_movable(int level, const MovableTest& is_movable, std::vector<Feature>& features) {
+  const auto movable = std::stable_partition(corners_.begin(), corners_.end(), [&](const Corner& corner) {
+    return !is_movable(feature_at(level, corner).image_px);
+  });
+  movable_corners_.assign(movable, corners_.end());
+  // As many as the budget would give to this share of the corners.
+  const std::size_t quota = static_cast<std::size_t>(quota_[static_cast<std::size_t>(level)]);
+  const std::size_t share = corners_.empty() ? 0 : quota * movable_corners_.size() / corners_.size();
+  corners_.erase(movable, corners_.end());
+  const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
+  for (const Corner& corner : spread_evenly(movable_corners_, static_cast<float>(image.cols - 2 * kBorder),
+                                            static_cast<float>(image.rows - 2 * kBorder), share)) {
+    features.push_back(feature_at(level, corner));
+    features.back().movable = true;
+  }
+}
+
+void OrbExtractor::extract(const cv::Mat& gray, const MovableTest& is_movable,
+                           std::vector<Feature>& features) {
   features.clear();
   build_pyramid(gray);
   for (int l = 0; l < config_.levels; ++l) {
     const cv::Mat& image = pyramid_[static_cast<std::size_t>(l)];
     find_corners(image);
+    if (is_movable) split_movable(l, is_movable, features);
     const auto chosen = spread_evenly(corners_, static_cast<float>(image.cols - 2 * kBorder),
                                       static_cast<float>(image.rows - 2 * kBorder),
                                       static_cast<std::size_t>(quota_[static_cast<std::size_t>(l)]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -19,16 +20,23 @@ namespace rds::tracker {
 /// between pictures. Deterministic. Source: Rublee et al. 2011; Mur-Artal & Tardós 2017, §III.
 class OrbExtractor {
  public:
+  using MovableTest = std::function<bool(const Eigen::Vector2f& image_px)>;
+
   explicit OrbExtractor(const ExtractionConfig& config);
 
-  /// @param gray      CV_8UC1 of any size; pictures too small for a patch give no feature.
-  /// @param features  overwritten: px and image_px both as seen in the picture, no depth; level by level.
-  void extract(const cv::Mat& gray, std::vector<Feature>& features);
+  /// @param gray       CV_8UC1 of any size; pictures too small for a patch give no feature.
+  /// @param is_movable  if given: tells by place in the picture what lies on a movable object. Such features
+  /// are returned for show, marked, without angle and descriptor; they cost nothing of the budget, so that
+  /// the static rest still gets all of it.
+  /// @param features   overwritten: px and image_px both as seen in the picture, no depth; level by level.
+  void extract(const cv::Mat& gray, const MovableTest& is_movable, std::vector<Feature>& features);
 
  private:
   void build_pyramid(const cv::Mat& gray);
   void find_corners(const cv::Mat& image);
   void fill_empty_cells(const cv::Mat& image, const cv::Rect& inner);
+  void split_movable(int level, const MovableTest& is_movable, std::vector<Feature>& features);
+  [[nodiscard]] Feature feature_at(int level, const Corner& corner) const;
   void describe_level(int level, const std::vector<Corner>& corners, std::vector<Feature>& features);
   [[nodiscard]] float orientation(const cv::Mat& image, int x, int y) const;
 
@@ -38,6 +46,7 @@ class OrbExtractor {
   std::vector<cv::Mat> pyramid_;
   std::vector<cv::KeyPoint> keypoints_;
   std::vector<Corner> corners_;
+  std::vector<Corner> movable_corners_;
   std::vector<int> corners_in_cell_;
   cv::Mat descriptors_;
   cv::Ptr<cv::ORB> orb_;

@@ -62,8 +62,14 @@ void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const Movabl
   picture.color.to_gray(gray_);
   std::vector<Feature> features;
   features.reserve(static_cast<std::size_t>(config_.extraction.features));
-  extractor_.extract(gray_, features);
-  complete_features(picture.camera, picture.depth, movable, config_.depth.max_depth_m, features);
+  OrbExtractor::MovableTest is_movable;
+  if (!movable.empty())
+    is_movable = [&](const Eigen::Vector2f& px) {
+      const float depth = depth_at(picture.depth, px, config_.depth.max_depth_m);
+      return std::ranges::any_of(movable, [&](const MovableRegion& r) { return covers(r, px, depth); });
+    };
+  extractor_.extract(gray_, is_movable, features);
+  complete_features(picture.camera, picture.depth, config_.depth.max_depth_m, features);
   frame.stamp_ns = picture.stamp_ns;
   frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
   frame.clear_matches();

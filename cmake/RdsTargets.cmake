@@ -41,10 +41,14 @@ function(rds_executable name)
   target_link_libraries(${name} PRIVATE rds_options ${A_PRIVATE})
 endfunction()
 
-# rds_test(NAME SOURCES x_test.cpp PRIVATE libs [LABEL unit|integration|system|bench] [TIMEOUT s] [SERIAL])
-# One GoogleTest executable; every TEST becomes a ctest test that knows where the recordings are through RDS_SHARED.
+# Made by the test fixture dynamic_sequences, shared by all presets.
+set(RDS_DYNAMIC_DIR ${PROJECT_SOURCE_DIR}/build/dynamic)
+
+# rds_test(NAME SOURCES x_test.cpp PRIVATE libs [LABEL unit|integration|system|bench] [TIMEOUT s] [SERIAL] [DYNAMIC])
+# One GoogleTest executable; every TEST becomes a ctest test that knows where the recordings are through RDS_SHARED;
+# with DYNAMIC also where sequences with people are, made from them by the fixture dynamic_sequences, through RDS_DYNAMIC.
 function(rds_test name)
-  cmake_parse_arguments(A "SERIAL" "LABEL;TIMEOUT" "SOURCES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(A "SERIAL;DYNAMIC" "LABEL;TIMEOUT" "SOURCES;PRIVATE" ${ARGN})
   if(NOT A_LABEL)
     set(A_LABEL unit)
   endif()
@@ -58,6 +62,9 @@ function(rds_test name)
   set(properties LABELS ${A_LABEL} TIMEOUT ${A_TIMEOUT})
   if(A_SERIAL)
     list(APPEND properties RUN_SERIAL ON)
+  endif()
+  if(A_DYNAMIC)
+    list(APPEND properties FIXTURES_REQUIRED dynamic_sequences ENVIRONMENT RDS_DYNAMIC=${RDS_DYNAMIC_DIR})
   endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
 endfunction()

@@ -16,4 +16,10 @@ std::string why_not_shared(const std::string& name) {
   return "";
 }
 
+std::filesystem::path dynamic_sequence(const std::string& name) {
+  const char* folder = std::getenv("RDS_DYNAMIC");
+  if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / name / "made")) return "";
+  return std::filesystem::path(folder) / name;
+}
+
 }  // namespace rds::test

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
-#include <sstream>
-#include <string>
+#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "common/geometry/pose.hpp"
+#include "common/image/tum_dataset.hpp"
 #include "common/vision/place_index.hpp"
+#include "tests/support/shared_data.hpp"
 
 namespace rds::vision {
 namespace {
@@ -23,41 +22,19 @@ struct View {
   cv::Mat descriptors;
 };
 
-/// Lines of a TUM list that are not comments.
-std::vector<std::vector<std::string>> read_list(const std::string& path) {
-  std::ifstream file(path);
-  std::vector<std::vector<std::string>> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream words(line);
-    lines.emplace_back();
-    for (std::string word; words >> word;) lines.back().push_back(word);
-  }
-  return lines;
-}
-
-/// The pose of `poses` whose stamp is nearest.
-geometry::Pose pose_at(const std::vector<std::vector<std::string>>& poses, double stamp) {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    if (std::abs(std::stod(poses[i][0]) - stamp) < std::abs(std::stod(poses[best][0]) - stamp)) best = i;
-  std::vector<double> v;
-  for (const auto& word : poses[best]) v.push_back(std::stod(word));
-  return geometry::make_pose({v[1], v[2], v[3]}, Eigen::Quaterniond(v[7], v[4], v[5], v[6]));
-}
-
 /// Every n-th frame of a recording with up to 1000 ORB features.
-std::vector<View> read_views(const std::string& folder, std::size_t every) {
-  const auto pictures = read_list(folder + "/rgb.txt");
-  const auto poses = read_list(folder + "/groundtruth.txt");
+std::vector<View> read_views(const std::filesystem::path& folder, std::size_t every) {
+  const auto dataset = image::TumDataset::open(folder);
+  if (!dataset) throw std::runtime_error(dataset.error());
   const auto orb = cv::ORB::create(1000);
   std::vector<View> views;
-  for (std::size_t i = 0; i < pictures.size(); i += every) {
+  for (std::size_t i = 0; i < dataset->frames().size(); i += every) {
+    const auto frame = dataset->load(dataset->frames()[i]);
+    if (!frame) throw std::runtime_error(frame.error());
     View view;
-    view.map_from_camera = pose_at(poses, std::stod(pictures[i][0]));
+    view.map_from_camera = geometry::interpolate(dataset->ground_truth().value(), frame->stamp_ns);
     std::vector<cv::KeyPoint> keypoints;
-    orb->detectAndCompute(cv::imread(folder + "/" + pictures[i][1], cv::IMREAD_GRAYSCALE), cv::noArray(),
-                          keypoints, view.descriptors);
+    orb->detectAndCompute(frame->color.pixels, cv::noArray(), keypoints, view.descriptors);
     views.push_back(view);
   }
   return views;
@@ -73,7 +50,8 @@ bool is_revisit(const View& a, const View& b) {
          geometry::rotation_angle_rad(difference(a, b).linear()) < 0.35;
 }
 
-/// The pictures may show common things (the optical axes are within a field of view): ranking it is no mistake.
+/// The pictures may show common things (the optical axes are within a field of view): ranking it is no
+/// mistake.
 bool may_overlap(const View& a, const View& b) {
   const double cosine = a.map_from_camera.linear().col(2).dot(b.map_from_camera.linear().col(2));
   return difference(a, b).translation().norm() < 2.0 && cosine > std::cos(1.0);
@@ -113,11 +91,10 @@ Counts count(const std::vector<View>& views, const std::vector<View>& strangers,
 }
 
 TEST(PlaceIndexOnRecordedPictures, FindsRevisitedPlacesAndRanksNoOtherPlaceFirst) {
-  const char* shared = std::getenv("RDS_SHARED");
-  if (shared == nullptr)
-    GTEST_SKIP() << "RDS_SHARED is not set: needs data/7scenes_kitchen and data/tum_fr1_rpy";
-  const auto kitchen = read_views(std::string(shared) + "/data/7scenes_kitchen", 4);
-  const auto office = read_views(std::string(shared) + "/data/tum_fr1_rpy", 4);
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  const auto kitchen = read_views(test::shared() / "data/7scenes_kitchen", 4);
+  const auto office = read_views(test::shared() / "data/tum_fr1_rpy", 4);
   ASSERT_GE(kitchen.size(), 100U);
   ASSERT_GE(office.size(), 100U);
   const Counts in_kitchen = count(kitchen, office, 12);

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# setup.sh: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
+# (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
+#
+# RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+check_system() {
+  local name
+  name=$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}") || true
+  [ "$name" = "debian 12" ] || fail "this system is '${name:-unknown}': expected Debian 12 (bookworm)"
+  [ "$(id -u)" = 0 ] || command -v sudo >/dev/null || fail "sudo: expected on the PATH, or run this as root"
+}
+
+# Names in packages.txt that are not installed and not made unnecessary by a command.
+missing_packages() {
+  local package condition
+  sed 's/#.*//' "$root/tools/packages.txt" | while read -r package condition; do
+    [ -n "$package" ] || continue
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ] || continue
+    [ -z "$condition" ] || ! command -v "${condition#unless:}" >/dev/null || continue
+    echo "$package"
+  done
+}
+
+install_packages() {
+  local -a apt=(as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300)
+  say "  package lists"
+  long_step apt-update quiet "${apt[@]}" update
+  long_step apt-install apt_progress "${apt[@]}" install -y --no-install-recommends -o Dpkg::Use-Pty=0 "$@"
+}
+
+set_up_packages() {
+  local -a missing
+  mapfile -t missing < <(missing_packages)
+  if [ ${#missing[@]} = 0 ]; then
+    say "[1/3] Debian packages: all there"
+  else
+    say "[1/3] Debian packages: installing ${missing[*]}"
+    install_packages "${missing[@]}"
+  fi
+}
+
+set_up_python() {
+  local venv=$root/.venv wanted
+  wanted=$(cat "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt" | sha256sum)
+  if [ "$(cat "$venv/requirements.sha256" 2>/dev/null)" = "$wanted" ] && "$venv/bin/python" -c '' 2>/dev/null; then
+    say "[2/3] PyPI packages: all there"
+    return
+  fi
+  say "[2/3] PyPI packages: installing into .venv"
+  rm -rf "$venv"
+  long_step venv quiet /usr/bin/python3 -m venv "$venv"
+  long_step pip quiet "$venv/bin/pip" install --no-input -r "$root/tools/requirements.txt"
+  echo "$wanted" >"$venv/requirements.sha256"
+}
+
+set_up_network() {
+  local shared=${RDS_SHARED:+$RDS_SHARED/models/mobilenetv2_ssdlite_voc.onnx}
+  if [ -n "$shared" ] && [ -f "$shared" ]; then
+    say "[3/3] network: $shared"
+    return
+  fi
+  say "[3/3] network: NanoDet-g"
+  if ! "$root/tools/networks/fetch_nanodet_g.sh" 2>/dev/null; then
+    command -v npm >/dev/null || { say "  npm, to fetch it"; install_packages npm; }
+    "$root/tools/networks/fetch_nanodet_g.sh"
+  fi
+}
+
+check_system
+set_up_packages
+set_up_python
+set_up_network

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "services/mapper/core/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// Unit vector of "x", "-x", … "-z". @throws std::invalid_argument for another word.
+Eigen::Vector3d axis_of(const std::string& name);
+
+/// Estimates the direction against gravity from what the keyframes see.
+///
+/// A handheld or mounted camera is roughly upright: the mean of −y of the cameras is a first guess. Surface
+/// normals within 40° of it (floor, table tops, and ceilings seen from below) vote; the densest 5° cone wins
+/// and is refined to its mean. Without enough such normals the first guess stands.
+/// @return unit vector in the map frame; (0, −1, 0) without keyframes.
+Eigen::Vector3d estimate_up(std::span<const KeyframeRecord* const> records);
+
+}  // namespace rds::mapper

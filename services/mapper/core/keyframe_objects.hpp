@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "services/mapper/core/keyframe_record.hpp"
+#include "services/mapper/core/label_table.hpp"
+
+namespace rds::mapper {
+
+/// Applies a keyframe's boxes to its record, replacing what earlier boxes did: marks movable objects, gives
+/// the pixels of static objects their label, and keeps each static object's boundary.
+///
+/// A static object is the segment of the point cloud that fits its box best; where there is none, what the
+/// depth cut leaves. Where objects overlap, the one with the higher score has the pixel.
+void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, const MapperConfig& config,
+                 LabelTable& labels);
+
+}  // namespace rds::mapper

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "services/mapper/core/mapper_config.hpp"
+#include "services/mapper/core/types.hpp"
+
+namespace rds::mapper {
+
+/// What a sampled pixel may do in the octree.
+enum class PixelUse : std::uint8_t {
+  kNone,     // no depth, flying pixel, rim of a movable object
+  kStatic,   // inserted as occupied; its ray carves
+  kMovable,  // lowered, never inserted
+  kBeyond,   // measured farther than max_range: only its ray carves
+};
+
+/// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
+/// with the pose.
+struct ObjectSighting {
+  static constexpr std::size_t kMaxPoints = 256;
+  std::uint16_t label = 0;
+  float score = 0;
+  bool cut_by_border = false;
+  std::vector<Eigen::Vector3f> points_in_camera;
+};
+
+/// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
+std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
+                                                                int stride_px);
+
+/// A keyframe in the form in which it can be integrated again and again: strided, in camera coordinates.
+/// Vectors have width × height entries, row by row.
+struct KeyframeRecord {
+  std::uint64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  geometry::Pose map_from_camera = geometry::Pose::Identity();
+  geometry::CameraModel camera;  // of the full picture
+  int stride = 1;
+  int width = 0;   // sampled columns
+  int height = 0;  // sampled rows
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;
+  std::vector<std::uint16_t> depth_tenth_mm;  // 0 = none, 65535 = 6.5 m or more
+  std::vector<std::uint8_t> rgb;              // 3 per pixel
+  std::vector<PixelUse> use;
+  std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
+  bool looked_for_objects = false;
+  std::vector<ObjectSighting> sightings;
+
+  [[nodiscard]] std::size_t size() const { return depth_tenth_mm.size(); }
+  [[nodiscard]] float depth_m(std::size_t i) const { return static_cast<float>(depth_tenth_mm[i]) * 1e-4F; }
+  [[nodiscard]] Eigen::Vector3f point_in_camera(std::size_t i) const { return (*rays)[i] * depth_m(i); }
+};
+
+/// Why a keyframe cannot be used, in one sentence; nullopt if it can.
+std::optional<std::string> check(const KeyframeInput& input);
+
+/// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.
+/// @param rays  of this camera and stride, shared between records.
+KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
+                           std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
+
+/// Sets `use` from the depth alone (what make_record does, and what forgets earlier boxes).
+void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config);
+
+}  // namespace rds::mapper

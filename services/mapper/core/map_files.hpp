@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <octomap/ColorOcTree.h>
+#include <tl/expected.hpp>
+
+#include "services/mapper/core/occupancy_grid.hpp"
+#include "services/mapper/core/types.hpp"
+
+namespace rds::mapper {
+
+/// Each writer writes beside the target and renames: a reader never sees half a file.
+/// @return one sentence naming the file if it cannot be written.
+using WriteResult = tl::expected<void, std::string>;
+
+/// map.ot, as any OctoMap tool reads it.
+WriteResult write_tree(const std::filesystem::path& file, const octomap::ColorOcTree& tree);
+
+/// Reads map.ot. A file that is not an OctoMap ColorOcTree, is cut off, or has bytes behind its end is
+/// refused.
+/// @return one sentence naming the file and what was expected.
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const std::filesystem::path& file);
+
+/// objects.json.
+WriteResult write_objects(const std::filesystem::path& file, std::span<const MapObject> objects);
+
+/// grid.pgm and grid.yaml for map_server, in `folder`.
+WriteResult write_grid(const std::filesystem::path& folder, const OccupancyGrid& grid);
+
+/// keyframes.txt: TUM format, map_from_camera.
+WriteResult write_keyframes(const std::filesystem::path& file, std::span<const KeyframePose> poses);
+
+}  // namespace rds::mapper

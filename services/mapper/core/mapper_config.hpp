@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/config/config_reader.hpp"
+
+namespace rds::mapper {
+
+/// How a keyframe's pictures become points.
+struct SamplingConfig {
+  int stride_px = 2;           // every stride-th pixel of every stride-th row
+  double min_range_m = 0.4;    // depth along the optical axis
+  double max_range_m = 4.0;    // farther points are not inserted; their rays carve up to here
+  double edge_depth_m = 0.03;  // neighbours nearer in depth than this × max(1, depth / 1 m) support a pixel
+  int edge_support = 3;        // of 8 neighbours; fewer: a flying pixel at a depth edge, rejected
+};
+
+/// Depth cut of an object inside its box (NGD-SLAM's trick, know-how of the field).
+struct RegionConfig {
+  double half_depth_m = 0.35;   // object = |depth − object depth| below this
+  int margin_px = 24;           // the box is widened by this before the cut
+  int rim_px = 8;               // around a movable object: neither inserted nor lowered
+  double min_component = 0.05;  // connected parts smaller than this share of the largest are dropped
+  double min_inside = 0.3;      // a part must lie inside the unwidened box by this share
+};
+
+struct SegmentationConfig {
+  bool enabled = true;
+  int stride = 2;  // of the sampled points
+  double plane_angle_deg = 3.0;
+  double plane_distance_m = 0.02;
+  double min_plane_share = 0.033;  // of the picture (10 000 px of 640×480)
+  double min_cluster_share = 0.0033;
+  double cluster_distance = 0.015;  // between neighbours, × depth
+  double min_overlap = 0.25;        // IoU of cluster and box in the picture
+};
+
+struct ObjectConfig {
+  std::map<std::string, double> class_radius_m = {
+      {"bottle", 0.06}, {"chair", 0.5}, {"person", 0.35}, {"tvmonitor", 0.25}, {"tv", 0.25}};
+  double default_radius_m = 0.6;
+  int min_observations = 2;   // an object is reported from here on
+  double hit = 0.85;          // log-odds of existence per observation
+  double miss = 0.15;         // not detected though in view
+  double seen_through = 0.6;  // the camera measured something behind it
+  double max_existence = 3.5;
+  double border_weight = 0.25;  // of an observation cut by the picture's border
+};
+
+struct OctreeConfig {
+  double resolution_m = 0.05;
+  double hit = 0.85;        // paper §IV-C: static point
+  double miss = -0.41;      // paper §IV-C: movable point; also rays
+  double clamp_min = 0.12;  // probabilities
+  double clamp_max = 0.97;
+  bool carve_rays = true;      // free space along rays of static pixels
+  bool color_by_label = true;  // a labelled voxel shows its label's colour
+  double label_share = 0.3;    // of a voxel's votes that a label needs
+};
+
+struct CorrectionConfig {
+  double min_translation_m = 0.01;  // smaller pose corrections wait for settle()
+  double min_rotation_deg = 0.5;
+  int max_keyframes =
+      1000;  // kept for re-integration (0.46 MB each at 640×480, stride 2); older ones are final
+};
+
+struct GridConfig {
+  std::string up = "auto";     // auto, x, -x, y, -y, z, -z: of the map frame
+  std::string floor = "auto";  // auto, or the height of the floor along `up` [m]
+  double min_height_m = 0.10;  // above the floor
+  double max_height_m = 1.80;
+  int min_occupied = 1;  // occupied voxels in the band that make a cell an obstacle
+};
+
+struct MapperConfig {
+  std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
+  SamplingConfig sampling;
+  RegionConfig region;
+  SegmentationConfig segmentation;
+  ObjectConfig objects;
+  OctreeConfig octree;
+  CorrectionConfig correction;
+  GridConfig grid;
+
+  [[nodiscard]] bool is_movable(const std::string& label) const;
+};
+
+/// Reads the sections of mapper.yaml; every violation is collected by the reader.
+void read(config::ConfigReader& reader, MapperConfig& config);
+
+}  // namespace rds::mapper

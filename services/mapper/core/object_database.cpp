@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/object_database.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kTrim = 0.02;        // share of points outside the boundary at each end
+constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
+constexpr double kInViewShare = 0.8;  // of the projected box inside the picture
+constexpr double kOcclusionMarginM = 0.15;  // nearer than the object by this: something stands before it
+constexpr int kProbes = 5;                  // per side of the projected box
+
+double iou(const geometry::Box3& a, const geometry::Box3& b) {
+  const Eigen::Vector3d overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
+  const double common = overlap.prod();
+  const double all = a.size().prod() + b.size().prod() - common;
+  return all > 0 ? common / all : 0;
+}
+
+/// What the depth picture says about the place of an object.
+struct View {
+  int measured = 0;
+  int occluded = 0;
+  int seen_through = 0;
+};
+
+View look_at(const geometry::Box2& box, double near_m, double far_m, const KeyframeRecord& record) {
+  View view;
+  for (int row = 0; row < kProbes; ++row)
+    for (int column = 0; column < kProbes; ++column) {
+      const double x = box.x0 + box.width() * (column + 0.5) / kProbes;
+      const double y = box.y0 + box.height() * (row + 0.5) / kProbes;
+      const int sx = std::min(record.width - 1, static_cast<int>(x / record.stride));
+      const int sy = std::min(record.height - 1, static_cast<int>(y / record.stride));
+      const auto i = static_cast<std::size_t>(sy * record.width + sx);
+      if (record.depth_tenth_mm[i] == 0) continue;
+      ++view.measured;
+      const double depth = record.depth_m(i);
+      if (depth < near_m - kOcclusionMarginM || record.use[i] == PixelUse::kMovable) ++view.occluded;
+      if (depth > far_m + kOcclusionMarginM) ++view.seen_through;
+    }
+  return view;
+}
+
+nlohmann::json rounded(const Eigen::Vector3d& v) {
+  const auto round = [](double x) { return std::round(x * 1e4) / 1e4 + 0.0; };
+  return {round(v.x()), round(v.y()), round(v.z())};
+}
+
+}  // namespace
+
+geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
+  geometry::Box3 box;
+  std::vector<double> values(sighting.points_in_camera.size());
+  if (values.empty()) return box;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(sighting.points_in_camera, values.begin(), [&](const auto& p) {
+      return (map_from_camera * p.template cast<double>())[axis];
+    });
+    std::ranges::sort(values);
+    const auto cut = static_cast<std::size_t>(kTrim * static_cast<double>(values.size()));
+    box.min[axis] = values[cut];
+    box.max[axis] = values[values.size() - 1 - cut];
+  }
+  return box;
+}
+
+void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {
+  for (auto& entry : entries_) entry.seen_now = false;
+  for (const auto& sighting : record.sightings) fuse(sighting, record, labels);
+  if (!record.looked_for_objects) return;
+  for (auto& entry : entries_)
+    if (!entry.seen_now) fade(entry, record);
+  std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
+}
+
+ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
+  const auto known = config_.class_radius_m.find(label);
+  const double radius = known != config_.class_radius_m.end() ? known->second : config_.default_radius_m;
+  Entry* best = nullptr;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (auto& entry : entries_) {
+    if (entry.object.label != label || entry.seen_now)
+      continue;  // two sightings in one picture are two objects
+    const double distance = (geometry::Box3{entry.min, entry.max}.center() - box.center()).norm();
+    const bool same = distance < radius || iou({entry.min, entry.max}, box) > kMinOverlap;
+    if (same && distance < best_distance) {
+      best = &entry;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& record,
+                          const LabelTable& labels) {
+  const auto box = boundary_in_map(sighting, record.map_from_camera);
+  if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
+  const auto& label = labels.names()[sighting.label];
+  Entry* entry = nearest(label, box);
+  if (entry == nullptr) {
+    entry = &entries_.emplace_back();
+    entry->object.id = next_id_++;
+    entry->object.label = label;
+    entry->object.first_seen_ns = record.stamp_ns;
+  }
+  const double weight =
+      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? config_.border_weight : 1.0);
+  entry->weight += weight;
+  const double gain =
+      weight / entry->weight;  // every observation counts by its weight, the thousandth as the first
+  entry->min += (box.min - entry->min) * gain;
+  entry->max += (box.max - entry->max) * gain;
+  entry->score_sum += sighting.score;
+  entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
+  entry->seen_now = true;
+  auto& object = entry->object;
+  ++object.observations;
+  object.score = static_cast<float>(entry->score_sum / object.observations);
+  object.center = (entry->min + entry->max) / 2;
+  object.size = entry->max - entry->min;
+  object.last_seen_ns = std::max(object.last_seen_ns, record.stamp_ns);
+}
+
+void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
+  const geometry::Pose camera_from_map = record.map_from_camera.inverse();
+  const geometry::Box3 box{entry.min, entry.max};
+  const auto in_picture = geometry::project(box, camera_from_map, record.camera);
+  const Eigen::Vector3d center = camera_from_map * box.center();
+  if (!in_picture || center.z() <= 0) return;
+  geometry::CameraModel wide = record.camera;  // the same projection without the picture's limits
+  constexpr int kBorder = 2000;
+  wide.width += 2 * kBorder;
+  wide.height += 2 * kBorder;
+  wide.cx += kBorder;
+  wide.cy += kBorder;
+  const auto whole = geometry::project(box, camera_from_map, wide);
+  if (!whole || in_picture->area() < kInViewShare * whole->area()) return;
+  const double half_depth = box.size().norm() / 2;
+  const auto view = look_at(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
+  if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
+  entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
+}
+
+std::vector<MapObject> ObjectDatabase::objects() const {
+  std::vector<MapObject> reported;
+  for (const auto& entry : entries_)
+    if (entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations))
+      reported.push_back(entry.object);
+  return reported;
+}
+
+std::string to_json(std::span<const MapObject> objects) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& o : objects)
+    list.push_back({{"id", o.id},
+                    {"label", o.label},
+                    {"score", std::round(double{o.score} * 1e4) / 1e4},
+                    {"center", rounded(o.center)},
+                    {"size", rounded(o.size)},
+                    {"observations", o.observations},
+                    {"movable", o.movable}});
+  return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/object_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kInnerShare = 0.6;     // part of the box, about its centre, in which the object surely lies
+constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
+
+struct DepthInterval {
+  float min_m;
+  float max_m;
+};
+
+/// The box in sampled pixels, widened, inside the picture.
+cv::Rect sampled_rect(const geometry::Box2& box, double margin_px, const KeyframeRecord& record) {
+  const double s = record.stride;
+  const auto low = [&](double v) { return static_cast<int>(std::ceil((v - margin_px) / s)); };
+  const auto high = [&](double v) { return static_cast<int>(std::ceil((v + margin_px) / s)); };
+  const cv::Rect rect(cv::Point(low(box.x0), low(box.y0)), cv::Point(high(box.x1), high(box.y1)));
+  return rect & cv::Rect(0, 0, record.width, record.height);
+}
+
+geometry::Box2 inner_part(const geometry::Box2& box) {
+  const double dx = box.width() * (1 - kInnerShare) / 2;
+  const double dy = box.height() * (1 - kInnerShare) / 2;
+  return {box.x0 + dx, box.y0 + dy, box.x1 - dx, box.y1 - dy};
+}
+
+std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
+                             const KeyframeRecord& record) {
+  std::vector<float> depths;
+  for (int y = rect.y; y < rect.y + rect.height; ++y)
+    for (int x = rect.x; x < rect.x + rect.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * record.width + x);
+      const float d = record.depth_m(i);
+      if (record.use[i] != PixelUse::kNone && d >= limits.min_m && d <= limits.max_m) depths.push_back(d);
+    }
+  return depths;
+}
+
+/// What is known beforehand of where the object stands.
+DepthInterval depth_limits(const LabelledBox& box, const KeyframeRecord& record, const RegionConfig& config) {
+  const auto half = static_cast<float>(config.half_depth_m);
+  if (box.depth_m > 0 && std::isfinite(box.depth_m)) return {box.depth_m - half, box.depth_m + half};
+  if (!box.box_in_map) return {0, 100};
+  DepthInterval interval{100, 0};
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto& b = *box.box_in_map;
+    const Eigen::Vector3d p(corner & 1 ? b.max.x() : b.min.x(), corner & 2 ? b.max.y() : b.min.y(),
+                            corner & 4 ? b.max.z() : b.min.z());
+    const auto z = static_cast<float>((record.map_from_camera.inverse() * p).z());
+    interval = {std::min(interval.min_m, z), std::max(interval.max_m, z)};
+  }
+  return {interval.min_m - half / 2, interval.max_m + half / 2};
+}
+
+/// Depth of the object's visible side [m]; 0 if too little was measured.
+float object_depth(std::vector<float> depths) {
+  if (depths.size() < kMinDepths) return 0;
+  std::ranges::sort(depths);
+  return (depths[depths.size() / 2] + depths[depths.size() / 3]) / 2;
+}
+
+cv::Mat near_depth(const cv::Rect& rect, float depth_m, const RegionConfig& config,
+                   const KeyframeRecord& record) {
+  cv::Mat near(rect.size(), CV_8U, cv::Scalar(0));
+  for (int y = 0; y < rect.height; ++y)
+    for (int x = 0; x < rect.width; ++x) {
+      const auto i = static_cast<std::size_t>((rect.y + y) * record.width + rect.x + x);
+      const bool inside = record.depth_tenth_mm[i] != 0 &&
+                          std::abs(record.depth_m(i) - depth_m) <= static_cast<float>(config.half_depth_m);
+      near.at<std::uint8_t>(y, x) = inside ? 1 : 0;
+    }
+  return near;
+}
+
+/// Labels of the connected parts of `near` that belong to the object.
+std::vector<bool> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside,
+                                  const RegionConfig& config) {
+  std::vector<int> area(static_cast<std::size_t>(count), 0);
+  std::vector<int> area_inside(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < parts.rows; ++y)
+    for (int x = 0; x < parts.cols; ++x) {
+      const auto part = static_cast<std::size_t>(parts.at<int>(y, x));
+      ++area[part];
+      if (inside.contains({x, y})) ++area_inside[part];
+    }
+  area[0] = area_inside[0] = 0;  // the background
+  const int largest = *std::ranges::max_element(area_inside);
+  std::vector<bool> keep(area.size(), false);
+  for (std::size_t part = 1; part < area.size(); ++part)
+    keep[part] = area_inside[part] > 0 && area_inside[part] >= config.min_component * largest &&
+                 area_inside[part] >= config.min_inside * area[part];
+  return keep;
+}
+
+}  // namespace
+
+std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record) {
+  if (box.box_px.area() > 0) {
+    const auto clipped = box.box_px.clipped(record.camera.width, record.camera.height);
+    const bool finite = std::isfinite(clipped.x0 + clipped.y0 + clipped.x1 + clipped.y1);
+    return finite && clipped.area() > 0 ? std::optional(clipped) : std::nullopt;
+  }
+  if (!box.box_in_map || !box.box_in_map->min.allFinite() || !box.box_in_map->max.allFinite())
+    return std::nullopt;
+  return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.camera);
+}
+
+std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
+                                       const RegionConfig& config) {
+  const auto box_px = image_box(box, record);
+  if (!box_px) return {};
+  const auto limits = depth_limits(box, record, config);
+  float depth = object_depth(depths_in(sampled_rect(inner_part(*box_px), 0, record), limits, record));
+  if (depth <= 0) depth = object_depth(depths_in(sampled_rect(*box_px, 0, record), limits, record));
+  if (depth <= 0) return {};
+
+  const cv::Rect wide = sampled_rect(*box_px, config.margin_px, record);
+  cv::Mat parts;
+  const int count = cv::connectedComponents(near_depth(wide, depth, config, record), parts, 8, CV_32S);
+  const auto keep = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl(), config);
+  std::vector<std::size_t> region;
+  for (int y = 0; y < wide.height; ++y)
+    for (int x = 0; x < wide.width; ++x)
+      if (keep[static_cast<std::size_t>(parts.at<int>(y, x))])
+        region.push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
+  return region;
+}
+
+void mark_movable(KeyframeRecord& record, const std::vector<std::size_t>& region,
+                  const RegionConfig& config) {
+  if (region.empty()) return;
+  cv::Mat mask(record.height, record.width, CV_8U, cv::Scalar(0));
+  for (const auto i : region) mask.data[i] = 1;
+  const int radius = (config.rim_px + record.stride - 1) / record.stride;
+  cv::Mat rim;
+  cv::dilate(mask, rim, cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (mask.data[i] != 0 && record.use[i] != PixelUse::kNone && record.use[i] != PixelUse::kBeyond)
+      record.use[i] = PixelUse::kMovable;
+    else if (rim.data[i] != 0 && record.use[i] != PixelUse::kMovable)
+      record.use[i] = PixelUse::kNone;
+  }
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/mapper/core/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// Image box [px of the full picture] of a labelled box: its own, or the projection of its 3-D box.
+/// @return nullopt if it is not finite or has no area inside the picture.
+std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record);
+
+/// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.
+///
+/// The object's depth is the mean of median and lower third of the depths in the box's inner part (or near
+/// `box.depth_m`, or inside the 3-D box, if given); its pixels are those near that depth in the widened box,
+/// in connected parts that lie in the box.
+/// @return indices of sampled pixels, ascending; empty if the box has no usable depth.
+/// Source: depth mask inside the box (NGD-SLAM); paper §IV-C asks for points inside the 3-D box.
+std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
+                                       const RegionConfig& config);
+
+/// Marks the region as movable, and a rim around it as unusable.
+void mark_movable(KeyframeRecord& record, const std::vector<std::size_t>& region, const RegionConfig& config);
+
+}  // namespace rds::mapper

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/octree_replica.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "services/mapper/core/label_table.hpp"
+
+namespace rds::mapper {
+namespace {
+
+constexpr std::size_t kMaxVoxelsPerDelta = 20'000'000;
+constexpr float kMaxLogOdds = 100;
+
+std::uint64_t packed(const octomap::OcTreeKey& key) {
+  return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
+}
+
+octomap::OcTreeKey key_of(const std::vector<std::uint16_t>& keys, std::size_t row) {
+  return {keys[3 * row], keys[3 * row + 1], keys[3 * row + 2]};
+}
+
+/// What is wrong with a delta's arrays; empty if nothing.
+std::string malformed(const MapDelta& d) {
+  const std::size_t n = d.log_odds.size();
+  if (d.keys.size() != 3 * n || d.labels.size() != n || d.colors.size() != 3 * n ||
+      d.deleted_keys.size() % 3 != 0)
+    return fmt::format(
+        "arrays of {} keys, {} log-odds, {} labels, {} colours, {} deleted keys do not fit each other",
+        d.keys.size(), n, d.labels.size(), d.colors.size(), d.deleted_keys.size());
+  if (n > kMaxVoxelsPerDelta || d.deleted_keys.size() / 3 > kMaxVoxelsPerDelta) return "too many voxels";
+  if (!std::ranges::all_of(d.log_odds, [](float v) { return std::abs(v) <= kMaxLogOdds; }))
+    return "log-odds that are not finite or too large";
+  if (!(d.resolution > 1e-4 && d.resolution < 1e3)) return fmt::format("a resolution of {} m", d.resolution);
+  if (d.revision <= d.base_revision) return fmt::format("revision {} after {}", d.revision, d.base_revision);
+  return {};
+}
+
+}  // namespace
+
+std::uint16_t OctreeReplica::label(const octomap::OcTreeKey& key) const {
+  const auto found = labels_.find(packed(key));
+  return found == labels_.end() ? std::uint16_t{0} : found->second;
+}
+
+ReplicaAnswer OctreeReplica::apply_full(std::span<const std::uint8_t> payload, double resolution_m,
+                                        std::uint64_t map_epoch, std::uint64_t revision,
+                                        std::span<const std::string> labels) {
+  if (tree_ && map_epoch == map_epoch_ && revision <= revision_)
+    return {ReplicaStatus::kOld, fmt::format("full map of revision {}, have {}", revision, revision_)};
+  auto read = tree_from_bytes(payload, resolution_m);
+  if (!read) return {ReplicaStatus::kMalformed, "full map: " + read.error()};
+  tree_ = std::make_unique<EditableOcTree>(resolution_m);
+  tree_->adopt(std::move(**read));
+  map_epoch_ = map_epoch;
+  revision_ = revision;
+
+  labels_.clear();
+  std::map<Rgb, std::uint16_t> label_of_color;
+  for (std::size_t i = 1; i < std::min(labels.size(), LabelTable::kMaxLabels); ++i)
+    label_of_color.emplace(label_color(labels[i]), static_cast<std::uint16_t>(i));
+  if (label_of_color.empty()) return {};
+  for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
+    const auto color = leaf->getColor();
+    const auto found = label_of_color.find({color.r, color.g, color.b});
+    if (found != label_of_color.end() && tree_->isNodeOccupied(*leaf))
+      labels_[packed(leaf.getKey())] = found->second;
+  }
+  return {};
+}
+
+ReplicaAnswer OctreeReplica::check(const MapDelta& delta) const {
+  if (auto fault = malformed(delta); !fault.empty()) return {ReplicaStatus::kMalformed, "delta: " + fault};
+  const bool starts_epoch = delta.base_revision == 0;
+  if (!tree_ || delta.map_epoch != map_epoch_) {
+    if (starts_epoch) return {};
+    return {tree_ ? ReplicaStatus::kOtherEpoch : ReplicaStatus::kGap,
+            fmt::format("delta of epoch {:x} from revision {}, no full map of it yet", delta.map_epoch,
+                        delta.base_revision)};
+  }
+  if (std::abs(delta.resolution - tree_->getResolution()) > 1e-9)
+    return {ReplicaStatus::kOtherResolution,
+            fmt::format("delta with voxels of {} m, have {} m", delta.resolution, tree_->getResolution())};
+  if (delta.revision <= revision_)
+    return {ReplicaStatus::kOld, fmt::format("delta to revision {}, have {}", delta.revision, revision_)};
+  if (delta.base_revision != revision_)
+    return {ReplicaStatus::kGap,
+            fmt::format("delta from revision {}, have {}", delta.base_revision, revision_)};
+  return {};
+}
+
+ReplicaAnswer OctreeReplica::apply(const MapDelta& delta) {
+  auto answer = check(delta);
+  if (answer.status != ReplicaStatus::kApplied) return answer;
+  if (!tree_ || delta.map_epoch != map_epoch_) {
+    tree_ = std::make_unique<EditableOcTree>(delta.resolution);
+    labels_.clear();
+    map_epoch_ = delta.map_epoch;
+  }
+  set_voxels(delta);
+  delete_voxels(delta);
+  tree_->updateInnerOccupancy();
+  revision_ = delta.revision;
+  return answer;
+}
+
+void OctreeReplica::set_voxels(const MapDelta& delta) {
+  std::array<EditableOcTree::Node*, EditableOcTree::kDepth + 1> path{};
+  for (std::size_t row = 0; row < delta.log_odds.size(); ++row) {
+    const auto key = key_of(delta.keys, row);
+    auto* voxel = tree_->descend(key, EditableOcTree::kDepth, path);
+    voxel->setLogOdds(delta.log_odds[row]);
+    voxel->setColor(delta.colors[3 * row], delta.colors[3 * row + 1], delta.colors[3 * row + 2]);
+    if (delta.labels[row] != 0)
+      labels_[packed(key)] = delta.labels[row];
+    else
+      labels_.erase(packed(key));
+  }
+}
+
+void OctreeReplica::delete_voxels(const MapDelta& delta) {
+  for (std::size_t row = 0; row < delta.deleted_keys.size() / 3; ++row) {
+    const auto key = key_of(delta.deleted_keys, row);
+    tree_->erase(key);
+    labels_.erase(packed(key));
+  }
+}
+
+}  // namespace rds::mapper

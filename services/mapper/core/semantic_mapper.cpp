@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/semantic_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "services/mapper/core/gravity.hpp"
+#include "services/mapper/core/keyframe_objects.hpp"
+
+namespace rds::mapper {
+namespace {
+constexpr double kDegree = 3.14159265358979 / 180;
+}
+
+SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch)
+    : config_(std::move(config)), map_epoch_(map_epoch) {
+  reset(map_epoch);
+}
+
+void SemanticMapper::reset(std::uint64_t map_epoch) {
+  map_epoch_ = map_epoch;
+  revision_ = 0;
+  labels_ = LabelTable();
+  keyframes_.clear();
+  base_.reset();
+  map_.reset(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+  final_keyframes_ = 0;
+  boxes_waiting_ = false;
+}
+
+void SemanticMapper::start_from(octomap::ColorOcTree&& tree, std::uint64_t map_epoch) {
+  if (std::abs(tree.getResolution() - config_.octree.resolution_m) > 1e-9)
+    throw std::invalid_argument(fmt::format("the saved map has voxels of {} m, expected {} m",
+                                            tree.getResolution(), config_.octree.resolution_m));
+  reset(map_epoch);
+  map_->octree.start_from(std::move(tree));
+  base_ = std::make_unique<Map>(*map_);
+  revision_ = 1;
+}
+
+MapDelta SemanticMapper::new_delta() const {
+  MapDelta delta;
+  delta.map_epoch = map_epoch_;
+  delta.base_revision = revision_;
+  delta.revision = revision_;
+  delta.resolution = config_.octree.resolution_m;
+  if (!keyframes_.empty()) {
+    delta.keyframe_id = keyframes_.rbegin()->first;
+    delta.stamp_ns = keyframes_.rbegin()->second.record.stamp_ns;
+  }
+  return delta;
+}
+
+std::shared_ptr<const std::vector<Eigen::Vector3f>> SemanticMapper::rays_of(
+    const geometry::CameraModel& camera) {
+  if (!rays_ || !(camera == ray_camera_)) {
+    rays_ = sample_rays(camera, config_.sampling.stride_px);
+    ray_camera_ = camera;
+  }
+  return rays_;
+}
+
+MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
+  if (const auto fault = check(input)) throw std::invalid_argument(*fault);
+  if (keyframes_.contains(input.id))
+    throw std::invalid_argument(fmt::format("keyframe {}: is in the map already", input.id));
+  auto record = make_record(input, config_.sampling, rays_of(input.camera));
+  if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
+  const auto& added =
+      keyframes_.emplace(input.id, Keyframe{std::move(record), input.map_from_camera}).first->second;
+  MapDelta delta = new_delta();
+  delta.keyframe_id = input.id;
+  delta.stamp_ns = input.stamp_ns;
+  integrate_into(*map_, added.record, delta);
+  delta.revision = ++revision_;
+  make_oldest_final();
+  return delta;
+}
+
+void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta) {
+  make_scan(record, config_.octree, config_.sampling, scan_);
+  map.octree.integrate(scan_, record.looked_for_objects, labels_, delta);
+  map.objects.integrate(record, labels_);
+}
+
+void SemanticMapper::make_oldest_final() {
+  while (keyframes_.size() > static_cast<std::size_t>(config_.correction.max_keyframes)) {
+    if (!base_) base_.reset(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+    MapDelta unused;
+    integrate_into(*base_, keyframes_.begin()->second.record, unused);
+    keyframes_.erase(keyframes_.begin());
+    ++final_keyframes_;
+  }
+}
+
+bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes) {
+  const auto found = keyframes_.find(keyframe_id);
+  if (found == keyframes_.end()) return false;
+  apply_boxes(found->second.record, boxes, config_, labels_);
+  boxes_waiting_ = true;
+  return true;
+}
+
+void SemanticMapper::take_poses(std::span<const KeyframePose> poses) {
+  for (const auto& pose : poses) {
+    const auto found = keyframes_.find(pose.id);
+    if (found != keyframes_.end() && geometry::is_finite(pose.map_from_camera))
+      found->second.record.map_from_camera = pose.map_from_camera;
+  }
+}
+
+bool SemanticMapper::moved_enough() const {
+  return std::ranges::any_of(keyframes_, [&](const auto& entry) {
+    const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.record.map_from_camera;
+    return moved.translation().norm() > config_.correction.min_translation_m ||
+           geometry::rotation_angle_rad(moved.linear()) > config_.correction.min_rotation_deg * kDegree;
+  });
+}
+
+MapDelta SemanticMapper::apply_poses(std::span<const KeyframePose> poses) {
+  take_poses(poses);
+  return boxes_waiting_ || moved_enough() ? rebuild() : new_delta();
+}
+
+MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
+  take_poses(poses);
+  return rebuild();
+}
+
+MapDelta SemanticMapper::rebuild() {
+  auto fresh =
+      base_ ? std::make_unique<Map>(*base_)
+            : std::unique_ptr<Map>(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+  MapDelta unused;
+  for (auto& [id, keyframe] : keyframes_) {
+    integrate_into(*fresh, keyframe.record, unused);
+    keyframe.integrated_pose = keyframe.record.map_from_camera;
+    unused = MapDelta{};
+  }
+  MapDelta delta = new_delta();
+  map_->octree.difference(fresh->octree, delta);
+  map_ = std::move(fresh);
+  boxes_waiting_ = false;
+  delta.revision = ++revision_;
+  return delta;
+}
+
+Eigen::Vector3d SemanticMapper::up_in_map() const {
+  if (config_.grid.up != "auto") return axis_of(config_.grid.up);
+  std::vector<const KeyframeRecord*> records;
+  for (const auto& [id, keyframe] : keyframes_) records.push_back(&keyframe.record);
+  return estimate_up(records);
+}
+
+OccupancyGrid SemanticMapper::grid() const {
+  return make_grid(tree(), up_in_map(), config_.grid);
+}
+
+std::vector<KeyframePose> SemanticMapper::keyframe_poses() const {
+  std::vector<KeyframePose> poses;
+  for (const auto& [id, keyframe] : keyframes_)
+    poses.push_back({id, keyframe.record.stamp_ns, keyframe.record.map_from_camera});
+  return poses;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+
+#include "services/mapper/core/object_database.hpp"
+#include "services/mapper/core/occupancy_grid.hpp"
+#include "services/mapper/core/semantic_octree.hpp"
+
+namespace rds::mapper {
+
+/// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
+///
+/// Every keyframe is kept (strided), so that the map can be made again when poses or boxes change: after
+/// settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order in
+/// which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
+class SemanticMapper {
+ public:
+  explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0);
+
+  /// Adds a keyframe with the pose it carries.
+  /// @throws std::invalid_argument if check(input) finds a fault or its id is already there.
+  MapDelta integrate(const KeyframeInput& input);
+
+  /// Boxes that arrive after their keyframe, or replace earlier ones; they act at the next apply_poses() or
+  /// settle().
+  /// @return false if there is no such keyframe, or it has become final.
+  bool set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes);
+
+  /// Takes over corrected poses. Re-integrates all keyframes when one moved beyond the threshold since it was
+  /// integrated, or boxes are waiting; otherwise only remembers the poses. Poses of unknown keyframes, and
+  /// poses that are not finite, are ignored.
+  /// @return what changed, deletions included; is_noop() if nothing was done.
+  MapDelta apply_poses(std::span<const KeyframePose> poses);
+
+  /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
+  MapDelta settle(std::span<const KeyframePose> poses);
+
+  /// Forgets everything and starts an epoch.
+  void reset(std::uint64_t map_epoch);
+
+  /// Starts an epoch from a saved map; later keyframes are integrated into it.
+  /// @param tree  of this resolution. @throws std::invalid_argument for another resolution.
+  void start_from(octomap::ColorOcTree&& tree, std::uint64_t map_epoch);
+
+  [[nodiscard]] const octomap::ColorOcTree& tree() const { return map_->octree.tree(); }
+  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return map_->octree.label(key); }
+  [[nodiscard]] std::vector<MapObject> objects() const { return map_->objects.objects(); }
+  [[nodiscard]] const LabelTable& labels() const { return labels_; }
+  [[nodiscard]] OccupancyGrid grid() const;
+  /// Unit vector against gravity in the map frame, as configured or estimated.
+  [[nodiscard]] Eigen::Vector3d up_in_map() const;
+  /// Poses the map will have after the next re-integration, by id.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
+  [[nodiscard]] std::uint64_t map_epoch() const { return map_epoch_; }
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  [[nodiscard]] std::size_t keyframes() const { return keyframes_.size() + final_keyframes_; }
+  [[nodiscard]] const MapperConfig& config() const { return config_; }
+
+ private:
+  /// All that is made from keyframes and can be made again.
+  struct Map {
+    SemanticOctree octree;
+    ObjectDatabase objects;
+  };
+  struct Keyframe {
+    KeyframeRecord record;
+    geometry::Pose integrated_pose;
+  };
+
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(const geometry::CameraModel& camera);
+  void take_poses(std::span<const KeyframePose> poses);
+  [[nodiscard]] bool moved_enough() const;
+  MapDelta rebuild();
+  void integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta);
+  void make_oldest_final();
+  [[nodiscard]] MapDelta new_delta() const;
+
+  MapperConfig config_;
+  std::uint64_t map_epoch_;
+  std::uint64_t revision_ = 0;
+  LabelTable labels_;
+  std::map<std::uint64_t, Keyframe> keyframes_;
+  std::unique_ptr<Map> base_;  // what is final: a loaded map, keyframes beyond the limit; nullptr if nothing
+  std::unique_ptr<Map> map_;
+  std::size_t final_keyframes_ = 0;
+  bool boxes_waiting_ = false;
+  Scan scan_;  // scratch
+  geometry::CameraModel ray_camera_;
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
+};
+
+}  // namespace rds::mapper

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/semantic_octree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace rds::mapper {
+namespace {
+
+using Node = EditableOcTree::Node;
+constexpr std::uint16_t kMaxColorWeight = 32;  // later pictures still count: exposure drifts
+constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
+
+std::uint64_t packed(const octomap::OcTreeKey& key) {
+  return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
+}
+
+void append_key(std::vector<std::uint16_t>& keys, const octomap::OcTreeKey& key) {
+  keys.insert(keys.end(), {key[0], key[1], key[2]});
+}
+
+void append_voxel(MapDelta& delta, const octomap::OcTreeKey& key, const Node& node, std::uint16_t label) {
+  append_key(delta.keys, key);
+  delta.log_odds.push_back(node.getLogOdds());
+  delta.labels.push_back(label);
+  const auto color = node.getColor();
+  delta.colors.insert(delta.colors.end(), {color.r, color.g, color.b});
+}
+
+octomap::OcTreeKey child_key(const octomap::OcTreeKey& key, unsigned index, unsigned size) {
+  return {static_cast<std::uint16_t>(key[0] + (index & 1 ? size : 0)),
+          static_cast<std::uint16_t>(key[1] + (index & 2 ? size : 0)),
+          static_cast<std::uint16_t>(key[2] + (index & 4 ? size : 0))};
+}
+
+/// True if a ray passed or a surface was seen in any of the cells; `count` is a multiple of 8.
+bool is_touched(const std::uint8_t* flags, std::size_t count) {
+  constexpr std::uint64_t kEight = 0x0101010101010101U;
+  std::uint64_t any = 0;
+  for (std::size_t i = 0; i < count; i += 8) {
+    std::uint64_t siblings = 0;
+    std::memcpy(&siblings, flags + i, 8);
+    any |= siblings;
+  }
+  return (any & (kSurface | kRayPassed) * kEight) != 0;
+}
+
+}  // namespace
+
+void VoxelMemory::see_color(const SurfaceVoxel& surface) {
+  times_seen_ = std::min<std::uint16_t>(static_cast<std::uint16_t>(times_seen_ + 1), kMaxColorWeight);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float seen = static_cast<float>(surface.rgb_sum[c]) / static_cast<float>(surface.static_pixels);
+    mean_rgb_[c] += (seen - mean_rgb_[c]) / static_cast<float>(times_seen_);
+  }
+}
+
+void VoxelMemory::vote(std::uint16_t label) {
+  if (votes_cast_ == UINT16_MAX) return;
+  ++votes_cast_;
+  if (label == 0) return;
+  auto mine = std::ranges::find_if(votes_, [&](const Votes& v) { return v.label == label; });
+  if (mine == votes_.end()) mine = std::ranges::min_element(votes_, {}, &Votes::count);
+  if (mine->label != label) {
+    if (mine->count > 1) return;  // three better established labels
+    *mine = {label, 0};
+  }
+  ++mine->count;
+}
+
+std::uint16_t VoxelMemory::label(double needed_share) const {
+  const auto better = [](const Votes& a, const Votes& b) {
+    return a.count != b.count ? a.count < b.count : a.label > b.label;
+  };
+  const auto& best = *std::ranges::max_element(votes_, better);
+  return best.count > 0 && best.count >= needed_share * votes_cast_ ? best.label : std::uint16_t{0};
+}
+
+Rgb VoxelMemory::color() const {
+  const auto channel = [&](std::size_t c) { return static_cast<std::uint8_t>(std::lround(mean_rgb_[c])); };
+  return {channel(0), channel(1), channel(2)};
+}
+
+struct SemanticOctree::Update {
+  const Scan& scan;
+  bool looked_for_objects;
+  const LabelTable& labels;
+  MapDelta& delta;
+};
+
+SemanticOctree::SemanticOctree(const OctreeConfig& config) : config_(config), tree_(config.resolution_m) {
+  tree_.setClampingThresMin(config.clamp_min);
+  tree_.setClampingThresMax(config.clamp_max);
+  tree_.setOccupancyThres(0.5);
+}
+
+void SemanticOctree::start_from(octomap::ColorOcTree&& tree) {
+  tree_.adopt(std::move(tree));
+}
+
+std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
+  const auto found = memory_.find(packed(key));
+  return found == memory_.end() ? std::uint16_t{0} : found->second.label(config_.label_share);
+}
+
+void SemanticOctree::integrate(const Scan& scan, bool looked_for_objects, const LabelTable& labels,
+                               MapDelta& delta) {
+  const Update update{scan, looked_for_objects, labels, delta};
+  for (const auto& block : scan.grid.blocks()) update_block(block, update);
+}
+
+void SemanticOctree::update_block(const ScanGrid::Block& block, const Update& update) {
+  if (!is_touched(block.flags.data(), block.flags.size())) return;
+  const octomap::OcTreeKey base(block.key[0], block.key[1], block.key[2]);
+  std::array<Node*, EditableOcTree::kDepth + 1> path{};
+  Node* top = tree_.descend(base, kBlockDepth, path);
+  for (unsigned outer = 0; outer < 8; ++outer) {
+    if (!is_touched(&block.flags[outer * 64], 64)) continue;
+    Node* parent = tree_.child(top, outer);
+    for (unsigned inner = 0; inner < 8; ++inner) {
+      const unsigned first_cell = outer * 64 + inner * 8;
+      if (!is_touched(&block.flags[first_cell], 8)) continue;
+      update_siblings(tree_.child(parent, inner), child_key(child_key(base, outer, 4), inner, 2), block,
+                      first_cell, update);
+    }
+    EditableOcTree::refresh(parent);
+  }
+  for (unsigned depth = kBlockDepth + 1; depth-- > 0;) EditableOcTree::refresh(path[depth]);
+}
+
+void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& base,
+                                     const ScanGrid::Block& block, unsigned first_cell,
+                                     const Update& update) {
+  for (unsigned index = 0; index < 8; ++index) {
+    const auto flags = block.flags[first_cell + index];
+    if ((flags & (kSurface | kRayPassed)) == 0) continue;
+    const bool created = !tree_.nodeChildExists(parent, index);
+    const SurfaceVoxel* surface =
+        (flags & kSurface) != 0 ? &update.scan.surfaces[block.slot[first_cell + index]] : nullptr;
+    update_voxel(tree_.child(parent, index), created, child_key(base, index, 1), surface, update);
+  }
+  EditableOcTree::refresh(parent);
+}
+
+void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
+                                  const SurfaceVoxel* surface, const Update& update) {
+  const bool hit = surface != nullptr && surface->is_hit();
+  const float before = node->getLogOdds();
+  const auto color_before = node->getColor();
+  const float step = static_cast<float>(hit ? config_.hit : config_.miss);  // paper §IV-C
+  node->setLogOdds(std::clamp(before + step, tree_.getClampingThresMinLog(), tree_.getClampingThresMaxLog()));
+  std::uint16_t label = 0;
+  const bool was_occupied = before > tree_.getOccupancyThresLog();
+  if (node->getLogOdds() > tree_.getOccupancyThresLog()) {
+    label = hit ? remember(node, key, *surface, update) : this->label(key);
+  } else if (was_occupied) {
+    memory_.erase(packed(key));
+    node->setColor(Node::Color());
+  }
+  const bool label_may_differ = hit && !config_.color_by_label;  // else the colour tells
+  if (created || label_may_differ || node->getLogOdds() != before || node->getColor() != color_before)
+    append_voxel(update.delta, key, *node, label);
+}
+
+std::uint16_t SemanticOctree::remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
+                                       const Update& update) {
+  auto& memory = memory_[packed(key)];
+  memory.see_color(surface);
+  if (update.looked_for_objects) memory.vote(surface.label);
+  const auto label = memory.label(config_.label_share);
+  const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : memory.color();
+  node->setColor(color[0], color[1], color[2]);
+  return label;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unordered_map>
+
+#include "services/mapper/core/editable_octree.hpp"
+#include "services/mapper/core/label_table.hpp"
+#include "services/mapper/core/scan.hpp"
+
+namespace rds::mapper {
+
+/// What an occupied voxel remembers besides its log-odds.
+class VoxelMemory {
+ public:
+  void see_color(const SurfaceVoxel& surface);
+  /// One vote per keyframe that looked for objects; label 0 votes against all.
+  void vote(std::uint16_t label);
+  /// The label with most votes if it has the needed share, else 0; ties go to the lower index.
+  [[nodiscard]] std::uint16_t label(double needed_share) const;
+  [[nodiscard]] Rgb color() const;
+
+ private:
+  struct Votes {
+    std::uint16_t label = 0;
+    std::uint16_t count = 0;
+  };
+  std::array<float, 3> mean_rgb_{};
+  std::uint16_t times_seen_ = 0;
+  std::uint16_t votes_cast_ = 0;
+  std::array<Votes, 3> votes_{};
+};
+
+/// The semantic octree of paper §IV-C: log-odds +0.85 where a static point was seen, −0.41 where a movable
+/// point was seen or a ray passed, clamped; occupied above p = 0.5. Each voxel changes at most once per
+/// keyframe, hits win over misses.
+class SemanticOctree {
+ public:
+  explicit SemanticOctree(const OctreeConfig& config);
+
+  /// Integrates one scan and appends what it changed to `delta` (arrays only).
+  void integrate(const Scan& scan, bool looked_for_objects, const LabelTable& labels, MapDelta& delta);
+
+  /// Appends what turns this tree into `newer` to `delta`: changed voxels, then deleted ones, in key order of
+  /// the tree.
+  void difference(const SemanticOctree& newer, MapDelta& delta) const;
+
+  /// Starts from a saved tree; its voxels have no labels. @param tree  fully expanded.
+  void start_from(octomap::ColorOcTree&& tree);
+
+  [[nodiscard]] const octomap::ColorOcTree& tree() const { return tree_; }
+  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const;
+
+ private:
+  using Node = EditableOcTree::Node;
+  struct Update;  // one block being integrated
+
+  void update_block(const ScanGrid::Block& block, const Update& update);
+  void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
+                       unsigned first_cell, const Update& update);
+  void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
+                    const Update& update);
+  std::uint16_t remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
+                         const Update& update);
+
+  OctreeConfig config_;
+  EditableOcTree tree_;
+  std::unordered_map<std::uint64_t, VoxelMemory> memory_;  // looked up by key only: its order means nothing
+};
+
+}  // namespace rds::mapper

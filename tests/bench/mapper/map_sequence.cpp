@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps a recorded sequence with its true poses and writes a run's map files: how good and how fast is the
+// mapper alone?
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/semantic_mapper.hpp"
+#include "tests/bench/mapper/recording.hpp"
+#include "tools/rds/map_picture.hpp"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::ranges::sort(values);
+  return values.empty() ? 0
+                        : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+struct Options {
+  std::string dataset;
+  std::string out;
+  std::string config;
+  std::string boxes = "people.json";
+  std::size_t every = 8;
+};
+
+rds::mapper::MapperConfig read_config(const std::string& file) {
+  rds::mapper::MapperConfig config;
+  if (file.empty()) return config;
+  auto reader = rds::config::ConfigReader::from_file(file);
+  read(reader, config);
+  reader.finish();
+  return config;
+}
+
+void write_picture(const rds::mapper::SemanticMapper& mapper, const std::filesystem::path& file) {
+  rds::tools::MapScene scene{.tree = mapper.tree(), .labels = mapper.labels().names()};
+  for (const auto& o : mapper.objects())
+    scene.objects.push_back({o.label, o.center - o.size / 2, o.center + o.size / 2});
+  for (const auto& pose : mapper.keyframe_poses())
+    scene.trajectory.push_back(pose.map_from_camera.translation());
+  rds::tools::PictureOptions options;
+  options.up = mapper.up_in_map();
+  cv::imwrite(file, rds::tools::render_map(scene, options));
+}
+
+int run(const Options& options) {
+  namespace fs = std::filesystem;
+  const fs::path dataset = options.dataset;
+  const bool has_boxes = !options.boxes.empty() && fs::exists(dataset / options.boxes);
+  const rds::bench::Recording recording(dataset, has_boxes ? dataset / options.boxes : fs::path());
+  rds::mapper::SemanticMapper mapper(read_config(options.config), 1);
+  std::vector<double> times;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < recording.size(); i += options.every) {
+    const auto input = recording.keyframe(i);
+    const auto start = Clock::now();
+    changed += mapper.integrate(input).log_odds.size();
+    times.push_back(ms_since(start));
+  }
+  auto start = Clock::now();
+  mapper.settle({});
+  const double settle_ms = ms_since(start);
+  start = Clock::now();
+  const auto grid = mapper.grid();
+  const double grid_ms = ms_since(start);
+  const fs::path out = options.out;
+  fs::create_directories(out);
+  for (const auto& result :
+       {rds::mapper::write_tree(out / "map.ot", mapper.tree()), rds::mapper::write_grid(out, grid),
+        rds::mapper::write_objects(out / "objects.json", mapper.objects()),
+        rds::mapper::write_keyframes(out / "keyframes.txt", mapper.keyframe_poses())})
+    if (!result) throw std::runtime_error(result.error());
+  start = Clock::now();
+  write_picture(mapper, out / "map.png");
+  std::cout << fmt::format(
+      "{} keyframes, integrate ms: median {:.2f}, p95 {:.2f}, max {:.2f}; settle {:.0f} ms; grid {:.1f} ms; "
+      "picture "
+      "{:.0f} ms; {} nodes; {:.0f} changed voxels per keyframe; up {:.3f} {:.3f} {:.3f}; {} objects\n",
+      times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 1), settle_ms, grid_ms,
+      ms_since(start), mapper.tree().size(), static_cast<double>(changed) / static_cast<double>(times.size()),
+      mapper.up_in_map().x(), mapper.up_in_map().y(), mapper.up_in_map().z(), mapper.objects().size());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{
+      "Maps a recorded sequence with its true poses; writes map.ot, objects.json, grid, keyframes.txt, "
+      "map.png"};
+  app.add_option("dataset", options.dataset, "TUM-format folder with groundtruth.txt and camera.yaml")
+      ->required();
+  app.add_option("out", options.out, "folder for the results")->required();
+  app.add_option("--every", options.every, "every n-th frame is a keyframe")->check(CLI::PositiveNumber);
+  app.add_option("--config", options.config, "mapper.yaml");
+  app.add_option("--boxes", options.boxes, "truth boxes in the dataset; \"\" for none");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(options);
+  } catch (const std::exception& e) {
+    std::cerr << e.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/mapper/recording.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace rds::bench {
+namespace {
+
+template <class T>
+T or_throw(tl::expected<T, std::string> result) {
+  if (!result) throw std::runtime_error(result.error());
+  return std::move(*result);
+}
+
+}  // namespace
+
+Recording::Recording(const std::filesystem::path& folder, const std::filesystem::path& boxes_file)
+    : dataset_(or_throw(image::TumDataset::open(folder))) {
+  if (!dataset_.ground_truth()) throw std::runtime_error(folder.string() + "/groundtruth.txt: missing");
+  if (!boxes_file.empty()) read_boxes(boxes_file);
+}
+
+void Recording::read_boxes(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  has_boxes_ = true;
+  for (const auto& frame : nlohmann::json::parse(in).at("frames")) {
+    const double stamp_s = std::stod(frame.at("timestamp").get<std::string>());
+    auto& boxes = boxes_[std::llround(stamp_s * 1e6)];
+    for (const auto& person : frame.at("people")) {
+      const auto b = person.at("box").get<std::vector<double>>();
+      boxes.push_back({"person",
+                       1.0F,
+                       {b.at(0), b.at(1), b.at(2), b.at(3)},
+                       std::nullopt,
+                       person.at("distance").get<float>(),
+                       true});
+    }
+  }
+}
+
+mapper::KeyframeInput Recording::keyframe(std::size_t i) const {
+  const auto frame = or_throw(dataset_.load(dataset_.frames().at(i)));
+  mapper::KeyframeInput input{.id = i,
+                              .stamp_ns = frame.stamp_ns,
+                              .map_from_camera = {},
+                              .color = frame.color,
+                              .depth = frame.depth,
+                              .camera = frame.camera,
+                              .boxes = std::nullopt};
+  input.map_from_camera = geometry::interpolate(*dataset_.ground_truth(), frame.stamp_ns);
+  if (!has_boxes_) return input;
+  const auto found = boxes_.find(std::llround(static_cast<double>(frame.stamp_ns) * 1e-3));
+  input.boxes = found == boxes_.end() ? std::vector<mapper::LabelledBox>{} : found->second;
+  return input;
+}
+
+}  // namespace rds::bench

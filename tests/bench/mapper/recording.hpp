@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "common/image/tum_dataset.hpp"
+#include "services/mapper/core/types.hpp"
+
+namespace rds::bench {
+
+/// A recorded sequence with ground truth as keyframes for the mapper.
+class Recording {
+ public:
+  /// @param boxes_file  people.json of the sequence, or a file of its form; "" if nobody looked for objects.
+  /// @throws std::runtime_error naming what is missing.
+  Recording(const std::filesystem::path& folder, const std::filesystem::path& boxes_file);
+
+  [[nodiscard]] std::size_t size() const { return dataset_.frames().size(); }
+  /// Frame i: its pictures, the true pose between the recorded ones, the true boxes of people.
+  [[nodiscard]] mapper::KeyframeInput keyframe(std::size_t i) const;
+
+ private:
+  void read_boxes(const std::filesystem::path& file);
+
+  image::TumDataset dataset_;
+  bool has_boxes_ = false;
+  std::map<std::int64_t, std::vector<mapper::LabelledBox>> boxes_;  // by stamp [µs]
+};
+
+}  // namespace rds::bench

@@ -37,9 +37,10 @@ VoxelModel::VoxelModel(const octomap::ColorOcTree& tree, const Eigen::Matrix3d& 
 void VoxelModel::measure() {
   bounds_.setEmpty();
   std::vector<double> values(voxels_.size());
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-  for (int axis = 0; axis < 3 && !values.empty(); ++axis) {
+  if (voxels_.empty()) return;
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
     std::ranges::transform(voxels_, values.begin(),
                            [axis](const Voxel& v) { return v.center_in_level[axis]; });
     std::ranges::sort(values);

@@ -3,6 +3,22 @@
 
 namespace rds::mapper {
 
+EditableOcTree::EditableOcTree(const EditableOcTree& other) : ColorOcTree(other.getResolution()) {
+  setClampingThresMin(other.getClampingThresMin());
+  setClampingThresMax(other.getClampingThresMax());
+  setOccupancyThres(other.getOccupancyThres());
+  if (other.root == nullptr) return;
+  std::array<Node*, kDepth + 1> path{};
+  copy_children(descend({0, 0, 0}, 0, path), other, other.root);
+}
+
+void EditableOcTree::copy_children(Node* to, const EditableOcTree& other, const Node* from) {
+  to->copyData(*from);
+  for (unsigned i = 0; i < 8; ++i)
+    if (other.nodeChildExists(from, i))
+      copy_children(createNodeChild(to, i), other, other.getNodeChild(from, i));
+}
+
 EditableOcTree::Node* EditableOcTree::descend(const octomap::OcTreeKey& key, unsigned depth,
                                               std::array<Node*, kDepth + 1>& path) {
   bool created = root == nullptr;
@@ -20,12 +36,6 @@ EditableOcTree::Node* EditableOcTree::descend(const octomap::OcTreeKey& key, uns
     path[level + 1] = child(node, index);
   }
   return path[depth];
-}
-
-void EditableOcTree::erase(const octomap::OcTreeKey& key) {
-  if (search(key) == nullptr) return;
-  deleteNode(key);
-  if (root != nullptr && !nodeHasChildren(root)) clear();
 }
 
 }  // namespace rds::mapper

@@ -16,6 +16,10 @@ class EditableOcTree : public octomap::ColorOcTree {
   static constexpr unsigned kDepth = 16;
 
   explicit EditableOcTree(double resolution_m) : ColorOcTree(resolution_m) {}
+  /// A deep copy. ColorOcTree's own copy constructor makes children of the base class's size: their colours
+  /// are lost.
+  EditableOcTree(const EditableOcTree& other);
+  EditableOcTree& operator=(const EditableOcTree&) = delete;
 
   /// Nodes from the root (path[0]) to the node of `key` at `depth`, created where missing; leaves met on the
   /// way are expanded. The values of created nodes are 0 until their leaves are set and refresh() ran.
@@ -35,8 +39,8 @@ class EditableOcTree : public octomap::ColorOcTree {
   /// Takes over another tree's nodes.
   void adopt(octomap::ColorOcTree&& other) { swapContent(other); }
 
-  /// Removes a voxel; inner values are stale until updateInnerOccupancy().
-  void erase(const octomap::OcTreeKey& key);
+ private:
+  void copy_children(Node* to, const EditableOcTree& other, const Node* from);
 };
 
 }  // namespace rds::mapper

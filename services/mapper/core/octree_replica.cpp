@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -103,7 +104,7 @@ ReplicaAnswer OctreeReplica::apply(const MapDelta& delta) {
   }
   set_voxels(delta);
   delete_voxels(delta);
-  tree_->updateInnerOccupancy();
+  if (tree_->getRoot() != nullptr) tree_->updateInnerOccupancy();
   revision_ = delta.revision;
   return answer;
 }
@@ -122,12 +123,25 @@ void OctreeReplica::set_voxels(const MapDelta& delta) {
   }
 }
 
+// ColorOcTree::deleteNode leaves emptied inner nodes behind (and OctoMap asserts on them), so the rest is
+// copied instead: voxels are deleted only when poses were corrected.
 void OctreeReplica::delete_voxels(const MapDelta& delta) {
+  if (delta.deleted_keys.empty()) return;
+  std::unordered_set<std::uint64_t> deleted;
   for (std::size_t row = 0; row < delta.deleted_keys.size() / 3; ++row) {
-    const auto key = key_of(delta.deleted_keys, row);
-    tree_->erase(key);
-    labels_.erase(packed(key));
+    const auto key = packed(key_of(delta.deleted_keys, row));
+    deleted.insert(key);
+    labels_.erase(key);
   }
+  auto rest = std::make_unique<EditableOcTree>(tree_->getResolution());
+  std::array<EditableOcTree::Node*, EditableOcTree::kDepth + 1> path{};
+  for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
+    if (deleted.contains(packed(leaf.getKey()))) continue;
+    auto* voxel = rest->descend(leaf.getKey(), EditableOcTree::kDepth, path);
+    voxel->setLogOdds(leaf->getLogOdds());
+    voxel->setColor(leaf->getColor());
+  }
+  tree_ = std::move(rest);
 }
 
 }  // namespace rds::mapper

@@ -89,7 +89,11 @@ struct SemanticOctree::Update {
   MapDelta& delta;
 };
 
-SemanticOctree::SemanticOctree(const OctreeConfig& config) : config_(config), tree_(config.resolution_m) {
+SemanticOctree::SemanticOctree(const OctreeConfig& config)
+    : config_(config),
+      lowest_(octomap::logodds(config.clamp_min)),
+      highest_(octomap::logodds(config.clamp_max)),
+      tree_(config.resolution_m) {
   tree_.setClampingThresMin(config.clamp_min);
   tree_.setClampingThresMax(config.clamp_max);
   tree_.setOccupancyThres(0.5);
@@ -149,7 +153,7 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
   const float before = node->getLogOdds();
   const auto color_before = node->getColor();
   const float step = static_cast<float>(hit ? config_.hit : config_.miss);  // paper §IV-C
-  node->setLogOdds(std::clamp(before + step, tree_.getClampingThresMinLog(), tree_.getClampingThresMaxLog()));
+  node->setLogOdds(std::clamp(before + step, lowest_, highest_));
   std::uint16_t label = 0;
   const bool was_occupied = before > tree_.getOccupancyThresLog();
   if (node->getLogOdds() > tree_.getOccupancyThresLog()) {

@@ -63,6 +63,8 @@ class SemanticOctree {
                          const Update& update);
 
   OctreeConfig config_;
+  float lowest_;  // clamping, log-odds
+  float highest_;
   EditableOcTree tree_;
   std::unordered_map<std::uint64_t, VoxelMemory> memory_;  // looked up by key only: its order means nothing
 };

@@ -47,7 +47,7 @@ rds::mapper::MapperConfig read_config(const std::string& file) {
 }
 
 void write_picture(const rds::mapper::SemanticMapper& mapper, const std::filesystem::path& file) {
-  rds::tools::MapScene scene{.tree = mapper.tree(), .labels = mapper.labels().names()};
+  rds::tools::MapScene scene{mapper.tree(), mapper.labels().names(), {}, {}};
   for (const auto& o : mapper.objects())
     scene.objects.push_back({o.label, o.center - o.size / 2, o.center + o.size / 2});
   for (const auto& pose : mapper.keyframe_poses())

@@ -29,7 +29,8 @@ void Recording::read_boxes(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error(file.string() + ": cannot be read");
   has_boxes_ = true;
-  for (const auto& frame : nlohmann::json::parse(in).at("frames")) {
+  const auto truth = nlohmann::json::parse(in);
+  for (const auto& frame : truth.at("frames")) {
     const double stamp_s = std::stod(frame.at("timestamp").get<std::string>());
     auto& boxes = boxes_[std::llround(stamp_s * 1e6)];
     for (const auto& person : frame.at("people")) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/mapper/core/semantic_mapper.hpp"
+
+namespace rds::mapper::test {
+
+/// 320×240 camera at the origin of the map, looking along z.
+inline geometry::CameraModel small_camera() {
+  return {320, 240, 290, 290, 159.5, 119.5, {}};
+}
+
+/// Fluent maker of keyframes: a grey wall filling the picture, with rectangles before it.
+class SyntheticKeyframe {
+ public:
+  explicit SyntheticKeyframe(std::uint64_t id, double wall_m = 3.0) {
+    input_.id = id;
+    input_.stamp_ns = static_cast<std::int64_t>(id) * 100'000'000;
+    input_.camera = small_camera();
+    input_.color.pixels = cv::Mat(240, 320, CV_8UC3, cv::Scalar(90, 100, 110));
+    input_.depth.values = cv::Mat(240, 320, CV_32FC1, cv::Scalar(wall_m));
+    input_.depth.metres_per_unit = 1.0F;
+  }
+
+  /// A rectangle of the picture at another depth [m] (0 or NaN: no measurement) and colour.
+  SyntheticKeyframe& rectangle(const cv::Rect& px, double depth_m, const cv::Scalar& bgr = {200, 50, 50}) {
+    input_.depth.values(px).setTo(cv::Scalar(depth_m));
+    input_.color.pixels(px).setTo(bgr);
+    return *this;
+  }
+  SyntheticKeyframe& box(const std::string& label, const cv::Rect& px, bool movable, float score = 0.9F) {
+    if (!input_.boxes) input_.boxes.emplace();
+    const geometry::Box2 box{double{1} * px.x, double{1} * px.y, double{1} * px.br().x,
+                             double{1} * px.br().y};
+    input_.boxes->push_back({label, score, box, std::nullopt, 0.0F, movable});
+    return *this;
+  }
+  SyntheticKeyframe& looked_for_objects() {
+    if (!input_.boxes) input_.boxes.emplace();
+    return *this;
+  }
+  SyntheticKeyframe& pose(const geometry::Pose& map_from_camera) {
+    input_.map_from_camera = map_from_camera;
+    return *this;
+  }
+  operator KeyframeInput() const { return input_; }  // NOLINT: a maker stands for what it makes
+  [[nodiscard]] KeyframeInput make() const { return input_; }
+
+ private:
+  KeyframeInput input_;
+};
+
+/// Map point [m] that a pixel at a depth shows, for a camera at the origin.
+inline Eigen::Vector3d point_at(double x_px, double y_px, double depth_m) {
+  return small_camera().ray({x_px, y_px}) * depth_m;
+}
+
+/// Log-odds of the voxel at a point; NaN where the map knows nothing.
+inline float log_odds_at(const octomap::ColorOcTree& tree, const Eigen::Vector3d& p) {
+  const auto* node = tree.search(p.x(), p.y(), p.z());
+  return node != nullptr ? node->getLogOdds() : std::numeric_limits<float>::quiet_NaN();
+}
+
+inline bool is_occupied(const octomap::ColorOcTree& tree, const Eigen::Vector3d& p) {
+  return log_odds_at(tree, p) > 0;
+}
+
+/// Number of occupied voxels with lower ≤ z < upper [m].
+inline int occupied_between(const octomap::ColorOcTree& tree, double lower, double upper) {
+  int count = 0;
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+    count += leaf.getZ() >= lower && leaf.getZ() < upper && tree.isNodeOccupied(*leaf) ? 1 : 0;
+  return count;
+}
+
+}  // namespace rds::mapper::test

@@ -11,6 +11,7 @@ namespace rds::bus::detail {
 namespace {
 
 /// MaxMessageSize and FragmentSize: with the defaults a third of the pictures to a Fast DDS reader is lost.
+/// GenerateKeyhash: without it Fast DDS does not understand that an endpoint or participant has left.
 /// WhcHigh: never above it, or a slow reader would throttle the writer; the history depth bounds the memory.
 constexpr const char* kCommonSettings =
     "<CycloneDDS><Domain Id=\"any\">"
@@ -20,6 +21,7 @@ constexpr const char* kCommonSettings =
     "max=\"4MB\"/>"
     "<Watermarks><WhcLow>1GB</WhcLow><WhcHigh>1GB</WhcHigh><WhcHighInit>1GB</WhcHighInit>"
     "<WhcAdaptive>false</WhcAdaptive></Watermarks>"
+    "<GenerateKeyhash>true</GenerateKeyhash>"
     "<MaxQueuedRexmitBytes>8MB</MaxQueuedRexmitBytes><NackDelay>10ms</NackDelay>"
     "</Internal>";
 

@@ -112,15 +112,23 @@ class DiscoveryListener final : public dds::DomainParticipantListener {
 
 class FastWriter final : public BackendWriter {
  public:
-  FastWriter(dds::Publisher* publisher, dds::Topic* topic, const dds::DataWriterQos& qos)
-      : publisher_(publisher), writer_(publisher->create_datawriter(topic, qos)) {
+  FastWriter(dds::Publisher* publisher, dds::Topic* topic, const TypeOps& type, const dds::DataWriterQos& qos)
+      : publisher_(publisher),
+        type_(type),
+        reliable_(qos.reliability().kind == dds::RELIABLE_RELIABILITY_QOS),
+        writer_(publisher->create_datawriter(topic, qos)) {
     if (writer_ == nullptr) throw BusError("Fast DDS refused a writer on " + topic->get_name());
   }
   ~FastWriter() override { publisher_->delete_datawriter(writer_); }
   FastWriter(const FastWriter&) = delete;
   FastWriter& operator=(const FastWriter&) = delete;
 
-  bool write(const void* message) override { return writer_->write(const_cast<void*>(message)); }
+  bool write(const void* message) override {
+    // Cyclone DDS forgets the fragments it has when the first heartbeat it hears comes between them, and Fast
+    // DDS has sent its first heartbeat before Cyclone DDS knew the writer: say it again.
+    if (reliable_ && type_.encoded_size(message) >= kSmallestFragmented) writer_->assert_liveliness();
+    return writer_->write(const_cast<void*>(message));
+  }
   [[nodiscard]] int matched() const override {
     dds::PublicationMatchedStatus status;
     writer_->get_publication_matched_status(status);
@@ -129,7 +137,11 @@ class FastWriter final : public BackendWriter {
   [[nodiscard]] Guid guid() const override { return to_guid(writer_->guid()); }
 
  private:
+  static constexpr std::size_t kSmallestFragmented = 60'000;
+
   dds::Publisher* publisher_;
+  const TypeOps& type_;
+  bool reliable_;
   dds::DataWriter* writer_;
 };
 
@@ -204,7 +216,8 @@ class FastBackend final : public Backend {
 
   std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
-    return std::make_unique<FastWriter>(publisher_, find_topic(topic, type), fastdds_writer_qos(type, qos));
+    return std::make_unique<FastWriter>(publisher_, find_topic(topic, type), type,
+                                        fastdds_writer_qos(type, qos));
   }
   std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every combination of vendors, over 127.0.0.1.
+#include <gtest/gtest.h>
+
+#include "sensor_msgs/msg/Image.h"
+#include "std_msgs/msg/Header.h"
+#include "tests/unit/common/bus/bus_test_support.hpp"
+
+namespace rds::bus {
+namespace {
+
+using sensor_msgs::msg::Image;
+using std_msgs::msg::Header;
+
+Header numbered(int number) {
+  Header header;
+  header.stamp().sec(number);
+  header.frame_id("map");
+  return header;
+}
+
+class Exchange : public ::testing::TestWithParam<VendorPair> {
+ protected:
+  std::unique_ptr<Participant> writer_side = join(GetParam().writer, "writer");
+  std::unique_ptr<Participant> reader_side = join(GetParam().reader, "reader");
+};
+
+TEST_P(Exchange, DeliversEveryMessageInOrder) {
+  Inbox<Header> inbox;
+  auto publisher = writer_side->advertise<Header>("numbers", kTransform);
+  auto subscription = reader_side->subscribe<Header>("numbers", kTransform, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription.matched() == 1; }));
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(publisher.write(numbered(i)));
+  ASSERT_TRUE(eventually([&] { return inbox.size() == 50; }));
+  const auto messages = inbox.messages();
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(*messages[static_cast<std::size_t>(i)], numbered(i));
+}
+
+TEST_P(Exchange, CarriesThreeMegabytes) {
+  Inbox<Image> inbox;
+  auto publisher = writer_side->advertise<Image>("images", kSensor);
+  auto subscription = reader_side->subscribe<Image>("images", kSensor, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription.matched() == 1; }));
+  Image image;
+  image.data().resize(3'000'000);
+  for (std::size_t i = 0; i < image.data().size(); ++i)
+    image.data()[i] = static_cast<std::uint8_t>(i * 7 / 3);
+  for (int i = 0; i < 3; ++i) {
+    image.header(numbered(i));
+    EXPECT_TRUE(publisher.write(image));
+    ASSERT_TRUE(eventually([&] { return inbox.size() == static_cast<std::size_t>(i) + 1; }));
+    EXPECT_EQ(*inbox.messages().back(), image);
+  }
+}
+
+TEST_P(Exchange, LateJoinerGetsTheLatchedMessage) {
+  auto publisher = writer_side->advertise<Header>("latched", kLatched);
+  publisher.write(numbered(1));
+  publisher.write(numbered(2));
+  Inbox<Header> inbox;
+  auto subscription = reader_side->subscribe<Header>("latched", kLatched, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return inbox.size() >= 1; }));
+  EXPECT_EQ(*inbox.messages().front(), numbered(2));
+  EXPECT_EQ(inbox.size(), 1U);
+}
+
+TEST_P(Exchange, LateJoinerGetsAllKeptMessages) {
+  auto publisher = writer_side->advertise<Header>("kept", kKeyframeFeatures);
+  for (int i = 0; i < 300; ++i) publisher.write(numbered(i));
+  Inbox<Header> inbox;
+  auto subscription = reader_side->subscribe<Header>("kept", kKeyframeFeatures, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return inbox.size() == 300; })) << inbox.size();
+  EXPECT_EQ(inbox.messages().front()->stamp().sec(), 0);
+  EXPECT_EQ(inbox.messages().back()->stamp().sec(), 299);
+}
+
+TEST_P(Exchange, BestEffortReaderHearsReliableWriter) {
+  Inbox<Header> inbox;
+  auto publisher = writer_side->advertise<Header>("sensor", kSensor);
+  auto subscription = reader_side->subscribe<Header>("sensor", kSensorBestEffort, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription.matched() == 1; }));
+  ASSERT_TRUE(eventually([&] {
+    publisher.write(numbered(1));
+    return inbox.size() > 0;
+  }));
+}
+
+TEST_P(Exchange, StalledReaderDoesNotBlockTheWriter) {
+  std::mutex stall;
+  std::unique_lock hold(stall);
+  auto publisher = writer_side->advertise<Image>("images", kSensor);
+  auto subscription = reader_side->subscribe<Image>(
+      "images", kSensor,
+      [&stall](const std::shared_ptr<const Image>&) { const std::lock_guard wait(stall); });
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription.matched() == 1; }));
+  Image image;
+  image.data().resize(1'500'000);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 40; ++i) EXPECT_TRUE(publisher.write(image));
+  EXPECT_LT(std::chrono::steady_clock::now() - start,
+            std::chrono::seconds(5));  // a blocked writer takes for ever
+  hold.unlock();
+}
+
+TEST_P(Exchange, WriterSeesAReaderGo) {
+  auto publisher = writer_side->advertise<Header>("numbers", kStream);
+  {
+    auto subscription = reader_side->subscribe<Header>("numbers", kStream, [](const auto&) {});
+    ASSERT_TRUE(eventually([&] { return publisher.matched() == 1; }));
+  }
+  EXPECT_TRUE(eventually([&] { return publisher.matched() == 0; }));
+  EXPECT_TRUE(publisher.write(numbered(1)));
+}
+
+TEST_P(Exchange, BothSidesCountTheTraffic) {
+  Inbox<Header> inbox;
+  auto publisher = writer_side->advertise<Header>("numbers", kStream);
+  auto subscription = reader_side->subscribe<Header>("numbers", kStream, inbox.callback());
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription.matched() == 1; }));
+  for (int i = 0; i < 3; ++i) publisher.write(numbered(i));
+  ASSERT_TRUE(eventually([&] { return inbox.size() == 3; }));
+  const auto written = writer_side->statistics();
+  const auto read = reader_side->statistics();
+  ASSERT_EQ(written.size(), 1U);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(written[0].messages, 3U);
+  EXPECT_EQ(written[0].bytes, 3U * 20U);  // 4 header + 8 stamp + 4 length + "map\0"
+  EXPECT_TRUE(written[0].publisher);
+  EXPECT_EQ(written[0].matched, 1);
+  EXPECT_EQ(read[0].messages, 3U);
+  EXPECT_EQ(read[0].bytes, 3U * 20U);
+  EXPECT_EQ(read[0].dropped, 0U);
+  EXPECT_EQ(read[0].topic, "numbers");
+}
+
+TEST_P(Exchange, EachDiscoversTheOther) {
+  auto publisher = writer_side->advertise<Header>("numbers", kStream);
+  auto subscription = reader_side->subscribe<Image>("images", kStream, [](const auto&) {});
+  const auto knows_both = [](const Participant& participant) {
+    bool numbers = false;
+    bool images = false;
+    for (const DiscoveredEndpoint& e : participant.discovered()) {
+      numbers |= e.topic == "numbers" && e.type == "std_msgs::msg::dds_::Header_" && e.publisher;
+      images |= e.topic == "images" && e.type == "sensor_msgs::msg::dds_::Image_" && !e.publisher;
+    }
+    return numbers && images;
+  };
+  EXPECT_TRUE(eventually([&] { return knows_both(*writer_side) && knows_both(*reader_side); }));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllVendors, Exchange, ::testing::ValuesIn(kAllPairs),
+                         [](const auto& instance) { return name_of(instance.param); });
+
+}  // namespace
+}  // namespace rds::bus

@@ -106,7 +106,8 @@ void run(const Options& options) {
       if (found == detections.end())
         throw std::runtime_error(options.detections + ": no line for the frame at " + keyframe.stamp_text);
       const auto pose = geometry::interpolate(*dataset.ground_truth(), keyframe.stamp_ns);
-      predictor.update(keyframe.stamp_ns, transform(found->second, pose, dataset.camera()));
+      predictor.update(keyframe.stamp_ns, transform(found->second, pose, dataset.camera()),
+                       KeyframeView{pose, dataset.camera()});
     }
     const auto camera_from_map = geometry::interpolate(*dataset.ground_truth(), frame.stamp_ns).inverse();
     json boxes = json::array();

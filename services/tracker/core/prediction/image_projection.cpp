@@ -31,9 +31,9 @@ Eigen::Vector2d facing_half_extents(const Eigen::Vector3d& size, const Eigen::Ma
 
 }  // namespace
 
-std::optional<geometry::Box2> image_box(const geometry::OrientedBox& box,
-                                        const geometry::Pose& camera_from_map,
-                                        const geometry::CameraModel& camera) {
+std::optional<geometry::Box2> whole_image_box(const geometry::OrientedBox& box,
+                                              const geometry::Pose& camera_from_map,
+                                              const geometry::CameraModel& camera) {
   const geometry::Pose camera_from_box = camera_from_map * box.map_from_box;
   const Eigen::Vector3d center = camera_from_box.translation();
   if (!geometry::is_finite(camera_from_box) || !(center.z() > kNearestCenterM)) return std::nullopt;
@@ -41,10 +41,25 @@ std::optional<geometry::Box2> image_box(const geometry::OrientedBox& box,
   half.head<2>() = facing_half_extents(box.size, camera_from_box.linear());
   const Eigen::Vector2d top_left = pixel_of(center - half, camera);
   const Eigen::Vector2d bottom_right = pixel_of(center + half, camera);
-  const geometry::Box2 whole{top_left.x(), top_left.y(), bottom_right.x(), bottom_right.y()};
-  const geometry::Box2 visible = whole.clipped(camera.width, camera.height);
+  return geometry::Box2{top_left.x(), top_left.y(), bottom_right.x(), bottom_right.y()};
+}
+
+std::optional<geometry::Box2> image_box(const geometry::OrientedBox& box,
+                                        const geometry::Pose& camera_from_map,
+                                        const geometry::CameraModel& camera) {
+  const auto whole = whole_image_box(box, camera_from_map, camera);
+  if (!whole) return std::nullopt;
+  const geometry::Box2 visible = whole->clipped(camera.width, camera.height);
   if (!(visible.area() > 0)) return std::nullopt;
   return visible;
+}
+
+CutSides cut_sides(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,
+                   const geometry::CameraModel& camera, double border_px) {
+  const auto seen = image_box(box, camera_from_map, camera);
+  if (!seen) return {};
+  return {seen->x0 <= border_px, seen->y0 <= border_px, seen->x1 >= camera.width - border_px,
+          seen->y1 >= camera.height - border_px};
 }
 
 std::optional<PredictedBox> to_image(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,

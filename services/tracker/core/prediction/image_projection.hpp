@@ -19,12 +19,20 @@ namespace rds::tracker::prediction {
 /// and √((w sin θ)² + (h cos θ)²): those of the ellipse in the rectangle, because people do not fill its
 /// corners.
 ///
-/// @return clipped to the picture; nullopt if the centre is not in front of the camera or nothing is in the
-/// picture.
+/// @return with the parts outside the picture; nullopt if the centre is not in front of the camera.
 /// Source: paper §IV-B, eq. (1), P_c = T_cw · P_wp.
+std::optional<geometry::Box2> whole_image_box(const geometry::OrientedBox& box,
+                                              const geometry::Pose& camera_from_map,
+                                              const geometry::CameraModel& camera);
+
+/// whole_image_box() clipped to the picture; nullopt if nothing of it is there.
 std::optional<geometry::Box2> image_box(const geometry::OrientedBox& box,
                                         const geometry::Pose& camera_from_map,
                                         const geometry::CameraModel& camera);
+
+/// Where a detection's box ends within `border_px` of the picture's edge.
+CutSides cut_sides(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,
+                   const geometry::CameraModel& camera, double border_px);
 
 /// image_box() and the region of the features to drop: the box with its margin, and the depths
 /// centre ± (half the thickness + margin).

@@ -5,6 +5,7 @@
 
 #include "services/tracker/core/prediction/assignment.hpp"
 #include "services/tracker/core/prediction/observation_filter.hpp"
+#include "services/tracker/core/prediction/visibility.hpp"
 
 namespace rds::tracker::prediction {
 namespace {
@@ -22,21 +23,33 @@ geometry::OrientedBox grown(const ObjectFilter& filter, const Kalman3dConfig& co
 
 }  // namespace
 
-void KalmanTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) {
+void KalmanTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+                            const KeyframeView* view) {
   move_to(stamp_ns);
   const auto track_of = match(observations);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const ObjectObservation& observation = observations[i];
     if (track_of[i] < 0) {
-      tracks_.push_back({++last_id_, observation.label, observation.score, stamp_ns,
-                         ObjectFilter(observation.box, config_)});
+      tracks_.push_back({++last_id_, observation.label, observation.score, stamp_ns, 0,
+                         ObjectFilter(observation.box, observation.cut, config_)});
       continue;
     }
     Track& track = tracks_[static_cast<std::size_t>(track_of[i])];
-    track.filter.correct(observation.box, config_);
+    track.filter.correct(observation.box, observation.cut, config_);
     track.score = observation.score;
     track.seen_ns = stamp_ns;
+    track.misses = 0;
   }
+  count_misses(observations, view);
+}
+
+void KalmanTracking::count_misses(std::span<const ObjectObservation> observations, const KeyframeView* view) {
+  for (Track& track : tracks_) {
+    const bool missed = track.seen_ns < state_ns_ &&
+                        (view == nullptr || should_be_detected(track.filter.box(), observations, *view));
+    if (missed) ++track.misses;
+  }
+  std::erase_if(tracks_, [&](const Track& track) { return track.misses > config_.max_misses; });
 }
 
 void KalmanTracking::move_to(std::int64_t stamp_ns) {
@@ -65,6 +78,8 @@ std::optional<double> KalmanTracking::cost(const Track& track, const ObjectObser
   if (track.label != observation.label) return std::nullopt;
   const double distance = (track.filter.center() - observation.box.center()).norm();
   if (distance > config_.max_distance_m) return std::nullopt;
+  if (track.filter.surprise(observation.box, observation.cut, config_) > config_.gate_sigma)
+    return std::nullopt;
   return distance / config_.max_distance_m + 1 - overlap_of_smaller(observation.box, track.filter.box());
 }
 

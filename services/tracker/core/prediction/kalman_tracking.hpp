@@ -22,7 +22,8 @@ class KalmanTracking : public ObjectTracking {
  public:
   explicit KalmanTracking(const Kalman3dConfig& config) : config_(config) {}
 
-  void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) override;
+  void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+              const KeyframeView* view) override;
   [[nodiscard]] std::vector<PredictedObject> predict(std::int64_t stamp_ns) const override;
   void reset() override { tracks_.clear(); }
 
@@ -32,9 +33,11 @@ class KalmanTracking : public ObjectTracking {
     std::string label;
     float score = 0;
     std::int64_t seen_ns = 0;
+    int misses = 0;  // key frames since then that should have shown it
     ObjectFilter filter;
   };
 
+  void count_misses(std::span<const ObjectObservation> observations, const KeyframeView* view);
   void move_to(std::int64_t stamp_ns);
   /// For each observation the index of its track, -1 if it has none.
   [[nodiscard]] std::vector<std::ptrdiff_t> match(std::span<const ObjectObservation> observations) const;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/prediction/object_filter.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/LU>
 
 namespace rds::tracker::prediction {
@@ -9,25 +12,75 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
+constexpr double kUnknownSigmaM = 100;
+
 double square(double x) {
   return x * x;
 }
 
-Eigen::Matrix3d measurement_noise(const Eigen::Matrix3d& map_from_box, const Kalman3dConfig& config) {
-  const Eigen::Vector3d variance(square(config.lateral_noise_m), square(config.lateral_noise_m),
-                                 square(config.depth_noise_m));
-  return map_from_box * variance.asDiagonal() * map_from_box.transpose();
+/// Along one axis of the detection's box: what a detection says about a predicted extent.
+struct Extent {
+  double motion = 0;         // of the object, beyond the predicted one [m]
+  double center_offset = 0;  // from the predicted centre to the new one [m]
+  double size = 0;           // [m]
+  bool motion_known = true;
+};
+
+double smaller_of_same_sign(double a, double b) {
+  if (a * b <= 0) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// @param low, high  the detection's ends, relative to the predicted centre. @param size  predicted.
+///
+/// An end that the picture cuts off says nothing about motion, and the object is not smaller for it. An end
+/// that moves alone is a change of what is visible, not motion: both ends must have moved.
+Extent compare_extent(double low, double high, double size, bool low_cut, bool high_cut, double least_size) {
+  const double low_shift = low + size / 2;
+  const double high_shift = high - size / 2;
+  Extent extent;
+  extent.motion_known = !(low_cut && high_cut);
+  if (!low_cut && !high_cut)
+    extent.motion = smaller_of_same_sign(low_shift, high_shift);
+  else if (extent.motion_known)
+    extent.motion = low_cut ? high_shift : low_shift;
+  if (low_cut) low = std::min({low, extent.motion - size / 2, high_cut ? low : high - least_size});
+  if (high_cut) high = std::max({high, extent.motion + size / 2, low_cut ? high : low + least_size});
+  extent.center_offset = (low + high) / 2;
+  extent.size = high - low;
+  return extent;
+}
+
+Eigen::Matrix3d in_map(const Eigen::Vector3d& sigma_in_box, const Eigen::Matrix3d& map_from_box) {
+  return map_from_box * sigma_in_box.array().square().matrix().asDiagonal() * map_from_box.transpose();
+}
+
+/// Objects move along the ground: across and along the viewing direction of a camera that is held upright.
+Eigen::Vector3d upright(const Kalman3dConfig& config) {
+  return {1, config.vertical_share, 1};
 }
 
 }  // namespace
 
-ObjectFilter::ObjectFilter(const geometry::OrientedBox& box, const Kalman3dConfig& config)
+struct ObjectFilter::Innovation {
+  Eigen::Vector3d motion;  // of the centre [m], map frame
+  Eigen::Vector3d jump;    // of the centre because other parts have become visible [m], map frame
+  Eigen::Vector3d size;
+  Eigen::Matrix3d noise;
+};
+
+ObjectFilter::ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut,
+                           const Kalman3dConfig& config)
     : size_(box.size),
       size_variance_(Eigen::Vector3d::Constant(square(config.size_noise_m))),
       map_from_box_(box.map_from_box.linear()) {
   state_.head<3>() = box.center();
-  covariance_.topLeftCorner<3, 3>() = measurement_noise(map_from_box_, config);
-  covariance_.bottomRightCorner<3, 3>().diagonal().setConstant(square(config.initial_speed));
+  const Innovation first = compare(box, cut, config);
+  state_.head<3>() += first.jump;
+  size_ = first.size;
+  covariance_.topLeftCorner<3, 3>() =
+      in_map({config.lateral_noise_m, config.vertical_noise_m, config.depth_noise_m}, map_from_box_);
+  covariance_.bottomRightCorner<3, 3>() = in_map(config.initial_speed * upright(config), map_from_box_);
 }
 
 void ObjectFilter::predict(double seconds, const Kalman3dConfig& config) {
@@ -35,27 +88,57 @@ void ObjectFilter::predict(double seconds, const Kalman3dConfig& config) {
   transition.topRightCorner<3, 3>().diagonal().setConstant(seconds);
   state_ = transition * state_;
   covariance_ = transition * covariance_ * transition.transpose();
-  const double q = square(config.acceleration);  // white noise: ∫ F G q Gᵀ Fᵀ dt
-  covariance_.topLeftCorner<3, 3>().diagonal().array() += q * seconds * seconds * seconds / 3;
-  covariance_.topRightCorner<3, 3>().diagonal().array() += q * seconds * seconds / 2;
-  covariance_.bottomLeftCorner<3, 3>().diagonal().array() += q * seconds * seconds / 2;
-  covariance_.bottomRightCorner<3, 3>().diagonal().array() += q * seconds;
+  const Eigen::Matrix3d q = in_map(config.acceleration * upright(config), map_from_box_);
+  covariance_.topLeftCorner<3, 3>() += q * (seconds * seconds * seconds / 3);  // ∫ F G q Gᵀ Fᵀ dt
+  covariance_.topRightCorner<3, 3>() += q * (seconds * seconds / 2);
+  covariance_.bottomLeftCorner<3, 3>() += q * (seconds * seconds / 2);
+  covariance_.bottomRightCorner<3, 3>() += q * seconds;
   size_variance_.array() += square(config.size_drift) * seconds;
 }
 
-void ObjectFilter::correct(const geometry::OrientedBox& box, const Kalman3dConfig& config) {
+ObjectFilter::Innovation ObjectFilter::compare(const geometry::OrientedBox& box, const CutSides& cut,
+                                               const Kalman3dConfig& config) const {
+  const Eigen::Matrix3d map_from_box = box.map_from_box.linear();
+  const Eigen::Vector3d offset = map_from_box.transpose() * (box.center() - center());
+  const Eigen::Vector3d half = box.size / 2;
+  const Extent across = compare_extent(offset.x() - half.x(), offset.x() + half.x(), size_.x(), cut.left,
+                                       cut.right, config.min_width_m);
+  const Extent down =
+      compare_extent(offset.y() - half.y(), offset.y() + half.y(), size_.y(), cut.top, cut.bottom, 0);
+  const Eigen::Vector3d motion(across.motion, down.motion, offset.z());
+  const Eigen::Vector3d whole(across.center_offset, down.center_offset, offset.z());
+  const Eigen::Vector3d sigma(across.motion_known ? config.lateral_noise_m : kUnknownSigmaM,
+                              down.motion_known ? config.vertical_noise_m : kUnknownSigmaM,
+                              config.depth_noise_m);
+  return {map_from_box * motion,
+          map_from_box * (whole - motion),
+          {across.size, down.size, box.size.z()},
+          in_map(sigma, map_from_box)};
+}
+
+void ObjectFilter::correct(const geometry::OrientedBox& box, const CutSides& cut,
+                           const Kalman3dConfig& config) {
+  const Innovation innovation = compare(box, cut, config);
   map_from_box_ = box.map_from_box.linear();
-  const Eigen::Matrix3d noise = measurement_noise(map_from_box_, config);
-  const Eigen::Matrix3d innovation = center_covariance() + noise;
-  const Matrix63 gain = covariance_.leftCols<3>() * innovation.inverse();
-  state_ += gain * (box.center() - center());
+  const Eigen::Matrix3d covariance = center_covariance() + innovation.noise;
+  const Matrix63 gain = covariance_.leftCols<3>() * covariance.inverse();
+  state_ += gain * innovation.motion;
   Matrix6 keep = Matrix6::Identity();
   keep.leftCols<3>() -= gain;
-  covariance_ = keep * covariance_ * keep.transpose() + gain * noise * gain.transpose();  // Joseph's form
+  covariance_ =
+      keep * covariance_ * keep.transpose() + gain * innovation.noise * gain.transpose();  // Joseph's form
+  state_.head<3>() += innovation.jump;
   const Eigen::Array3d size_gain =
       size_variance_.array() / (size_variance_.array() + square(config.size_noise_m));
-  size_.array() += size_gain * (box.size - size_).array();
+  size_.array() += size_gain * (innovation.size - size_).array();
   size_variance_.array() *= 1 - size_gain;
+}
+
+double ObjectFilter::surprise(const geometry::OrientedBox& box, const CutSides& cut,
+                              const Kalman3dConfig& config) const {
+  const Innovation innovation = compare(box, cut, config);
+  const Eigen::Matrix3d covariance = center_covariance() + innovation.noise;
+  return std::sqrt(std::max(0.0, innovation.motion.dot(covariance.inverse() * innovation.motion)));
 }
 
 geometry::OrientedBox ObjectFilter::box() const {

@@ -5,6 +5,7 @@
 
 #include "common/geometry/oriented_box.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
+#include "services/tracker/core/prediction/tracked_object.hpp"
 
 namespace rds::tracker::prediction {
 
@@ -15,11 +16,14 @@ namespace rds::tracker::prediction {
 /// Each edge length has a scalar random-walk filter of its own. The orientation is the latest detection's.
 class ObjectFilter {
  public:
-  ObjectFilter(const geometry::OrientedBox& box, const Kalman3dConfig& config);
+  ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut, const Kalman3dConfig& config);
 
   /// Moves the state forward. @param seconds  ≥ 0.
   void predict(double seconds, const Kalman3dConfig& config);
-  void correct(const geometry::OrientedBox& box, const Kalman3dConfig& config);
+  void correct(const geometry::OrientedBox& box, const CutSides& cut, const Kalman3dConfig& config);
+  /// Mahalanobis distance of a detection's centre; what the picture's edge cuts off counts as unknown.
+  [[nodiscard]] double surprise(const geometry::OrientedBox& box, const CutSides& cut,
+                                const Kalman3dConfig& config) const;
 
   [[nodiscard]] geometry::OrientedBox box() const;
   [[nodiscard]] Eigen::Vector3d center() const { return state_.head<3>(); }
@@ -29,6 +33,10 @@ class ObjectFilter {
   [[nodiscard]] Eigen::Vector3d center_sigma_in_box() const;
 
  private:
+  struct Innovation;
+  [[nodiscard]] Innovation compare(const geometry::OrientedBox& box, const CutSides& cut,
+                                   const Kalman3dConfig& config) const;
+
   Eigen::Matrix<double, 6, 1> state_ = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Vector3d size_;

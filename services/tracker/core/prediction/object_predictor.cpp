@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/tracker/core/prediction/image_projection.hpp"
 #include "services/tracker/core/prediction/kalman_tracking.hpp"
 #include "services/tracker/core/prediction/observation_filter.hpp"
 #include "services/tracker/core/prediction/plane_tracking.hpp"
@@ -23,10 +24,17 @@ std::unique_ptr<ObjectTracking> make_tracking(const PredictionConfig& config) {
 ObjectPredictor::ObjectPredictor(PredictionConfig config)
     : config_(std::move(config)), tracking_(make_tracking(config_)) {}
 
-bool ObjectPredictor::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) {
+bool ObjectPredictor::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+                             const std::optional<KeyframeView>& view) {
   if (latest_ns_ && stamp_ns <= *latest_ns_) return false;
   const ObservationLimits limits{config_.min_score, config_.duplicate_overlap, kMaxObservations};
-  tracking_->update(stamp_ns, usable(observations, limits));
+  auto used = usable(observations, limits);
+  if (view) {
+    const geometry::Pose camera_from_map = view->map_from_camera.inverse();
+    for (ObjectObservation& o : used)
+      o.cut = cut_sides(o.box, camera_from_map, view->camera, config_.border_px);
+  }
+  tracking_->update(stamp_ns, used, view ? &*view : nullptr);
   latest_ns_ = stamp_ns;
   return true;
 }

@@ -24,8 +24,10 @@ class ObjectPredictor {
   ///
   /// Boxes that are not finite, empty or absurdly large are ignored, as are duplicates and scores that are
   /// too low; at most kMaxObservations, the best ones, are used.
+  /// @param view  of the key frame, if known: boxes that the picture's edge cuts off are then understood.
   /// @return false, without effect, if the stamp is not after that of the latest update.
-  bool update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations);
+  bool update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+              const std::optional<KeyframeView>& view = std::nullopt);
 
   /// Objects at a time, by ascending id; nothing ages through asking. Objects of before the latest update do
   /// not move backwards: an earlier time gives their state at the update.

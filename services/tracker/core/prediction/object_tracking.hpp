@@ -14,7 +14,9 @@ class ObjectTracking {
  public:
   virtual ~ObjectTracking() = default;
   /// @param stamp_ns  later than at the call before. @param observations  valid boxes without duplicates.
-  virtual void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) = 0;
+  /// @param view  of the key frame; nullptr if it is not known.
+  virtual void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+                      const KeyframeView* view) = 0;
   /// @param stamp_ns  not earlier than at the latest update. `movable` is left to the caller.
   [[nodiscard]] virtual std::vector<PredictedObject> predict(std::int64_t stamp_ns) const = 0;
   virtual void reset() = 0;

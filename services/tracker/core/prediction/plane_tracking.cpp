@@ -59,7 +59,8 @@ geometry::Box2 PlaneTracking::to_plane(const geometry::Box3& hull, std::size_t p
   return {box.x0 * scale, box.y0 * scale, box.x1 * scale, box.y1 * scale};
 }
 
-void PlaneTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) {
+void PlaneTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+                           const KeyframeView* /*view*/) {
   const double frames = seconds_between(state_ns_, stamp_ns) / config_.frame_period_s;
   state_ns_ = stamp_ns;
   std::array<std::vector<std::uint64_t>, kPlanes> track_of;

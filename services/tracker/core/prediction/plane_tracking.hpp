@@ -32,7 +32,8 @@ class PlaneTracking : public ObjectTracking {
  public:
   explicit PlaneTracking(const PlaneSortConfig& config);
 
-  void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations) override;
+  void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
+              const KeyframeView* view) override;
   [[nodiscard]] std::vector<PredictedObject> predict(std::int64_t stamp_ns) const override;
   void reset() override;
 

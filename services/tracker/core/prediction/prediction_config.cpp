@@ -16,10 +16,15 @@ void read(config::ConfigReader& reader, PlaneSortConfig& config) {
 void read(config::ConfigReader& reader, Kalman3dConfig& config) {
   reader.value("acceleration", config.acceleration, 0.01, 100.0, "m/s^2");
   reader.value("lateral_noise_m", config.lateral_noise_m, 0.001, 10.0, "m");
+  reader.value("vertical_share", config.vertical_share, 0.01, 1.0);
+  reader.value("vertical_noise_m", config.vertical_noise_m, 0.001, 10.0, "m");
   reader.value("depth_noise_m", config.depth_noise_m, 0.001, 10.0, "m");
   reader.value("initial_speed", config.initial_speed, 0.01, 100.0, "m/s");
   reader.value("size_noise_m", config.size_noise_m, 0.001, 10.0, "m");
   reader.value("size_drift", config.size_drift, 0.001, 100.0, "m");
+  reader.value("min_width_m", config.min_width_m, 0.0, 10.0, "m");
+  reader.value("max_misses", config.max_misses, 0, 1000);
+  reader.value("gate_sigma", config.gate_sigma, 0.1, 100.0);
   reader.value("max_distance_m", config.max_distance_m, 0.01, 100.0, "m");
   reader.value("max_age_s", config.max_age_s, 0.0, 60.0, "s");
   reader.value("growth_sigma", config.growth_sigma, 0.0, 10.0);
@@ -38,6 +43,7 @@ void read(config::ConfigReader& reader, PredictionConfig& config) {
   reader.value("movable_labels", config.movable_labels);
   reader.value("min_score", config.min_score, 0.0, 1.0);
   reader.value("duplicate_overlap", config.duplicate_overlap, 0.01, 1.0);
+  reader.value("border_px", config.border_px, 0.0, 200.0, "px");
   read(reader.section("paper"), config.paper);
   read(reader.section("kalman3d"), config.kalman3d);
   read(reader.section("region"), config.region);

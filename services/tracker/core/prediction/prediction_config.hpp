@@ -17,18 +17,23 @@ struct PlaneSortConfig {
   double frame_period_s = 1.0 / 30;  // ... per frame of its videos
 };
 
-/// One constant-velocity filter per object in 3-D.
+/// One constant-velocity filter per object in 3-D. "Vertical" is along the picture's y axis.
 struct Kalman3dConfig {
-  double acceleration = 2.0;      // [m/s²/√Hz], process noise: people start, stop and turn
-  double lateral_noise_m = 0.05;  // of a detected centre, across the viewing direction
-  double depth_noise_m = 0.12;    // along it
-  double initial_speed = 0.7;     // [m/s], standard deviation before motion has been seen
-  double size_noise_m = 0.06;     // of a detected width or height
-  double size_drift = 0.25;       // [m/√s], how fast sizes wander (people turn, arms move)
-  double max_distance_m = 0.9;    // an observation further from the prediction starts a new object
-  double max_age_s = 1.0;         // an object not seen for longer is forgotten
-  double growth_sigma = 0.25;     // standard deviations of the centre that the box grows per side
-  double max_growth_m = 0.3;      // ... at most
+  double acceleration = 1.5;      // [m/s²/√Hz], process noise: people start, stop and turn
+  double initial_speed = 1.2;     // [m/s], standard deviation before motion has been seen
+  double vertical_share = 0.3;    // of both: objects move along the ground
+  double lateral_noise_m = 0.08;  // of a detected centre, across the viewing direction
+  double vertical_noise_m = 0.15;
+  double depth_noise_m = 0.15;  // along it
+  double size_noise_m = 0.06;   // of a detected width or height
+  double size_drift = 0.5;      // [m/√s], how fast sizes wander (people turn, arms move)
+  double min_width_m = 0.5;     // an object cut off by the picture's side is at least this wide
+  double max_distance_m = 0.6;  // an observation further from the prediction starts a new object,
+  double gate_sigma = 3.5;      // ... and so does one that is more improbable
+  int max_misses = 2;           // key frames that should have shown an object, then it is forgotten
+  double max_age_s = 1.5;       // ... and so is one that has not been seen for longer
+  double growth_sigma = 0.3;    // standard deviations of the centre that the box grows per side
+  double max_growth_m = 0.2;    // ... at most
 };
 
 /// From the predicted box to the features that are dropped.
@@ -42,6 +47,7 @@ struct PredictionConfig {
   std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
   double min_score = 0.0;          // detections with less are ignored
   double duplicate_overlap = 0.7;  // share of the smaller box: two boxes of one object
+  double border_px = 6;            // a box that ends this near to the picture's edge is cut off by it
   PlaneSortConfig paper;
   Kalman3dConfig kalman3d;
   RegionConfig region;

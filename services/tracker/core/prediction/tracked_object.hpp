@@ -7,16 +7,32 @@
 #include <Eigen/Core>
 
 #include "common/geometry/box.hpp"
+#include "common/geometry/camera_model.hpp"
 #include "common/geometry/oriented_box.hpp"
 #include "services/tracker/core/prediction/movable_region.hpp"
 
 namespace rds::tracker::prediction {
+
+/// Sides of an image box at which the picture's edge cuts the object off: it goes on there, unseen.
+struct CutSides {
+  bool left = false;
+  bool top = false;
+  bool right = false;
+  bool bottom = false;
+};
 
 /// An object that was detected in a key frame, in the map.
 struct ObjectObservation {
   geometry::OrientedBox box;  // aligned with the camera of the key frame; see OrientedBox
   std::string label;
   float score = 0;
+  CutSides cut = {};  // set by ObjectPredictor
+};
+
+/// What the camera of a key frame could see.
+struct KeyframeView {
+  geometry::Pose map_from_camera = geometry::Pose::Identity();
+  geometry::CameraModel camera;
 };
 
 /// Where an object is expected at the time that predict() was asked for.

@@ -106,6 +106,17 @@ TEST(ImageProjection, SeesNothingBehindTheCameraOrBesideThePicture) {
   EXPECT_FALSE(to_image(person->box, aside, scene::camera()));
 }
 
+TEST(ImageProjection, NamesTheSidesAtWhichThePictureCutsABoxOff) {
+  const auto volume =
+      transformer::box_in_map({0, 100, 300, 480}, 2, "person", Pose::Identity(), scene::camera());
+  ASSERT_TRUE(volume);
+  const CutSides cut = cut_sides(*volume, Pose::Identity(), scene::camera(), 5);
+  EXPECT_TRUE(cut.left);
+  EXPECT_TRUE(cut.bottom);
+  EXPECT_FALSE(cut.right);
+  EXPECT_FALSE(cut.top);
+}
+
 TEST(ImageProjection, SurvivesNumbersThatAreNone) {
   const auto person = scene::see_person({0, 0, 3}, Pose::Identity());
   ASSERT_TRUE(person);

@@ -25,7 +25,7 @@ TEST(PlaneTracking, RecombinesEveryObjectFromItsThreePlanes) {
   for (int k = 0; k <= 10; ++k) {
     std::vector<ObjectObservation> seen;
     for (std::size_t i = 0; i < start.size(); ++i) seen.push_back(box_at(start[i] + 0.2 * k * velocity[i]));
-    tracking.update(nanoseconds(1 + 0.2 * k), seen);
+    tracking.update(nanoseconds(1 + 0.2 * k), seen, nullptr);
   }
   const auto objects = tracking.predict(nanoseconds(3.2));
   ASSERT_THAT(objects, SizeIs(3));
@@ -40,7 +40,7 @@ TEST(PlaneTracking, RecombinesEveryObjectFromItsThreePlanes) {
 TEST(PlaneTracking, TellsObjectsApartThatOnePlaneCannot) {
   PlaneTracking tracking({});
   for (int k = 0; k <= 5; ++k)  // one behind the other: one box in plane xOy
-    tracking.update(nanoseconds(1 + 0.2 * k), std::vector{box_at({0, 0, 2}), box_at({0, 0, 5})});
+    tracking.update(nanoseconds(1 + 0.2 * k), std::vector{box_at({0, 0, 2}), box_at({0, 0, 5})}, nullptr);
   const auto objects = tracking.predict(nanoseconds(2.1));
   ASSERT_THAT(objects, SizeIs(2));
   EXPECT_NE(objects[0].id, objects[1].id);
@@ -51,7 +51,7 @@ TEST(PlaneTracking, HandlesABoxThatIsTurnedAgainstTheMap) {
   ObjectObservation turned = box_at({1, 2, 3});
   turned.box.map_from_box.linear() =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  for (int k = 0; k <= 5; ++k) tracking.update(nanoseconds(1 + 0.2 * k), std::vector{turned});
+  for (int k = 0; k <= 5; ++k) tracking.update(nanoseconds(1 + 0.2 * k), std::vector{turned}, nullptr);
   const auto objects = tracking.predict(nanoseconds(2.1));
   ASSERT_THAT(objects, SizeIs(1));
   EXPECT_LT((objects[0].box.center() - turned.box.center()).norm(), 0.01);

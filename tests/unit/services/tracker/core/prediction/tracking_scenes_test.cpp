@@ -104,6 +104,20 @@ TEST(Kalman3dScenes, SomebodyWhoStopsIsNotCarriedOn) {
   EXPECT_LT((objects[0].box.center() - walker(2.5)).norm(), 0.06);
 }
 
+TEST(Kalman3dScenes, SomebodyBehindAnotherIsRememberedLongerThanAGhost) {
+  const KeyframeView view{Pose::Identity(), scene::camera()};
+  ObjectPredictor hidden = predictor("kalman3d");
+  ObjectPredictor ghost = predictor("kalman3d");
+  for (ObjectPredictor* p : {&hidden, &ghost})
+    for (double t : {1.0, 1.2}) p->update(nanoseconds(t), see({{0, 0, 4}}, Pose::Identity()), view);
+  for (double t : {1.4, 1.6, 1.8, 2.0}) {
+    hidden.update(nanoseconds(t), see({{0.05, 0, 2}}, Pose::Identity()), view);
+    ghost.update(nanoseconds(t), see({{1, 0, 2}}, Pose::Identity()), view);
+  }
+  EXPECT_THAT(hidden.predict(nanoseconds(2)), SizeIs(2));
+  EXPECT_THAT(ghost.predict(nanoseconds(2)), SizeIs(1));
+}
+
 TEST(Kalman3dScenes, TheBoxOfAMissedObjectGrowsUpToItsLimit) {
   ObjectPredictor p = predictor("kalman3d");
   for (double t = 0.2; t < 1; t += 0.2) p.update(nanoseconds(t), see({{0, 0, 3}}, Pose::Identity()));

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/prediction/visibility.hpp"
+
+#include <algorithm>
+
+#include "services/tracker/core/prediction/image_projection.hpp"
+
+namespace rds::tracker::prediction {
+namespace {
+
+constexpr double kVisibleShare = 0.5;
+
+double shared_area(const geometry::Box2& a, const geometry::Box2& b) {
+  return geometry::Box2{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1),
+                        std::min(a.y1, b.y1)}
+      .area();
+}
+
+}  // namespace
+
+bool should_be_detected(const geometry::OrientedBox& box, std::span<const ObjectObservation> detected,
+                        const KeyframeView& view) {
+  const geometry::Pose camera_from_map = view.map_from_camera.inverse();
+  const auto whole = whole_image_box(box, camera_from_map, view.camera);
+  if (!whole) return false;
+  const geometry::Box2 visible = whole->clipped(view.camera.width, view.camera.height);
+  if (!(visible.area() >= kVisibleShare * whole->area()) || !(visible.area() > 0)) return false;
+  const double depth = (camera_from_map * box.center()).z();
+  return std::ranges::none_of(detected, [&](const ObjectObservation& other) {
+    const auto front = image_box(other.box, camera_from_map, view.camera);
+    return front && (camera_from_map * other.box.center()).z() < depth &&
+           shared_area(*front, visible) >= kVisibleShare * visible.area();
+  });
+}
+
+}  // namespace rds::tracker::prediction

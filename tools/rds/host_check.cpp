@@ -156,6 +156,17 @@ Finding check_networks() {
           fmt::format("{} found, {} is used", found, detector::default_network(folders))};
 }
 
+Finding check_vendor(bus::Vendor vendor) {
+  const std::string subject = bus::name_of(vendor);
+  try {
+    const auto participant = bus::Participant::create(
+        {.vendor = vendor, .domain = 0, .node_name = "rds_doctor", .loopback_only = true});
+    return {Verdict::kGood, subject, "joins a bus on this machine"};
+  } catch (const std::exception& e) {
+    return {Verdict::kFault, subject, fmt::format("cannot join a bus: {}", e.what())};
+  }
+}
+
 std::vector<Finding> check_host() {
   return {check_processor(),
           check_memory(),
@@ -163,6 +174,8 @@ std::vector<Finding> check_host() {
           check_receive_buffer(),
           check_loopback_multicast(),
           check_domain(std::getenv("ROS_DOMAIN_ID")),
+          check_vendor(bus::Vendor::kFastDds),
+          check_vendor(bus::Vendor::kCycloneDds),
           check_networks()};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/participant.hpp"
 #include "tools/rds/finding.hpp"
 
 namespace rds::tools {
@@ -20,6 +21,8 @@ Finding check_receive_buffer();
 Finding check_loopback_multicast();
 /// ROS_DOMAIN_ID as it stands in the environment; null: not set.
 Finding check_domain(const char* ros_domain_id);
+/// A participant of this vendor can be made, on the loopback interface.
+Finding check_vendor(bus::Vendor vendor);
 /// The detector's networks and which would be used.
 Finding check_networks();
 

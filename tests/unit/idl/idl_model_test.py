@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The IDL files: equal to their .msg files, and of the type hashes that ROS 2 computes."""
+
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "cmake"))
+import idl_model  # noqa: E402
+
+STRUCTS = idl_model.load([ROOT / "idl" / "ros2", ROOT / "idl"])
+
+
+def parse(text):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "Name.idl"
+        path.write_text(text, encoding="utf-8")
+        return idl_model.parse_idl(path)
+
+
+class MsgFiles(unittest.TestCase):
+    def test_every_rds_msgs_idl_says_what_its_msg_file_says(self):
+        files = sorted((ROOT / "idl" / "rds_msgs" / "msg").glob("*.msg"))
+        self.assertEqual({f.stem for f in files}, {s.name for s in STRUCTS.values() if s.package == "rds_msgs"})
+        for file in files:
+            lines = (line.partition("#")[0].strip() for line in file.read_text(encoding="utf-8").splitlines())
+            with self.subTest(file.name):
+                self.assertEqual([l for l in lines if l], idl_model.msg_lines(STRUCTS[f"rds_msgs/msg/{file.stem}"]))
+
+
+class TypeHash(unittest.TestCase):
+    def test_equals_the_published_hash_of_std_msgs_header(self):
+        self.assertEqual(idl_model.type_hash(STRUCTS["std_msgs/msg/Header"], STRUCTS),
+                         "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01")
+
+    def test_equals_the_hashes_of_the_wire_recordings(self):
+        shared = os.environ.get("RDS_SHARED")
+        if not shared:
+            self.skipTest("RDS_SHARED is not set: data/wire/typehashes.json is missing")
+        hashes = json.loads((pathlib.Path(shared) / "data" / "wire" / "typehashes.json").read_text(encoding="utf-8"))
+        self.assertEqual({name: idl_model.type_hash(STRUCTS[name], STRUCTS) for name in hashes}, hashes)
+
+
+class Parser(unittest.TestCase):
+    def test_reads_every_kind_of_member(self):
+        struct = parse("module p { module msg { module Name_Constants { const uint8 A = 1; };"
+                       " struct Name { uint8 a; string<9> b; sequence<float> c; double d[3]; q::msg::T e; }; }; };")
+        self.assertEqual(idl_model.msg_lines(struct),
+                         ["uint8 A=1", "uint8 a", "string<=9 b", "float32[] c", "float64[3] d", "q/T e"])
+
+    def test_refuses_what_is_outside_the_restricted_idl(self):
+        for member in ("long a;", "map<string, string> a;", "@optional uint8 a;", "sequence<uint8, 4> a;", "wstring a;"):
+            with self.subTest(member), self.assertRaisesRegex(ValueError, "Name.idl"):
+                parse("module p { module msg { struct Name { " + member + " }; }; };")
+
+    def test_refuses_a_struct_that_is_not_named_as_its_file(self):
+        with self.assertRaisesRegex(ValueError, "one name"):
+            parse("module p { module msg { struct Other { uint8 a; }; }; };")
+
+
+if __name__ == "__main__":
+    unittest.main()

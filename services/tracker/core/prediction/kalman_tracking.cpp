@@ -52,6 +52,10 @@ void KalmanTracking::count_misses(std::span<const ObjectObservation> observation
   std::erase_if(tracks_, [&](const Track& track) { return track.misses > config_.max_misses; });
 }
 
+void KalmanTracking::move_map(const geometry::Pose& new_from_old) {
+  for (Track& track : tracks_) track.filter.move_map(new_from_old);
+}
+
 void KalmanTracking::move_to(std::int64_t stamp_ns) {
   std::erase_if(tracks_, [&](const Track& track) {
     return seconds_between(track.seen_ns, stamp_ns) > config_.max_age_s;

@@ -141,6 +141,15 @@ double ObjectFilter::surprise(const geometry::OrientedBox& box, const CutSides& 
   return std::sqrt(std::max(0.0, innovation.motion.dot(covariance.inverse() * innovation.motion)));
 }
 
+void ObjectFilter::move_map(const geometry::Pose& new_from_old) {
+  Matrix6 rotation = Matrix6::Zero();
+  rotation.topLeftCorner<3, 3>() = rotation.bottomRightCorner<3, 3>() = new_from_old.linear();
+  state_ = rotation * state_;
+  state_.head<3>() += new_from_old.translation();
+  covariance_ = rotation * covariance_ * rotation.transpose();
+  map_from_box_ = new_from_old.linear() * map_from_box_;
+}
+
 geometry::OrientedBox ObjectFilter::box() const {
   geometry::OrientedBox box;
   box.map_from_box.linear() = map_from_box_;

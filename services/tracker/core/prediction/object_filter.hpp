@@ -25,6 +25,9 @@ class ObjectFilter {
   [[nodiscard]] double surprise(const geometry::OrientedBox& box, const CutSides& cut,
                                 const Kalman3dConfig& config) const;
 
+  /// Changes the map's coordinates: new_from_old * point_in_old_map = point_in_map.
+  void move_map(const geometry::Pose& new_from_old);
+
   [[nodiscard]] geometry::OrientedBox box() const;
   [[nodiscard]] Eigen::Vector3d center() const { return state_.head<3>(); }
   [[nodiscard]] Eigen::Vector3d velocity() const { return state_.tail<3>(); }

@@ -46,6 +46,10 @@ std::vector<PredictedObject> ObjectPredictor::predict(std::int64_t stamp_ns) con
   return objects;
 }
 
+void ObjectPredictor::move_map(const geometry::Pose& new_from_old) {
+  if (geometry::is_finite(new_from_old)) tracking_->move_map(new_from_old);
+}
+
 void ObjectPredictor::reset() {
   tracking_->reset();
   latest_ns_.reset();

@@ -33,6 +33,11 @@ class ObjectPredictor {
   /// not move backwards: an earlier time gives their state at the update.
   [[nodiscard]] std::vector<PredictedObject> predict(std::int64_t stamp_ns) const;
 
+  /// Keeps the objects where they are when a loop closure moves the map under them:
+  /// new_from_old * point_in_old_map = point_in_map. Algorithm 1 cannot turn its planes and forgets them.
+  /// A pose that is not finite is ignored.
+  void move_map(const geometry::Pose& new_from_old);
+
   /// Forgets all objects; ids go on.
   void reset();
 

@@ -19,6 +19,8 @@ class ObjectTracking {
                       const KeyframeView* view) = 0;
   /// @param stamp_ns  not earlier than at the latest update. `movable` is left to the caller.
   [[nodiscard]] virtual std::vector<PredictedObject> predict(std::int64_t stamp_ns) const = 0;
+  /// The map's coordinates have changed: new_from_old * point_in_old_map = point_in_map.
+  virtual void move_map(const geometry::Pose& new_from_old) = 0;
   virtual void reset() = 0;
 };
 

@@ -35,6 +35,7 @@ class PlaneTracking : public ObjectTracking {
   void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
               const KeyframeView* view) override;
   [[nodiscard]] std::vector<PredictedObject> predict(std::int64_t stamp_ns) const override;
+  void move_map(const geometry::Pose& /*new_from_old*/) override { reset(); }
   void reset() override;
 
  private:

@@ -118,6 +118,26 @@ TEST(Kalman3dScenes, SomebodyBehindAnotherIsRememberedLongerThanAGhost) {
   EXPECT_THAT(ghost.predict(nanoseconds(2)), SizeIs(1));
 }
 
+TEST(Kalman3dScenes, ALoopClosureThatMovesTheMapCarriesTheObjectsAlong) {
+  const Pose new_from_old = geometry::make_pose(
+      {0.5, -0.2, 0.3}, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())));
+  ObjectPredictor moved = predictor("kalman3d");
+  ObjectPredictor still = predictor("kalman3d");
+  for (double t = 0; t < 1; t += 0.2)
+    for (ObjectPredictor* p : {&moved, &still})
+      p->update(nanoseconds(t + 1), see({{-0.5 + 0.6 * t, 0, 3}}, Pose::Identity()));
+  moved.move_map(new_from_old);
+  const auto a = moved.predict(nanoseconds(2));
+  const auto b = still.predict(nanoseconds(2));
+  ASSERT_THAT(a, SizeIs(1));
+  ASSERT_THAT(b, SizeIs(1));
+  EXPECT_LT((a[0].box.center() - new_from_old * b[0].box.center()).norm(), 1e-9);
+  EXPECT_LT((a[0].velocity - new_from_old.linear() * b[0].velocity).norm(), 1e-9);
+  const auto in_new = image_box(a[0].box, new_from_old.inverse(), scene::camera());
+  const auto in_old = image_box(b[0].box, Pose::Identity(), scene::camera());
+  EXPECT_GT(geometry::iou(in_new.value(), in_old.value()), 0.9999);
+}
+
 TEST(Kalman3dScenes, TheBoxOfAMissedObjectGrowsUpToItsLimit) {
   ObjectPredictor p = predictor("kalman3d");
   for (double t = 0.2; t < 1; t += 0.2) p.update(nanoseconds(t), see({{0, 0, 3}}, Pose::Identity()));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/finding.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rds::tools {
+namespace {
+
+TEST(Findings, AreLinesAndOnlyFaultsCount) {
+  const std::vector<Finding> findings{{Verdict::kGood, "disk", "12 GiB"}, {Verdict::kHint, "memory", "low"}};
+  EXPECT_EQ(to_text(findings), "ok     disk               12 GiB\nhint   memory             low\n");
+  EXPECT_FALSE(any_fault(findings));
+  EXPECT_TRUE(any_fault({{Verdict::kFault, "x", "y"}}));
+}
+
+}  // namespace
+}  // namespace rds::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <octomap/ColorOcTree.h>
+#include <tl/expected.hpp>
+
+namespace rds::tools {
+
+/// Formats a map can be written in: ot (OctoMap with colours and probabilities), bt (OctoMap, occupied or
+/// free only), ply and pcd (centres of occupied voxels with colour), pgm (2-D grid of map_server, with its
+/// YAML beside it).
+inline constexpr const char* kMapFormats[] = {"ot", "bt", "ply", "pcd", "pgm"};
+
+/// The format a file's ending names; empty if none of kMapFormats.
+std::string format_of(const std::filesystem::path& file);
+
+/// Writes the map, whole or not at all.
+///
+/// @param up  for pgm: axis of the map frame that points up, "x", "-x", … "-z".
+/// @return or one sentence that names the file.
+tl::expected<void, std::string> export_map(const octomap::ColorOcTree& tree, const std::string& format,
+                                           const std::filesystem::path& file, const std::string& up);
+
+/// type, resolution [m], nodes, leaves, occupied and free voxels, occupied volume [m³], bounds of what is
+/// occupied [m].
+nlohmann::ordered_json describe_map(const octomap::ColorOcTree& tree);
+
+/// state (occupied, free, unknown) at a point of the map frame [m]; probability and colour where known; label
+/// if one of `labels` has that colour.
+nlohmann::ordered_json query_map(const octomap::ColorOcTree& tree, const octomap::point3d& point,
+                                 std::span<const std::string> labels);
+
+}  // namespace rds::tools

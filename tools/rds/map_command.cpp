@@ -68,8 +68,7 @@ void write(const MapOptions& options, const std::string& format) {
 
 void query(const MapOptions& options) {
   const LiveMap map = load(options);
-  const octomap::point3d point(static_cast<float>(options.point[0]), static_cast<float>(options.point[1]),
-                               static_cast<float>(options.point[2]));
+  const Eigen::Vector3d point(options.point[0], options.point[1], options.point[2]);
   fmt::print("{}\n", query_map(*map.tree, point, map.labels).dump());
 }
 

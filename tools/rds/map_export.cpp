@@ -23,6 +23,12 @@ bool is_occupied(const ColorOcTreeNode& node) {
   return node.getLogOdds() > 0;
 }
 
+/// True if the tree has a voxel for the point; false for NaN.
+bool is_inside(const ColorOcTree& tree, const Eigen::Vector3d& point) {
+  constexpr double kHalfWidthVoxels = 32767;  // 16 levels, and one voxel for rounding
+  return (point.array().abs() <= kHalfWidthVoxels * tree.getResolution()).all();
+}
+
 /// Voxels at the finest resolution inside a leaf.
 double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf) {
   const double side = 1U << (tree.getTreeDepth() - leaf.getDepth());
@@ -155,11 +161,11 @@ nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
   return json;
 }
 
-nlohmann::ordered_json query_map(const ColorOcTree& tree, const octomap::point3d& point,
+nlohmann::ordered_json query_map(const ColorOcTree& tree, const Eigen::Vector3d& point,
                                  std::span<const std::string> labels) {
   nlohmann::ordered_json json{{"point", {point.x(), point.y(), point.z()}}};
-  octomap::OcTreeKey key;
-  const ColorOcTreeNode* node = tree.coordToKeyChecked(point, key) ? tree.search(key) : nullptr;
+  const ColorOcTreeNode* node =
+      is_inside(tree, point) ? tree.search(point.x(), point.y(), point.z()) : nullptr;
   if (node == nullptr) {
     json["state"] = "unknown";
     return json;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <octomap/ColorOcTree.h>
 #include <tl/expected.hpp>
@@ -32,7 +33,7 @@ nlohmann::ordered_json describe_map(const octomap::ColorOcTree& tree);
 
 /// state (occupied, free, unknown) at a point of the map frame [m]; probability and colour where known; label
 /// if one of `labels` has that colour.
-nlohmann::ordered_json query_map(const octomap::ColorOcTree& tree, const octomap::point3d& point,
+nlohmann::ordered_json query_map(const octomap::ColorOcTree& tree, const Eigen::Vector3d& point,
                                  std::span<const std::string> labels);
 
 }  // namespace rds::tools

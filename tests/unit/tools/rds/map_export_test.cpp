@@ -46,15 +46,15 @@ TEST_F(MapExportTest, DescribesWhatIsThere) {
 
 TEST_F(MapExportTest, AnswersForOccupiedFreeAndUnknown) {
   const std::vector<std::string> labels{"", "person", "chair"};
-  const auto chair = query_map(tree, {1.05F, 0.05F, 2.05F}, labels);
+  const auto chair = query_map(tree, {1.05, 0.05, 2.05}, labels);
   EXPECT_EQ(chair.at("state"), "occupied");
   EXPECT_EQ(chair.at("label"), "chair");
   EXPECT_NEAR(chair.at("probability"), 0.70, 0.01);
-  const auto free = query_map(tree, {-1.05F, 0.05F, 0.05F}, labels);
+  const auto free = query_map(tree, {-1.05, 0.05, 0.05}, labels);
   EXPECT_EQ(free.at("state"), "free");
   EXPECT_FALSE(free.contains("label"));
   EXPECT_EQ(query_map(tree, {9, 9, 9}, labels).at("state"), "unknown");
-  EXPECT_EQ(query_map(tree, {1e9F, 9, 9}, labels).at("state"), "unknown");
+  EXPECT_EQ(query_map(tree, {1e300, 9, 9}, labels).at("state"), "unknown");
 }
 
 TEST_F(MapExportTest, OtAndBtAreReadBack) {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// One process on the bus, for bus_processes_test.py; it stays until its standard input closes.
+//   bus_peer reader VENDOR DOMAIN                writes the number of each picture it gets, one per line
+//   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at 30
+//   Hz,
+//                                                then says {"refused": n, "slowest_ms": t}
+//   bus_peer census VENDOR DOMAIN COUNT          says {"seconds": t} when it has discovered COUNT of its kind
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/bus/participant.hpp"
+#include "sensor_msgs/msg/Image.h"
+#include "std_msgs/msg/Header.h"
+
+namespace {
+
+using rds::bus::Participant;
+using sensor_msgs::msg::Image;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void stay() {
+  for (std::string line; std::getline(std::cin, line);) {
+  }
+}
+
+void read(Participant& participant) {
+  auto subscription = participant.subscribe<Image>("picture", rds::bus::kSensor,
+                                                   [](const std::shared_ptr<const Image>& image) {
+                                                     std::cout << image->header().frame_id() << std::endl;
+                                                   });
+  stay();
+}
+
+void write(Participant& participant, int readers, int count) {
+  auto publisher = participant.advertise<Image>("picture", rds::bus::kSensor);
+  while (publisher.matched() < readers) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  Image image;
+  image.data().assign(1'500'000, 1);
+  int refused = 0;
+  double slowest_s = 0;
+  for (int i = 0; i < count; ++i) {
+    image.header().frame_id(std::to_string(i));
+    const auto start = Clock::now();
+    refused += publisher.write(image) ? 0 : 1;
+    slowest_s = std::max(slowest_s, seconds_since(start));
+    std::this_thread::sleep_until(start + std::chrono::milliseconds(33));
+  }
+  std::cout << R"({"refused": )" << refused << R"(, "slowest_ms": )" << 1e3 * slowest_s << "}" << std::endl;
+  stay();
+}
+
+void census(Participant& participant, std::ptrdiff_t count, Clock::time_point start) {
+  auto publisher = participant.advertise<std_msgs::msg::Header>("census", rds::bus::kStream);
+  const auto known = [&participant] {
+    const auto endpoints = participant.discovered();
+    return std::count_if(endpoints.begin(), endpoints.end(),
+                         [](const auto& e) { return e.topic == "census"; });
+  };
+  while (known() < count) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::cout << R"({"seconds": )" << seconds_since(start) << "}" << std::endl;
+  stay();
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const auto start = Clock::now();
+  const std::string& mode = arguments.at(0);
+  const auto participant = Participant::create({.vendor = rds::bus::vendor_from_name(arguments.at(1)),
+                                                .domain = std::stoi(arguments.at(2)),
+                                                .node_name = "bus_peer",
+                                                .loopback_only = true});
+  if (mode == "reader") read(*participant);
+  if (mode == "writer") write(*participant, std::stoi(arguments.at(3)), std::stoi(arguments.at(4)));
+  if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const std::exception& error) {
+    std::cerr << "bus_peer: " << error.what() << '\n';
+    return 2;
+  }
+}

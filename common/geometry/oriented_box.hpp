@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <Eigen/Core>
 
 #include "common/geometry/box.hpp"
+#include "common/geometry/camera_model.hpp"
 #include "common/geometry/pose.hpp"
 
 namespace rds::geometry {
@@ -27,5 +29,25 @@ struct OrientedBox {
 
 /// Finite everywhere, edges > 0.
 bool is_valid(const OrientedBox& box);
+
+/// Image box of a box that was made from a detection.
+///
+/// The rectangle size.x × size.y through the box's centre is turned to face the camera; its top-left and
+/// bottom-right corners (the paper's P_wp1 and P_wp2) are projected with distortion. At the pose of the
+/// detection this is the detection's box, whatever the thickness: the hull of the eight corners would be
+/// wider. A camera that has rolled about its axis by θ since sees the half extents √((w cos θ)² + (h sin θ)²)
+/// and √((w sin θ)² + (h cos θ)²): those of the ellipse in the rectangle, because people do not fill its
+/// corners.
+///
+/// @return with the parts outside the picture; nullopt if the centre is not in front of the camera.
+/// Source: paper §IV-B, eq. (1), P_c = T_cw · P_wp.
+std::optional<Box2> whole_image_box(const OrientedBox& box,
+                                              const Pose& camera_from_map,
+                                              const CameraModel& camera);
+
+/// whole_image_box() clipped to the picture; nullopt if nothing of it is there.
+std::optional<Box2> image_box(const OrientedBox& box,
+                                        const Pose& camera_from_map,
+                                        const CameraModel& camera);
 
 }  // namespace rds::geometry

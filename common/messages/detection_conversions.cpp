@@ -38,14 +38,13 @@ Expected<geometry::Box2> to_box(const vision_msgs::msg::BoundingBox2D& message) 
   return geometry::Box2{x - half_width, y - half_height, x + half_width, y + half_height};
 }
 
-Expected<geometry::Box3> to_box(const vision_msgs::msg::BoundingBox3D& message) {
+Expected<geometry::OrientedBox> to_box(const vision_msgs::msg::BoundingBox3D& message) {
   auto center = to_pose(message.center());
   if (!center) return tl::make_unexpected(center.error());
   const Eigen::Vector3d size(message.size().x(), message.size().y(), message.size().z());
   if (!size.allFinite()) return tl::make_unexpected("a value is not finite");
   if ((size.array() < 0).any()) return tl::make_unexpected("the box has a negative size");
-  const Eigen::Vector3d half = center->linear().cwiseAbs() * size / 2;
-  return geometry::Box3{center->translation() - half, center->translation() + half};
+  return geometry::OrientedBox{*center, size};
 }
 
 vision_msgs::msg::BoundingBox2D box_message(const geometry::Box2& box) {
@@ -57,14 +56,12 @@ vision_msgs::msg::BoundingBox2D box_message(const geometry::Box2& box) {
   return message;
 }
 
-vision_msgs::msg::BoundingBox3D box_message(const geometry::Box3& box) {
+vision_msgs::msg::BoundingBox3D box_message(const geometry::OrientedBox& box) {
   vision_msgs::msg::BoundingBox3D message;
-  geometry::Pose center = geometry::Pose::Identity();
-  center.translation() = box.center();
-  message.center(to_pose_message(center));
-  message.size().x(box.size().x());
-  message.size().y(box.size().y());
-  message.size().z(box.size().z());
+  message.center(to_pose_message(box.map_from_box));
+  message.size().x(box.size.x());
+  message.size().y(box.size.y());
+  message.size().z(box.size.z());
   return message;
 }
 

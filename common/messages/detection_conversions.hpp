@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/box.hpp"
+#include "common/geometry/oriented_box.hpp"
 #include "common/messages/conversions.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 #include "vision_msgs/msg/Detection3DArray.h"
@@ -24,12 +25,12 @@ struct ImageDetection {
 struct SpatialDetection {
   std::string label;
   float score = 0;
-  geometry::Box3 box;
+  geometry::OrientedBox box;
   std::string id;  // of the object, may be empty
 };
 
 /// Each detection with its best hypothesis (class_id = label, pose.position.z = depth); a detection without
-/// hypothesis is left out. A rotated box becomes the upright one around it.
+/// hypothesis is left out. A rotated image box becomes the upright one around it.
 ///
 /// @return an error naming the detection with a value that is not finite or a negative size.
 Expected<std::vector<ImageDetection>> to_detections(const vision_msgs::msg::Detection2DArray& message);

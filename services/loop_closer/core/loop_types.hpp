@@ -8,15 +8,12 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "common/geometry/keyframe_pose.hpp"
 #include "common/geometry/pose.hpp"
 
 namespace rds::loop_closer {
 
-struct KeyframePose {
-  std::uint64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  geometry::Pose map_from_camera = geometry::Pose::Identity();
-};
+using geometry::KeyframePose;
 
 /// A keyframe that shares map points with another, as the tracker knew it at one moment.
 struct Covisible {

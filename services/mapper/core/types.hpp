@@ -8,6 +8,7 @@
 
 #include "common/geometry/box.hpp"
 #include "common/geometry/camera_model.hpp"
+#include "common/geometry/keyframe_pose.hpp"
 #include "common/geometry/pose.hpp"
 #include "common/image/rgbd_frame.hpp"
 
@@ -37,11 +38,7 @@ struct KeyframeInput {
   std::optional<std::vector<LabelledBox>> boxes;
 };
 
-struct KeyframePose {
-  std::uint64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  geometry::Pose map_from_camera = geometry::Pose::Identity();
-};
+using geometry::KeyframePose;
 
 /// What one step changed in the map. Applied to a tree of `base_revision` it gives the tree of `revision`.
 /// Row i of each array is voxel i; keys are OctoMap keys at the finest level.

@@ -8,7 +8,7 @@
 #include "common/geometry/camera_model.hpp"
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/feature.hpp"
-#include "services/tracker/core/prediction/movable_region.hpp"
+#include "services/tracker/core/movable_region.hpp"
 
 namespace rds::tracker {
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry/keyframe_pose.hpp"
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/feature_set.hpp"
 #include "services/tracker/core/id_table.hpp"
@@ -57,11 +58,7 @@ struct Keyframe {
 };
 
 /// Identity and pose of a keyframe; what outlives its culling.
-struct KeyframePose {
-  std::uint64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  Pose map_from_camera = Pose::Identity();
-};
+using geometry::KeyframePose;
 
 /// Keyframes, map points and who sees what. Owned by one thread.
 ///

@@ -115,19 +115,20 @@ void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
 }
 
 Pose Tracker::last_map_from_camera() const {
-  return map_.pose_of(last_->reference) * last_->reference_from_camera;
+  return last_ ? map_.pose_of(last_->reference) * last_->reference_from_camera : Pose::Identity();
 }
 
-Pose Tracker::predicted_pose(std::int64_t stamp_ns) const {
+Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
   const Pose last = last_map_from_camera().inverse();
+  if (!velocity_) return last;
   const double gap = static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
-  if (!velocity_ || gap <= 0 || gap > kMaxPredictedGap) return last;
+  if (gap <= 0 || gap > kMaxPredictedGap) return last;
   return se3_exp(gap * *velocity_) * last;
 }
 
 bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
   const ObservationModel model(frame.features->camera(), config_.depth);
-  const Pose predicted = predicted_pose(frame.stamp_ns);
+  const Pose predicted = expected_camera_from_map(frame.stamp_ns);
   const Pose still = last_map_from_camera().inverse();
   const double window = config_.matching.motion_window_px;
   for (const auto& [guess, window_px] :

@@ -51,6 +51,10 @@ class Tracker {
   /// Every keyframe since the last reset, culled ones too, by id.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return map_.keyframe_poses(); }
   [[nodiscard]] const SlamMap& map() const { return map_; }
+  /// Where the motion model expects the camera; its last pose before there is a motion, identity before there is a pose.
+  [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
+  /// Pose of the last frame that had one, as the map stands now; identity before that.
+  [[nodiscard]] Pose last_map_from_camera() const;
   /// Forgets everything.
   void reset();
 
@@ -69,12 +73,10 @@ class Tracker {
   bool estimate_from_keyframe(TrackedFrame& frame);
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
-  [[nodiscard]] Pose predicted_pose(std::int64_t stamp_ns) const;
   void remember(TrackedFrame&& frame, State state);
   void decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers);
-  [[nodiscard]] Pose last_map_from_camera() const;
 
   TrackerConfig config_;
   ScalePyramid pyramid_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "common/service/commands.hpp"
+#include "common/service/diagnostics_publisher.hpp"
+#include "common/service/service.hpp"
+
+namespace rds::service {
+namespace {
+
+struct Options {
+  std::string vendor = "fastdds";
+  int domain = 0;
+  bool loopback_only = false;
+  std::string config_path;
+  std::string log_level = "info";
+};
+
+void set_up_log(const std::string& name, const std::string& level) {
+  auto logger = spdlog::stderr_color_mt(name);
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %^%l%$ %v");
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+sigset_t stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", RDS_VERSION);
+  app.add_option("--bus", options.vendor, "fastdds or cyclonedds")->check(CLI::IsMember({"fastdds", "cyclonedds"}));
+  app.add_option("--domain", options.domain, "DDS domain (default: ROS_DOMAIN_ID or 0)")
+      ->envname("ROS_DOMAIN_ID")
+      ->check(CLI::Range(0, 232));
+  app.add_flag("--loopback", options.loopback_only, "this machine only");
+  app.add_option("--config", options.config_path, "YAML file");
+  app.add_option("--log-level", options.log_level)
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}));
+}
+
+/// Runs the worker until a stop signal comes or it ends by itself.
+int run_until_signal(Service& service) {
+  bool failed = false;
+  std::jthread worker([&](const std::stop_token& stop) {
+    try {
+      service.run(stop);
+    } catch (const std::exception& e) {
+      spdlog::critical("stopped: {}", e.what());
+      failed = true;
+    }
+    kill(getpid(), SIGTERM);  // wakes the wait below
+  });
+  const sigset_t signals = stop_signals();
+  int received = 0;
+  sigwait(&signals, &received);
+  worker.request_stop();
+  worker.join();
+  return failed ? 1 : 0;
+}
+
+int start(const std::string& name, const Options& options, const ServiceFactory& factory) {
+  auto reader =
+      options.config_path.empty() ? config::ConfigReader() : config::ConfigReader::from_file(options.config_path);
+  auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
+                                               .domain = options.domain,
+                                               .node_name = name,
+                                               .loopback_only = options.loopback_only});
+  Diagnostics diagnostics;
+  ServiceContext context{name, *participant, diagnostics};
+  const auto service = factory(context, reader);
+  const CommandServer commands(context, *service);
+  const DiagnosticsPublisher publisher(context);
+  spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
+               options.config_path.empty() ? "built in" : options.config_path);
+  return run_until_signal(*service);
+}
+
+}  // namespace
+
+int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory) {
+  const sigset_t signals = stop_signals();  // blocked before any thread starts, so that only sigwait sees them
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App app{name + ", a service of RDS-SLAM"};
+  Options options;
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  set_up_log(name, options.log_level);
+  try {
+    return start(name, options, factory);
+  } catch (const config::ConfigError& e) {
+    fmt::print(stderr, "{}\n", e.what());
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{}: {}\n", name, e.what());
+  }
+  return 2;
+}
+
+}  // namespace rds::service

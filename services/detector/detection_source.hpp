@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "common/image/rgbd_frame.hpp"
+#include "services/detector/core/detector.hpp"
+
+namespace rds::detector {
+
+/// Where the boxes of a keyframe come from.
+class DetectionSource {
+ public:
+  virtual ~DetectionSource() = default;
+  /// @throws DetectorError for a picture that cannot be used.
+  virtual std::vector<Detection> detections(const image::RgbdFrame& frame) = 0;
+};
+
+/// The network.
+class NetworkSource : public DetectionSource {
+ public:
+  NetworkSource(const Network& network, const DetectorConfig& config) : detector_(network, config) {}
+  std::vector<Detection> detections(const image::RgbdFrame& frame) override {
+    return detector_.detect(frame.color, frame.depth);
+  }
+
+ private:
+  Detector detector_;
+};
+
+/// A recorded detections.jsonl, or a truth file people.json ("frames" with timestamp, people, box and distance).
+///
+/// A keyframe gets the boxes of the record with the nearest stamp within 5 ms, or none. Boxes without a depth get it
+/// from the keyframe's depth picture.
+class RecordedSource : public DetectionSource {
+ public:
+  /// @throws DetectorError naming the file and line that is not understood.
+  explicit RecordedSource(const std::filesystem::path& file, BoxDepthConfig depth);
+  std::vector<Detection> detections(const image::RgbdFrame& frame) override;
+
+ private:
+  std::map<std::int64_t, std::vector<Detection>> by_stamp_;
+  BoxDepthConfig depth_;
+};
+
+}  // namespace rds::detector

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/detector/detector_service.hpp"
+
+#include <chrono>
+#include <limits>
+
+#include <spdlog/spdlog.h>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/detection_conversions.hpp"
+#include "common/messages/keyframe_conversions.hpp"
+#include "services/detector/models/model_store.hpp"
+
+namespace rds::detector {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 20;
+
+std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config) {
+  if (!config.detections_file.empty()) {
+    spdlog::info("boxes from {}", config.detections_file);
+    return std::make_unique<RecordedSource>(config.detections_file, config.detector.depth);
+  }
+  const Network network = load_network(config.detector.network, model_folders(config.model_dir));
+  spdlog::info("network {}", network.description.name);
+  return std::make_unique<NetworkSource>(network, config.detector);
+}
+
+}  // namespace
+
+void read(config::ConfigReader& reader, DetectorServiceConfig& config) {
+  reader.value("lockstep", config.lockstep);
+  reader.value("model_dir", config.model_dir);
+  reader.value("detections_file", config.detections_file);
+  read(reader, config.detector);
+}
+
+DetectorService::DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config)
+    : Service(context),
+      lockstep_(config.lockstep),
+      source_(make_source(config)),
+      keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
+      detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
+      subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
+          "rds/keyframe/images", bus::kKeyframeImages, [this](Keyframe m) { keyframes_.push(std::move(m)); })) {
+  context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
+  context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
+}
+
+void DetectorService::run(const std::stop_token& stop) {
+  while (mailbox_.wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
+    handle_commands();
+    const auto keyframe = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest();
+    if (keyframe && !paused_) look_at(*keyframe);
+  }
+}
+
+void DetectorService::look_at(const Keyframe& keyframe) {
+  const auto started = std::chrono::steady_clock::now();
+  const auto frame = messages::to_rgbd_frame(keyframe);
+  if (!frame) return context_.diagnostics.reject("rds/keyframe/images", frame.error());
+  std::vector<messages::ImageDetection> found;
+  for (const Detection& d : source_->detections(*frame))
+    found.push_back({.label = d.label, .score = d.score, .box = d.box, .depth_m = d.depth_m});
+  detections_.write(messages::to_detection_message(found, keyframe->header()));
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
+  context_.diagnostics.latency("detect").add_ms(took.count());
+}
+
+service::CommandOutcome DetectorService::execute(const std::string& verb, const std::string& /*argument*/) {
+  if (verb == "pause" || verb == "resume") {
+    paused_ = verb == "pause";
+    return {true, paused_ ? "paused" : "resumed"};
+  }
+  if (verb == "reset") return {true, "nothing is kept between keyframes"};
+  return unknown_command(verb);
+}
+
+}  // namespace rds::detector

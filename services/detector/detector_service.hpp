@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "common/service/service.hpp"
+#include "rds_msgs/msg/KeyFrameImages.h"
+#include "services/detector/core/detector_config.hpp"
+#include "services/detector/detection_source.hpp"
+#include "vision_msgs/msg/Detection2DArray.h"
+
+namespace rds::detector {
+
+struct DetectorServiceConfig {
+  bool lockstep = false;        // every keyframe is looked at; otherwise only the newest
+  std::string model_dir;        // looked through before $RDS_SHARED/models and the user's cache
+  std::string detections_file;  // boxes from a recording instead of the network
+  DetectorConfig detector;
+};
+
+void read(config::ConfigReader& reader, DetectorServiceConfig& config);
+
+/// Looks at keyframe pictures and publishes what is in them.
+class DetectorService : public service::Service {
+ public:
+  /// @throws DetectorError, std::runtime_error if there is no network or no recording to take boxes from.
+  DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config);
+  void run(const std::stop_token& stop) override;
+
+ protected:
+  service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+
+ private:
+  using Keyframe = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
+  void look_at(const Keyframe& keyframe);
+
+  bool lockstep_;
+  bool paused_ = false;
+  std::unique_ptr<DetectionSource> source_;
+  concurrency::Inbox<Keyframe> keyframes_;
+  bus::Publisher<vision_msgs::msg::Detection2DArray> detections_;
+  bus::Subscription subscription_;  // last: its callback fills the inbox
+};
+
+}  // namespace rds::detector

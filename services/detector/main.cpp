@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/detector/detector_service.hpp"
+
+int main(int argc, char** argv) {
+  using namespace rds::detector;
+  return rds::service::run_service<DetectorService, DetectorServiceConfig>("rds-detector", argc, argv);
+}

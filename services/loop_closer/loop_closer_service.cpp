@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/loop_closer_service.hpp"
+
+#include <chrono>
+#include <limits>
+
+#include <spdlog/spdlog.h>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/keyframe_conversions.hpp"
+#include "services/loop_closer/feature_message.hpp"
+
+namespace rds::loop_closer {
+namespace {
+constexpr std::size_t kMaxWaiting = 200;
+constexpr std::uint8_t kLoop = 1;
+}  // namespace
+
+void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
+  reader.value("lockstep", config.lockstep);
+  read(reader, config.loop_closer);
+}
+
+LoopCloserService::LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config)
+    : Service(context),
+      loop_closer_(config.loop_closer),
+      features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
+      poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)),
+      features_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
+          "rds/keyframe/features", bus::kKeyframeFeatures, [this](Features m) { features_.push(std::move(m)); })) {
+  context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
+  context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
+}
+
+void LoopCloserService::run(const std::stop_token& stop) {
+  while (mailbox_.wait(stop, [this] { return !features_.locked_empty() || !commands_.locked_empty(); })) {
+    handle_commands();
+    if (const auto features = features_.try_pop(); features && !paused_) take(*features);
+  }
+}
+
+void LoopCloserService::take(const Features& features) {
+  const auto started = std::chrono::steady_clock::now();
+  auto keyframe = to_keyframe_features(*features);
+  if (!keyframe) return context_.diagnostics.reject("rds/keyframe/features", keyframe.error());
+  const LoopAnswer found = loop_closer_.add(*keyframe);
+  if (!found.refused.empty()) context_.diagnostics.reject("rds/keyframe/features", found.refused);
+  answer(features, found);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
+  context_.diagnostics.latency("keyframe").add_ms(took.count());
+}
+
+/// Every keyframe is answered: in lockstep the tracker waits for that.
+void LoopCloserService::answer(const Features& features, const LoopAnswer& found) {
+  if (features->map_epoch() != corrected_.map_epoch()) corrected_ = {};
+  if (!found.poses.empty()) {
+    spdlog::info("keyframe {} closes loop {}", found.keyframe_id, found.loops_closed);
+    corrected_ = {};
+    messages::append_poses(found.poses, corrected_);
+  }
+  corrected_.header(features->header());
+  corrected_.header().frame_id("map");
+  corrected_.map_epoch(features->map_epoch());
+  corrected_.source(kLoop);
+  corrected_.revision(found.revision);
+  corrected_.loop_revision(found.revision);
+  corrected_.loops_closed(found.loops_closed);
+  corrected_.answered_keyframe_id(features->keyframe_id());
+  poses_.write(corrected_);
+}
+
+service::CommandOutcome LoopCloserService::execute(const std::string& verb, const std::string& /*argument*/) {
+  if (verb == "reset") {
+    loop_closer_.reset();
+    corrected_ = {};
+    return {true, "forgot all keyframes"};
+  }
+  if (verb == "pause" || verb == "resume") {
+    paused_ = verb == "pause";
+    return {true, paused_ ? "paused" : "resumed"};
+  }
+  return unknown_command(verb);
+}
+
+}  // namespace rds::loop_closer

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "common/service/service.hpp"
+#include "rds_msgs/msg/KeyFrameFeatures.h"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "services/loop_closer/core/loop_closer.hpp"
+
+namespace rds::loop_closer {
+
+struct LoopCloserServiceConfig {
+  bool lockstep = false;  // no keyframe is ever dropped
+  LoopCloserConfig loop_closer;
+};
+
+void read(config::ConfigReader& reader, LoopCloserServiceConfig& config);
+
+/// Recognises places among keyframes and answers each one with all keyframe poses as corrected so far.
+class LoopCloserService : public service::Service {
+ public:
+  LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config);
+  void run(const std::stop_token& stop) override;
+
+ protected:
+  service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+
+ private:
+  using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
+  using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+  void take(const Features& features);
+  void answer(const Features& features, const LoopAnswer& answer);
+
+  LoopCloser loop_closer_;
+  bool paused_ = false;
+  rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop; repeated in every answer
+  concurrency::Inbox<Features> features_;
+  bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
+  bus::Subscription features_subscription_;  // last: its callback fills the inbox
+};
+
+}  // namespace rds::loop_closer

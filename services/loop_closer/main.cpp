@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/loop_closer_service.hpp"
+
+int main(int argc, char** argv) {
+  using namespace rds::loop_closer;
+  return rds::service::run_service<LoopCloserService, LoopCloserServiceConfig>("rds-loop-closer", argc, argv);
+}

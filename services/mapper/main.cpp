@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/mapper_service.hpp"
+
+int main(int argc, char** argv) {
+  using namespace rds::mapper;
+  return rds::service::run_service<MapperService, MapperServiceConfig>("rds-mapper", argc, argv);
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "common/service/service.hpp"
+#include "rds_msgs/msg/KeyFrameImages.h"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/map_outputs.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
+
+namespace rds::mapper {
+
+struct MapperServiceConfig {
+  bool lockstep = false;        // no keyframe is ever dropped, and none integrated without its boxes
+  bool expect_boxes = true;     // a keyframe waits for its boxes …
+  double boxes_timeout_s = 1.0;   // … until a keyframe newer by this has come; later boxes act at the next rebuild
+  int full_map_every = 20;      // keyframes; besides, whenever somebody new subscribes
+  int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
+  MapperConfig mapper;
+};
+
+void read(config::ConfigReader& reader, MapperServiceConfig& config);
+
+/// Builds the semantic map from keyframe pictures, 3-D boxes and keyframe poses.
+class MapperService : public service::Service {
+ public:
+  MapperService(service::ServiceContext& context, const MapperServiceConfig& config);
+  void run(const std::stop_token& stop) override;
+
+ protected:
+  service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+
+ private:
+  using Images = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
+  using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
+  using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+
+  /// What late boxes of a keyframe need.
+  struct Integrated {
+    std::uint64_t id;
+    geometry::Pose camera_from_map;  // when the keyframe was made
+    geometry::CameraModel camera;
+  };
+
+  [[nodiscard]] bool something_arrived() const;
+  void take_arrivals();
+  void take(const Images& images);
+  void take(const Boxes& boxes);
+  void take(const Poses& poses);
+  bool follow_epoch(std::uint64_t map_epoch, const std::string& topic);
+  void integrate_ready();
+  [[nodiscard]] bool is_ready(const Images& images) const;
+  void integrate(const Images& images);
+  void correct();
+  void publish(const MapDelta& delta);
+  [[nodiscard]] MapProgress progress() const;
+  service::CommandOutcome finish(const std::string& argument);
+  service::CommandOutcome save(const std::string& folder);
+  service::CommandOutcome load(const std::string& folder);
+  void wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes);
+
+  MapperServiceConfig config_;
+  std::stop_token stop_;
+  SemanticMapper mapper_;
+  MapOutputs outputs_;
+  std::set<std::uint64_t> earlier_epochs_;
+  std::map<std::uint64_t, Images> waiting_;  // by keyframe id
+  std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
+  std::map<std::int64_t, Integrated> integrated_by_stamp_;
+  std::vector<KeyframePose> poses_;
+  std::uint64_t poses_revision_ = 0;  // of the newest LOCAL poses
+  std::uint64_t loop_revision_ = 0;   // contained in poses_
+  bool poses_changed_by_loop_ = false;
+  std::uint64_t last_keyframe_id_ = 0;
+  std::int64_t last_stamp_ns_ = 0;
+  int since_full_ = 0;
+  int since_correction_ = 0;
+  bool paused_ = false;
+  concurrency::Inbox<Images> images_inbox_;
+  concurrency::Inbox<Boxes> boxes_inbox_;
+  concurrency::Inbox<Poses> poses_inbox_;
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inboxes
+};
+
+}  // namespace rds::mapper

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/movable_objects.hpp"
+
+namespace rds::tracker {
+
+std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+                                                  const geometry::CameraModel& camera) const {
+  std::vector<ImageObject> objects;
+  for (prediction::PredictedObject& object : predictor_.predict(stamp_ns))
+    if (const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region))
+      objects.push_back({std::move(object), box->box});
+  return objects;
+}
+
+std::vector<MovableRegion> MovableObjects::regions(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+                                                   const geometry::CameraModel& camera) const {
+  std::vector<MovableRegion> regions;
+  for (const prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
+    if (!object.movable) continue;
+    if (const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region))
+      regions.push_back(box->region);
+  }
+  return regions;
+}
+
+std::vector<MovableRegion> MovableObjects::regions_of(Observations observations,
+                                                      const geometry::Pose& camera_from_map,
+                                                      const geometry::CameraModel& camera) const {
+  std::vector<MovableRegion> regions;
+  for (const prediction::ObjectObservation& observation : observations) {
+    if (!prediction::is_movable(predictor_.config(), observation.label)) continue;
+    if (const auto box = prediction::to_image(observation.box, camera_from_map, camera, predictor_.config().region))
+      regions.push_back(box->region);
+  }
+  return regions;
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/tracker/core/prediction/image_projection.hpp"
+#include "services/tracker/core/prediction/object_predictor.hpp"
+
+namespace rds::tracker {
+
+/// A tracked object as it stands in one frame.
+struct ImageObject {
+  prediction::PredictedObject object;
+  geometry::Box2 box;
+};
+
+/// What the tracking process knows about objects: from boxes of keyframes to boxes and regions of any frame.
+class MovableObjects {
+ public:
+  using Observations = std::span<const prediction::ObjectObservation>;
+
+  explicit MovableObjects(const prediction::PredictionConfig& config) : predictor_(config) {}
+
+  void observe(std::int64_t stamp_ns, Observations observations) { predictor_.update(stamp_ns, observations); }
+  void reset() { predictor_.reset(); }
+
+  /// Where the objects are expected in a frame; without those outside the picture.
+  [[nodiscard]] std::vector<ImageObject> in_image(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+                                                  const geometry::CameraModel& camera) const;
+
+  /// Regions whose features are not to be trusted in a frame: of the movable ones among the objects.
+  [[nodiscard]] std::vector<MovableRegion> regions(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+                                                   const geometry::CameraModel& camera) const;
+
+  /// The same for the boxes of a keyframe at its own pose.
+  [[nodiscard]] std::vector<MovableRegion> regions_of(Observations observations,
+                                                      const geometry::Pose& camera_from_map,
+                                                      const geometry::CameraModel& camera) const;
+
+ private:
+  prediction::ObjectPredictor predictor_;
+};
+
+}  // namespace rds::tracker

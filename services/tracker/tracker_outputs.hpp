@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/geometry/pose.hpp"
+#include "common/image/rgbd_frame.hpp"
+#include "common/service/service.hpp"
+#include "nav_msgs/msg/Odometry.h"
+#include "rds_msgs/msg/FrameFeatures.h"
+#include "rds_msgs/msg/KeyFrameFeatures.h"
+#include "rds_msgs/msg/KeyFrameImages.h"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "rds_msgs/msg/PredictedBoxes.h"
+#include "rds_msgs/msg/TrackingState.h"
+#include "services/tracker/core/tracker.hpp"
+#include "services/tracker/movable_objects.hpp"
+#include "tf2_msgs/msg/TFMessage.h"
+
+namespace rds::tracker {
+
+/// What is published about one frame.
+struct FrameReport {
+  const image::RgbdFrame& frame;
+  const FrameResult& result;
+  std::span<const ImageObject> objects;
+  std::uint64_t frame_index = 0;
+  std::uint32_t predict_us = 0;
+  std::uint32_t total_us = 0;
+  std::uint64_t frames_dropped = 0;
+  std::uint64_t box_sets_used = 0;
+};
+
+/// All topics that the tracker writes. Keeps odom: odom→camera is continuous, map→odom takes the jumps.
+class TrackerOutputs {
+ public:
+  TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch);
+
+  /// Odometry, tf, boxes, features, keyframe, and last the tracking state, which acknowledges the frame.
+  void publish(const FrameReport& report);
+
+  /// All keyframe poses (source LOCAL), with the next revision. @return that revision.
+  std::uint64_t publish_poses(std::span<const KeyframePose> poses, std::uint64_t loop_revision,
+                              std::uint32_t loops_closed);
+
+  /// The map moved under the camera: the next frame's map→odom takes the jump.
+  void move_map(const geometry::Pose& corrected_map_from_map);
+
+  void set_epoch(std::uint64_t map_epoch);
+
+ private:
+  void publish_pose(const FrameReport& report);
+  void publish_boxes(const FrameReport& report);
+  void publish_features(const FrameReport& report);
+  void publish_keyframe(const FrameReport& report);
+  void publish_state(const FrameReport& report);
+
+  std::uint64_t map_epoch_;
+  std::uint64_t poses_revision_ = 0;
+  geometry::Pose map_from_odom_ = geometry::Pose::Identity();
+  bus::Publisher<nav_msgs::msg::Odometry> odometry_;
+  bus::Publisher<tf2_msgs::msg::TFMessage> tf_;
+  bus::Publisher<rds_msgs::msg::TrackingState> state_;
+  bus::Publisher<rds_msgs::msg::PredictedBoxes> boxes_;
+  bus::Publisher<rds_msgs::msg::FrameFeatures> features_;
+  bus::Publisher<rds_msgs::msg::KeyFrameImages> keyframe_images_;
+  bus::Publisher<rds_msgs::msg::KeyFrameFeatures> keyframe_features_;
+  bus::Publisher<rds_msgs::msg::KeyFramePoses> keyframe_poses_;
+};
+
+}  // namespace rds::tracker

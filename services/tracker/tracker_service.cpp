@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/tracker_service.hpp"
+
+#include <chrono>
+#include <limits>
+#include <random>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/detection_conversions.hpp"
+#include "common/messages/keyframe_conversions.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLiveFrames = 2;  // waiting while one is processed; older ones are dropped
+constexpr std::size_t kMaxAnswers = 100;
+constexpr std::uint8_t kLoop = 1;
+
+std::uint64_t random_epoch() {
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) | device();
+}
+
+std::uint32_t microseconds_since(Clock::time_point start) {
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
+}
+
+}  // namespace
+
+void read(config::ConfigReader& reader, LockstepConfig& config) {
+  reader.value("lockstep", config.enabled);
+  reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1}, std::uint64_t{100},
+               "frames");
+  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100}, "frames");
+  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000}, "frames");
+  reader.value("lockstep_timeout_s", config.timeout_s, 0.1, 600.0, "s");
+}
+
+void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
+  read(reader.section("camera"), config.camera);
+  read(reader, config.lockstep);
+  reader.value("dynamics", config.dynamics);
+  reader.value("loop_closer", config.loop_closer);
+  read(reader, config.tracker);
+  read(reader.section("prediction"), config.prediction);
+}
+
+TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
+    : Service(context),
+      config_(config),
+      map_epoch_(random_epoch()),
+      tracker_(config.tracker),
+      objects_(config.prediction),
+      outputs_(context, map_epoch_),
+      input_(context, mailbox_, config.camera,
+             config.lockstep.enabled ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
+      boxes_inbox_(mailbox_, kMaxAnswers),
+      poses_inbox_(mailbox_, kMaxAnswers),
+      mapping_inbox_(mailbox_, 2),
+      mapping_worker_(config.tracker.local_mapping, mapping_inbox_),
+      boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
+          "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
+      poses_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
+          "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
+            if (m->source() == kLoop) poses_inbox_.push(std::move(m));
+          })) {
+  spdlog::info("map epoch {:016x}", map_epoch_);
+}
+
+void TrackerService::run(const std::stop_token& stop) {
+  stop_ = stop;
+  while (mailbox_.wait(stop, [this] {
+    return !input_.frames().locked_empty() || !commands_.locked_empty() || !boxes_inbox_.locked_empty() ||
+           !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+  })) {
+    handle_commands();
+    sort_in_arrivals();
+    if (const auto frame = input_.frames().try_pop(); frame && !paused_) process(*frame);
+  }
+}
+
+void TrackerService::process(const image::RgbdFrame& frame) {
+  if (config_.lockstep.enabled) await_answers();
+  const auto started = Clock::now();
+  apply_answers();
+  const auto predict_started = Clock::now();
+  const auto regions = objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
+  std::uint32_t predict_us = microseconds_since(predict_started);
+  const FrameResult result = tracker_.track(frame, regions);
+  const auto project_started = Clock::now();
+  const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
+  predict_us += microseconds_since(project_started);
+  start_mapping();
+  const std::uint32_t total_us = microseconds_since(started);
+  if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
+  outputs_.publish({frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
+  if (result.keyframe) publish_poses();
+  context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
+  ++frame_index_;
+}
+
+void TrackerService::sort_in_arrivals() {
+  while (auto boxes = boxes_inbox_.try_pop()) {
+    const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
+    if (!boxes_.arrive(stamp, std::move(*boxes)))
+      context_.diagnostics.reject("rds/boxes", "of a keyframe that nobody waits for");
+  }
+  while (auto poses = poses_inbox_.try_pop()) {
+    const std::uint64_t answered = (*poses)->answered_keyframe_id();
+    if ((*poses)->map_epoch() != map_epoch_)
+      context_.diagnostics.reject("rds/keyframe/poses", "of another map epoch");
+    else
+      loop_answers_.arrive_through(answered, *poses);
+  }
+  while (auto result = mapping_inbox_.try_pop()) {
+    const std::uint64_t keyframe = result->keyframe;
+    mappings_.arrive(keyframe, std::move(*result));
+  }
+}
+
+/// In lockstep, and only here, a frame waits: for what is agreed to take effect at it.
+void TrackerService::await_answers() {
+  const auto deadline = Clock::now() + std::chrono::duration<double>(config_.lockstep.timeout_s);
+  while (!stop_.stop_requested()) {
+    sort_in_arrivals();
+    if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) && mappings_.complete(frame_index_)) return;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) break;
+    mailbox_.wait_for(stop_, left, [this] {
+      return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+    });
+  }
+  ++context_.diagnostics.counter("lockstep timeouts");
+  spdlog::warn("frame {} goes on without an answer it waited {} s for", frame_index_, config_.lockstep.timeout_s);
+}
+
+void TrackerService::apply_answers() {
+  const auto take = [this](auto& values) {
+    return config_.lockstep.enabled ? values.take_due(frame_index_) : values.take_arrived();
+  };
+  for (const LocalMappingResult& result : take(mappings_)) apply(result);
+  for (const PosesMessage& poses : take(loop_answers_)) apply(poses);
+  for (const BoxesMessage& boxes : take(boxes_)) apply(boxes);
+}
+
+void TrackerService::apply(const LocalMappingResult& result) {
+  tracker_.apply(result);
+  publish_poses();
+}
+
+void TrackerService::apply(const PosesMessage& poses) {
+  if (poses->revision() <= loop_revision_) return;  // nothing new was closed
+  const auto correction = messages::to_keyframe_poses(*poses);
+  if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", correction.error());
+  const geometry::Pose before = tracker_.last_map_from_camera();
+  tracker_.apply(PoseGraphCorrection{*correction});
+  outputs_.move_map(tracker_.last_map_from_camera() * before.inverse());
+  loop_revision_ = poses->revision();
+  loops_closed_ = poses->loops_closed();
+  spdlog::info("loop {} closed, keyframe poses corrected", loops_closed_);
+  publish_poses();
+}
+
+void TrackerService::apply(const BoxesMessage& boxes) {
+  const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
+  const auto detections = messages::to_detections(*boxes);
+  if (!detections) return context_.diagnostics.reject("rds/boxes", detections.error());
+  std::vector<prediction::ObjectObservation> observations;
+  for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
+  ++box_sets_used_;
+  objects_.observe(stamp, observations);
+  const auto keyframe = keyframes_with_boxes_due_.extract(stamp);
+  if (!keyframe) return;
+  const auto& [id, camera_from_map, camera] = keyframe.mapped();
+  tracker_.retract_movable(id, objects_.regions_of(observations, camera_from_map, camera));
+}
+
+void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
+  const LockstepConfig& lockstep = config_.lockstep;
+  if (config_.dynamics) {
+    boxes_.ask(static_cast<std::uint64_t>(keyframe.stamp_ns), frame_index_ + lockstep.detection_latency_frames);
+    keyframes_with_boxes_due_.insert_or_assign(
+        keyframe.stamp_ns, KeyframeView{keyframe.id, keyframe.map_from_camera.inverse(), camera});
+    while (keyframes_with_boxes_due_.size() > kMaxAnswers)
+      keyframes_with_boxes_due_.erase(keyframes_with_boxes_due_.begin());
+  }
+  if (config_.loop_closer || !lockstep.enabled)
+    loop_answers_.ask(keyframe.id, frame_index_ + lockstep.loop_latency_frames);
+}
+
+void TrackerService::start_mapping() {
+  if (!mappings_.empty()) return;
+  auto job = tracker_.take_mapping_job();
+  if (!job) return;
+  mappings_.ask(job->keyframe, frame_index_ + config_.lockstep.mapping_latency_frames);
+  mapping_worker_.start(std::move(*job));
+}
+
+void TrackerService::publish_poses() {
+  outputs_.publish_poses(tracker_.keyframe_poses(), loop_revision_, loops_closed_);
+}
+
+service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& /*argument*/) {
+  if (verb == "finish") return finish();
+  if (verb == "reset") {
+    reset();
+    return {true, fmt::format("empty map, epoch {:016x}", map_epoch_)};
+  }
+  if (verb == "pause" || verb == "resume") {
+    paused_ = verb == "pause";
+    return {true, paused_ ? "paused" : "resumed"};
+  }
+  return unknown_command(verb);
+}
+
+/// Nothing more comes: takes every answer that is still on its way and publishes the final poses.
+service::CommandOutcome TrackerService::finish() {
+  while (const auto frame = input_.frames().try_pop()) process(*frame);
+  const std::uint64_t last_frame = frame_index_;
+  if (config_.lockstep.enabled) {
+    for (; !(boxes_.empty() && loop_answers_.empty() && mappings_.empty()) && !stop_.stop_requested(); ++frame_index_) {
+      await_answers();
+      apply_answers();
+      start_mapping();
+    }
+  } else {
+    apply_answers();
+  }
+  frame_index_ = last_frame;
+  const auto poses = tracker_.keyframe_poses();
+  const std::uint64_t revision = outputs_.publish_poses(poses, loop_revision_, loops_closed_);
+  return {true, nlohmann::json{{"poses_revision", revision}, {"keyframes", poses.size()}}.dump()};
+}
+
+void TrackerService::reset() {
+  map_epoch_ = random_epoch();
+  tracker_.reset();
+  objects_.reset();
+  outputs_.set_epoch(map_epoch_);
+  boxes_.clear();
+  loop_answers_.clear();
+  mappings_.clear();
+  loop_revision_ = loops_closed_ = 0;
+  spdlog::info("reset, map epoch {:016x}", map_epoch_);
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "common/service/service.hpp"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "services/tracker/core/tracker.hpp"
+#include "services/tracker/delayed_values.hpp"
+#include "services/tracker/frame_input.hpp"
+#include "services/tracker/mapping_worker.hpp"
+#include "services/tracker/movable_objects.hpp"
+#include "services/tracker/tracker_outputs.hpp"
+#include "vision_msgs/msg/Detection3DArray.h"
+
+namespace rds::tracker {
+
+/// When answers of other threads and processes take effect (architecture, "Lockstep, not luck").
+struct LockstepConfig {
+  bool enabled = false;                   // otherwise whatever has arrived is used
+  std::uint64_t detection_latency_frames = 2;  // boxes of keyframe k take effect at frame k + this
+  std::uint64_t mapping_latency_frames = 3;    // local mapping of keyframe k likewise
+  std::uint64_t loop_latency_frames = 10;      // the loop closer's answer to keyframe k likewise
+  double timeout_s = 10;                  // then a frame goes on without the answer
+};
+
+struct TrackerServiceConfig {
+  CameraTopics camera;
+  LockstepConfig lockstep;
+  bool dynamics = true;      // boxes are used (and in lockstep waited for)
+  bool loop_closer = true;   // in lockstep: its answers are waited for
+  TrackerConfig tracker;
+  prediction::PredictionConfig prediction;
+};
+
+void read(config::ConfigReader& reader, TrackerServiceConfig& config);
+
+/// The tracking process: owns the map on its worker thread, runs local mapping on a second one.
+class TrackerService : public service::Service {
+ public:
+  TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config);
+  void run(const std::stop_token& stop) override;
+
+ protected:
+  service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+
+ private:
+  using BoxesMessage = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
+  using PosesMessage = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+
+  /// What late boxes of a keyframe need.
+  struct KeyframeView {
+    std::uint64_t id;
+    geometry::Pose camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
+    geometry::CameraModel camera;
+  };
+
+  void process(const image::RgbdFrame& frame);
+  void sort_in_arrivals();
+  void await_answers();
+  void apply_answers();
+  void apply(const BoxesMessage& boxes);
+  void apply(const PosesMessage& poses);
+  void apply(const LocalMappingResult& result);
+  void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
+  void start_mapping();
+  void publish_poses();
+  void reset();
+  service::CommandOutcome finish();
+
+  TrackerServiceConfig config_;
+  std::stop_token stop_;
+  std::uint64_t map_epoch_;
+  Tracker tracker_;
+  MovableObjects objects_;
+  TrackerOutputs outputs_;
+  FrameInput input_;
+  concurrency::Inbox<BoxesMessage> boxes_inbox_;
+  concurrency::Inbox<PosesMessage> poses_inbox_;
+  concurrency::Inbox<LocalMappingResult> mapping_inbox_;
+  DelayedValues<BoxesMessage> boxes_;           // by keyframe stamp
+  std::map<std::int64_t, KeyframeView> keyframes_with_boxes_due_;  // by stamp
+  DelayedValues<PosesMessage> loop_answers_;    // by keyframe id
+  DelayedValues<LocalMappingResult> mappings_;  // by keyframe id; at most one
+  std::uint64_t frame_index_ = 0;
+  std::uint64_t box_sets_used_ = 0;
+  std::uint64_t loop_revision_ = 0;
+  std::uint32_t loops_closed_ = 0;
+  bool paused_ = false;
+  MappingWorker mapping_worker_;
+  bus::Subscription boxes_subscription_;
+  bus::Subscription poses_subscription_;
+};
+
+}  // namespace rds::tracker

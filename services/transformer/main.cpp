@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/transformer/transformer_service.hpp"
+
+int main(int argc, char** argv) {
+  using namespace rds::transformer;
+  return rds::service::run_service<TransformerService, TransformerServiceConfig>("rds-transformer", argc, argv);
+}

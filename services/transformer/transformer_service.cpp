@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/transformer/transformer_service.hpp"
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/detection_conversions.hpp"
+#include "common/messages/keyframe_conversions.hpp"
+
+namespace rds::transformer {
+namespace {
+constexpr std::size_t kMaxWaiting = 100;
+constexpr std::size_t kMaxPoses = 2000;
+constexpr std::uint8_t kLocal = 0;
+}  // namespace
+
+void read(config::ConfigReader& reader, TransformerServiceConfig& config) {
+  reader.value("camera_info_topic", config.camera_info_topic);
+  read(reader, config.transformer);
+}
+
+TransformerService::TransformerService(service::ServiceContext& context, const TransformerServiceConfig& config)
+    : Service(context),
+      config_(config),
+      detections_inbox_(mailbox_, kMaxWaiting),
+      poses_inbox_(mailbox_, kMaxWaiting),
+      camera_inbox_(mailbox_, 1),
+      boxes_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kStream)) {
+  subscriptions_.push_back(context.bus.subscribe<vision_msgs::msg::Detection2DArray>(
+      "rds/detections", bus::kStream, [this](Detections m) { detections_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
+      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
+        if (m->source() == kLocal) poses_inbox_.push(std::move(m));
+      }));
+  subscriptions_.push_back(context.bus.subscribe<sensor_msgs::msg::CameraInfo>(
+      config.camera_info_topic, bus::kSensor, [this](Info m) { camera_inbox_.push(std::move(m)); }));
+}
+
+void TransformerService::run(const std::stop_token& stop) {
+  while (mailbox_.wait(stop, [this] {
+    return !detections_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !camera_inbox_.locked_empty() ||
+           !commands_.locked_empty();
+  })) {
+    handle_commands();
+    take_camera();
+    take_pose_messages();
+    take_detections();
+    lift_what_is_complete();
+  }
+}
+
+void TransformerService::take_camera() {
+  const auto info = camera_inbox_.try_pop();
+  if (!info) return;
+  const auto camera = messages::to_camera_model(**info);
+  if (camera)
+    camera_ = *camera;
+  else
+    context_.diagnostics.reject(config_.camera_info_topic, camera.error());
+}
+
+void TransformerService::take_pose_messages() {
+  while (const auto message = poses_inbox_.try_pop()) {
+    const auto poses = messages::to_keyframe_poses(**message);
+    if (!poses) {
+      context_.diagnostics.reject("rds/keyframe/poses", poses.error());
+      continue;
+    }
+    if ((*message)->map_epoch() != map_epoch_) map_from_camera_by_stamp_.clear();
+    map_epoch_ = (*message)->map_epoch();
+    for (const auto& pose : *poses) map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
+  }
+  while (map_from_camera_by_stamp_.size() > kMaxPoses)
+    map_from_camera_by_stamp_.erase(map_from_camera_by_stamp_.begin());
+}
+
+void TransformerService::take_detections() {
+  while (auto detections = detections_inbox_.try_pop()) waiting_.push_back(std::move(*detections));
+  while (waiting_.size() > kMaxWaiting) {
+    context_.diagnostics.reject("rds/detections", "the keyframe's pose or the camera never came");
+    waiting_.pop_front();
+  }
+}
+
+void TransformerService::lift_what_is_complete() {
+  if (!camera_) return;
+  std::erase_if(waiting_, [this](const Detections& detections) {
+    const auto pose = map_from_camera_by_stamp_.find(messages::to_nanoseconds(detections->header().stamp()));
+    if (pose == map_from_camera_by_stamp_.end()) return false;
+    lift(detections, pose->second);
+    return true;
+  });
+}
+
+void TransformerService::lift(const Detections& detections, const geometry::Pose& map_from_camera) {
+  const auto found = messages::to_detections(*detections);
+  if (!found) return context_.diagnostics.reject("rds/detections", found.error());
+  std::vector<messages::SpatialDetection> boxes;
+  for (const auto& detection : *found) {
+    const auto volume = box_in_map(detection.box, detection.depth_m, detection.label, map_from_camera, *camera_,
+                                   config_.transformer);
+    if (volume)
+      boxes.push_back({detection.label, detection.score, *volume, {}});
+    else
+      ++context_.diagnostics.counter("boxes without a place in the map");
+  }
+  const auto header = messages::make_header(messages::to_nanoseconds(detections->header().stamp()), "map");
+  boxes_.write(messages::to_detection_message(boxes, header));
+}
+
+service::CommandOutcome TransformerService::execute(const std::string& verb, const std::string& /*argument*/) {
+  if (verb == "reset") {
+    map_from_camera_by_stamp_.clear();
+    waiting_.clear();
+    return {true, "forgot all keyframe poses"};
+  }
+  return unknown_command(verb);
+}
+
+}  // namespace rds::transformer

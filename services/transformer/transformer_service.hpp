@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "common/geometry/camera_model.hpp"
+#include "common/service/service.hpp"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "sensor_msgs/msg/CameraInfo.h"
+#include "services/transformer/core/box_transform.hpp"
+#include "vision_msgs/msg/Detection2DArray.h"
+#include "vision_msgs/msg/Detection3DArray.h"
+
+namespace rds::transformer {
+
+struct TransformerServiceConfig {
+  std::string camera_info_topic = "camera/color/camera_info";
+  TransformerConfig transformer;
+};
+
+void read(config::ConfigReader& reader, TransformerServiceConfig& config);
+
+/// Lifts the boxes of a keyframe into the map, as soon as the keyframe's pose and the camera are known.
+class TransformerService : public service::Service {
+ public:
+  TransformerService(service::ServiceContext& context, const TransformerServiceConfig& config);
+  void run(const std::stop_token& stop) override;
+
+ protected:
+  service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+
+ private:
+  using Detections = std::shared_ptr<const vision_msgs::msg::Detection2DArray>;
+  using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+  using Info = std::shared_ptr<const sensor_msgs::msg::CameraInfo>;
+
+  void take_pose_messages();
+  void take_camera();
+  void take_detections();
+  void lift_what_is_complete();
+  void lift(const Detections& detections, const geometry::Pose& map_from_camera);
+
+  TransformerServiceConfig config_;
+  std::uint64_t map_epoch_ = 0;
+  std::optional<geometry::CameraModel> camera_;
+  // Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so independent of
+  // how long the detector takes.
+  std::map<std::int64_t, geometry::Pose> map_from_camera_by_stamp_;
+  std::deque<Detections> waiting_;
+  concurrency::Inbox<Detections> detections_inbox_;
+  concurrency::Inbox<Poses> poses_inbox_;
+  concurrency::Inbox<Info> camera_inbox_;
+  bus::Publisher<vision_msgs::msg::Detection3DArray> boxes_;
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inboxes
+};
+
+}  // namespace rds::transformer

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs of the real processes on recordings, against the figures that the project promises.
+#include <gmock/gmock.h>
+
+#include "tests/integration/run_support.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::test {
+namespace {
+
+TEST(RecordedRun, TracksATurningCameraInAnOffice) {
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  const TemporaryFolder place;
+  const auto dataset = shared() / "data/tum_fr1_rpy";
+  const ProcessResult result = run(dataset, place / "out", {"--rate", "max", "--no-dynamics"});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  const auto figures = score(dataset, place / "out");
+  EXPECT_GE(figures["tracked"].get<double>(), 0.99);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.040);
+}
+
+TEST(RecordedRun, TracksACameraThatComesBackInAKitchen) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const TemporaryFolder place;
+  const auto dataset = shared() / "data/7scenes_kitchen";
+  const ProcessResult result = run(dataset, place / "out", {"--rate", "max", "--no-dynamics"});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  const auto figures = score(dataset, place / "out");
+  EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.070);
+}
+
+TEST(RecordedRun, KeepsPeopleOutOfPoseAndMapAndGivesTheSameBytesOverEitherBus) {
+  RDS_REQUIRE_SEQUENCE("kitchen_walkers");
+  const TemporaryFolder place;
+  const auto dataset = dynamic_sequence("kitchen_walkers");
+  const std::vector<std::pair<std::string, std::string>> runs{
+      {"fast", "fastdds"}, {"cyclone", "cyclonedds"}, {"mixed", "tracker=cyclonedds,mapper=fastdds"}};
+  for (const auto& [name, bus] : runs) {
+    const ProcessResult result = run(dataset, place / name, {"--rate", "max", "--bus", bus});
+    ASSERT_EQ(result.status, 0) << bus << ": " << result.standard_error;
+  }
+  const auto figures = score(dataset, place / "fast", shared() / "data/7scenes_kitchen");
+  EXPECT_GE(figures["tracked"].get<double>(), 0.99);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.12);
+  EXPECT_GE(figures["box_recall"].get<double>(), 0.6);
+  EXPECT_LE(figures["residue"].get<double>(), 0.06);
+  EXPECT_GE(figures["static_recall"].get<double>(), 0.85);
+  for (const char* file : {"trajectory.txt", "predictions.jsonl", "map.ot"})
+    for (const char* other : {"cyclone", "mixed"})
+      EXPECT_EQ(read_text(place / "fast" / file), read_text(place / other / file)) << file << " of " << other;
+}
+
+}  // namespace
+}  // namespace rds::test

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run does when a service dies, the user stops it, or services stand alone.
+#include <csignal>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/run_support.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/small_dataset.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::vector<std::string> kServices{"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper",
+                                         "rds-loop-closer"};
+
+class KilledService : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const TemporaryFolder place;
+  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 120);
+  Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string()});
+  ASSERT_TRUE(process.wait_for_output("frame", 60s));
+  std::this_thread::sleep_for(2s);
+  const auto victims = children(process.pid(), GetParam());
+  ASSERT_EQ(victims.size(), 1U);
+  ASSERT_EQ(kill(victims.front(), SIGKILL), 0);
+  EXPECT_EQ(process.wait(120s), 1) << "a run with a fault must say so";
+  EXPECT_THAT(process.standard_error(), HasSubstr(GetParam() + " ended with status 137"));
+  const auto summary = nlohmann::json::parse(read_text(place / "out" / "summary.json"));
+  EXPECT_EQ(summary["processes"][GetParam()]["restarts"], 1);
+  EXPECT_EQ(summary["frames"]["played"], 120);
+  EXPECT_GT(summary["frames"]["tracked"].get<int>(), GetParam() == "rds-tracker" ? 40 : 110);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),
+                         [](const auto& info) { return std::string(info.param).substr(4, 4); });
+
+TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const TemporaryFolder place;
+  Process process({rds(), "run", "--dataset", (shared() / "data/7scenes_kitchen").string(), "--out",
+                   (place / "out").string()});
+  ASSERT_TRUE(process.wait_for_output("frame", 60s));
+  std::vector<pid_t> services;
+  for (const std::string& name : kServices)
+    for (const pid_t pid : children(process.pid(), name)) services.push_back(pid);
+  EXPECT_EQ(services.size(), kServices.size());
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait(3s), 1);
+  for (const pid_t pid : services) EXPECT_NE(kill(pid, 0), 0) << pid << " is still there";
+  EXPECT_TRUE(is_empty(place.path()));
+}
+
+class LoneService : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(LoneService, StartsWithoutTheOthersAndStopsWhenAsked) {
+  RDS_REQUIRE_SHARED("models");
+  for (const char* bus : {"fastdds", "cyclonedds"}) {
+    Process process({std::string(RDS_BIN_DIR) + "/" + GetParam(), "--bus", bus, "--domain", "25", "--loopback"});
+    ASSERT_TRUE(process.wait_for_output("version", 20s)) << bus << process.standard_error();
+    std::this_thread::sleep_for(500ms);
+    EXPECT_TRUE(process.running());
+    process.send(SIGTERM);
+    EXPECT_EQ(process.wait(3s), 0) << bus << process.standard_error();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, LoneService, ::testing::ValuesIn(kServices),
+                         [](const auto& info) { return std::string(info.param).substr(4, 4); });
+
+}  // namespace
+}  // namespace rds::test

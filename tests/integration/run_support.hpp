@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.hpp"
+
+namespace rds::test {
+
+/// The `rds` executable that was built with the tests.
+std::string rds();
+
+/// `rds run` on a dataset with these further arguments. @return exit status, stdout, stderr.
+ProcessResult run(const std::filesystem::path& dataset, const std::filesystem::path& out,
+                  const std::vector<std::string>& arguments, std::chrono::seconds limit = std::chrono::seconds(300));
+
+/// Figures of `rds eval DATASET OUT --json [--background DIR]`.
+nlohmann::json score(const std::filesystem::path& dataset, const std::filesystem::path& out,
+                     const std::filesystem::path& background = {});
+
+/// A sequence with people that the recordings' own tool makes (presets of the recordings' README), made by a fixture
+/// that runs before the tests. Empty if it is not there.
+std::filesystem::path dynamic_sequence(const std::string& name);
+
+/// Process ids of the children of `parent` whose executable is called `name`.
+std::vector<pid_t> children(pid_t parent, const std::string& name);
+
+}  // namespace rds::test
+
+/// Skips the test, with the reason, unless the sequence has been made.
+#define RDS_REQUIRE_SEQUENCE(name)                                                                        \
+  do {                                                                                                    \
+    RDS_REQUIRE_SHARED("data");                                                                           \
+    ASSERT_FALSE(::rds::test::dynamic_sequence(name).empty()) << "the sequence " << name << " was not made"; \
+  } while (false)

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/run_files.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::run {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+geometry::Pose at(double x) {
+  geometry::Pose pose = geometry::Pose::Identity();
+  pose.translation().x() = x;
+  return pose;
+}
+
+Recording two_frames() {
+  Recording r;
+  r.frames[1'000'000'000] = {.stamp_ns = 1'000'000'000,
+                             .state = "TRACKING",
+                             .has_pose = true,
+                             .reference_keyframe_id = 4,
+                             .map_from_camera = at(1),
+                             .reference_from_camera = at(0.5)};
+  r.frames[1'033'000'000] = {.stamp_ns = 1'033'000'000, .state = "LOST", .has_pose = false};
+  r.keyframes[4] = {900'000'000, at(10)};
+  r.predictions[1'000'000'000] = {{.id = 7, .label = "person", .box = {1, 2, 3.456, 4}, .volume = {}, .age_s = 0.1}};
+  r.predictions[1'033'000'000] = {};
+  r.detections[900'000'000] = {{"person", 0.9, {1, 2, 3, 4}, 1.5}};
+  return r;
+}
+
+class RunFilesTest : public ::testing::Test {
+ protected:
+  void SetUp() override { write_run_files(two_frames(), place_.path()); }
+  std::string text(const std::string& file) const { return test::read_text(place_ / file); }
+  test::TemporaryFolder place_;
+};
+
+TEST_F(RunFilesTest, TrajectoriesHoldFramesWithAPoseOnly) {
+  EXPECT_THAT(text("trajectory.txt"), HasSubstr("1.000000 1.000000000 "));
+  EXPECT_THAT(text("trajectory.txt"), Not(HasSubstr("1.033")));
+}
+
+TEST_F(RunFilesTest, OptimizedTrajectoryFollowsTheReferenceKeyframe) {
+  EXPECT_THAT(text("trajectory_optimized.txt"), HasSubstr("1.000000 10.500000000 "));
+  EXPECT_THAT(text("keyframes.txt"), HasSubstr("0.900000 10.000000000 "));
+}
+
+TEST_F(RunFilesTest, TablesHaveALinePerFrame) {
+  EXPECT_THAT(text("frames.csv"), HasSubstr("1.000000,TRACKING,0,0,0,0.000,0.000,0.000,0.000,1\n"));
+  EXPECT_THAT(text("frames.csv"), HasSubstr("1.033000,LOST,"));
+  EXPECT_THAT(text("predictions.jsonl"),
+              HasSubstr(R"({"stamp": 1.000000, "boxes": [{"id":7,"label":"person","box":[1.0,2.0,3.46,4.0])"));
+  EXPECT_THAT(text("predictions.jsonl"), HasSubstr(R"({"stamp": 1.033000, "boxes": []})"));
+  EXPECT_THAT(text("detections.jsonl"), HasSubstr(R"("score":0.9,"box":[1.0,2.0,3.0,4.0],"depth_m":1.5)"));
+}
+
+}  // namespace
+}  // namespace rds::run

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/topology.hpp"
+
+#include <gmock/gmock.h>
+
+namespace rds::run {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Endpoints of a detector, a tracker and the player as they report them when all links are up.
+std::map<std::string, std::vector<Endpoint>> connected() {
+  return {{kDetector,
+           {{"rds/keyframe/images", false, 1}, {"rds/detections", true, 1}, {"rds/command", false, 1},
+            {"rds/command_result", true, 1}}},
+          {kTracker,
+           {{"camera/color/image_raw", false, 1}, {"camera/color/camera_info", false, 1},
+            {"camera/aligned_depth_to_color/image_raw", false, 1}, {"rds/odometry", true, 1},
+            {"rds/tracking_state", true, 1}, {"rds/predicted_boxes", true, 1}, {"rds/features", true, 1},
+            {"rds/keyframe/images", true, 1}, {"rds/keyframe/poses", true, 2}, {"rds/keyframe/poses", false, 1},
+            {"rds/command", false, 1}, {"rds/command_result", true, 1}}},
+          {kPlayer,
+           {{"camera/color/image_raw", true, 1}, {"camera/color/camera_info", true, 1},
+            {"camera/aligned_depth_to_color/image_raw", true, 1}, {"rds/odometry", false, 1},
+            {"rds/tracking_state", false, 1}, {"rds/predicted_boxes", false, 1}, {"rds/features", false, 1},
+            {"rds/keyframe/poses", false, 1}, {"rds/detections", false, 1}, {"rds/command", true, 2},
+            {"rds/command_result", false, 2}}}};
+}
+
+const std::set<std::string> kRunning{kPlayer, kTracker, kDetector};
+
+TEST(MissingLinks, AreNoneWhenEveryRunningPairKnowsEachOther) {
+  EXPECT_THAT(missing_links(kRunning, connected()), IsEmpty());
+}
+
+TEST(MissingLinks, NameTheEndAndTheTopicThatLacksPartners) {
+  auto endpoints = connected();
+  endpoints[kDetector][0].matched = 0;
+  EXPECT_THAT(missing_links(kRunning, endpoints),
+              Contains(HasSubstr("rds-detector reads rds/keyframe/images: 0 of 1 writers")));
+}
+
+TEST(MissingLinks, NameAProcessThatDoesNotAnswerOnce) {
+  auto endpoints = connected();
+  endpoints.erase(kDetector);
+  const auto missing = missing_links(kRunning, endpoints);
+  EXPECT_EQ(std::ranges::count(missing, "rds-detector does not answer"), 1);
+}
+
+TEST(MissingLinks, DoNotAskForProcessesThatDoNotRun) {
+  auto endpoints = connected();
+  endpoints.erase(kDetector);
+  for (Endpoint& e : endpoints[kPlayer])
+    if (e.topic == "rds/detections") e.matched = 0;
+  for (Endpoint& e : endpoints[kTracker])
+    if (e.topic == "rds/keyframe/images") e.matched = 0;
+  EXPECT_THAT(missing_links({kPlayer, kTracker}, endpoints), IsEmpty());
+}
+
+}  // namespace
+}  // namespace rds::run

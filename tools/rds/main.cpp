@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "tools/rds/doctor_command.hpp"
+#include "tools/rds/eval_command.hpp"
+#include "tools/rds/map_command.hpp"
+#include "tools/rds/models_command.hpp"
+#include "tools/rds/play/play_command.hpp"
+#include "tools/rds/run/run_command.hpp"
+#include "tools/rds/topic_command.hpp"
+
+int main(int argc, char** argv) {
+  constexpr int kBadUsage = 2;
+  CLI::App rds{"RDS-SLAM: real-time semantic mapping of places where people walk about"};
+  rds.set_version_flag("--version", RDS_VERSION);
+  rds.require_subcommand(1);
+  rds::run::add_run_command(rds);
+  rds::play::add_play_command(rds);
+  rds::tools::add_eval_command(rds);
+  rds::tools::add_map_command(rds);
+  rds::tools::add_topic_command(rds);
+  rds::tools::add_models_command(rds);
+  rds::tools::add_doctor_command(rds);
+  try {
+    rds.parse(argc, argv);
+  } catch (const CLI::RuntimeError& e) {
+    return e.get_exit_code();
+  } catch (const CLI::ParseError& e) {
+    return rds.exit(e) == 0 ? 0 : kBadUsage;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "rds: {}\n", e.what());
+    return kBadUsage;
+  }
+  return 0;
+}

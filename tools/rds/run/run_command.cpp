@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/run_command.hpp"
+
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "common/config/config_reader.hpp"
+#include "tools/rds/interrupt.hpp"
+#include "tools/rds/rate_option.hpp"
+#include "tools/rds/run/run_options.hpp"
+#include "tools/rds/run/session.hpp"
+#include "tools/rds/run/topology.hpp"
+
+namespace rds::run {
+namespace {
+
+constexpr int kBadUsage = 2;
+
+/// "fastdds", or "tracker=cyclonedds,mapper=fastdds" for single processes.
+void parse_vendors(const std::string& text, RunOptions& options) {
+  for (const std::string& part : CLI::detail::split(text, ',')) {
+    const auto equals = part.find('=');
+    const bus::Vendor vendor = bus::vendor_from_name(part.substr(equals == std::string::npos ? 0 : equals + 1));
+    if (equals == std::string::npos) {
+      options.default_vendor = vendor;
+      continue;
+    }
+    std::string process = part.substr(0, equals);
+    if (process == "player") process = kPlayer;
+    if (process != kPlayer && !process.starts_with("rds-")) process = "rds-" + process;
+    static const std::set<std::string> kProcesses{kPlayer,      kTracker, kDetector,
+                                                  kTransformer, kMapper,  kLoopCloser};
+    if (process == "rds-loop_closer") process = kLoopCloser;
+    if (!kProcesses.contains(process))
+      throw std::invalid_argument(fmt::format("--bus {}: expected player, tracker, detector, transformer, mapper or "
+                                              "loop-closer before '='",
+                                              part));
+    options.vendors[process] = vendor;
+  }
+}
+
+void check_files(const RunOptions& options) {
+  for (const auto& file : {options.config, options.poses, options.detections})
+    if (!file.empty() && !std::filesystem::is_regular_file(file))
+      throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+}
+
+int run(RunOptions& options, const std::string& vendors) {
+  try {
+    parse_vendors(vendors, options);
+    check_files(options);
+    const auto dataset = image::TumDataset::open(options.dataset);
+    if (!dataset) throw std::runtime_error(dataset.error());
+    play::check_first_frame(*dataset, options.start);
+    Interrupt interrupt;
+    Session session(options, *dataset);
+    return session.run(interrupt.token());
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return kBadUsage;
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& rds) {
+  auto* command = rds.add_subcommand("run", "run the five services on a recording and write the results");
+  auto options = std::make_shared<RunOptions>();
+  auto vendors = std::make_shared<std::string>("fastdds");
+  auto no_dynamics = std::make_shared<bool>(false);
+  command->add_option("--dataset", options->dataset, "folder in TUM RGB-D form")->required();
+  command->add_option("--out", options->out, "folder for the results")->required();
+  command->add_option("--bus", *vendors, "fastdds, cyclonedds, or per process: tracker=cyclonedds,mapper=fastdds")
+      ->capture_default_str();
+  add_rate_option(*command, options->rate);
+  command->add_flag("--no-dynamics", *no_dynamics, "plain RGB-D SLAM: no detection, no prediction");
+  command->add_option("--model", options->model, "network, see: rds models list");
+  command->add_option("--model-dir", options->model_dir, "where its file is looked for first");
+  command->add_option("--config", options->config, "YAML with a section per service");
+  command->add_option("--start", options->start, "first frame");
+  command->add_option("--frames", options->frames, "number of frames")->check(CLI::PositiveNumber);
+  command->add_option("--poses", options->poses, "camera poses from a TUM file instead of estimated ones");
+  command->add_option("--detections", options->detections,
+                      "boxes from a detections.jsonl or a truth file instead of the network");
+  command->add_flag("--video", options->video, "write overlay.avi");
+  command->add_flag("--force", options->force, "overwrite an earlier run");
+  command->callback([options, vendors, no_dynamics] {
+    options->dynamics = !*no_dynamics;
+    const int status = run(*options, *vendors);
+    if (status != 0) throw CLI::RuntimeError(status);
+  });
+}
+
+}  // namespace rds::run

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "common/bus/participant.hpp"
+
+namespace rds::run {
+
+/// What the user asked `rds run` for.
+struct RunOptions {
+  std::filesystem::path dataset;
+  std::filesystem::path out;
+  std::map<std::string, bus::Vendor> vendors;  // by process name; absent: default_vendor
+  bus::Vendor default_vendor = bus::Vendor::kFastDds;
+  double rate = 1.0;  // 0: max
+  bool dynamics = true;
+  std::string model;      // empty: the detector's default
+  std::string model_dir;  // empty: the detector's search path
+  std::filesystem::path config;
+  std::size_t start = 0;
+  std::size_t frames = std::numeric_limits<std::size_t>::max();
+  std::filesystem::path poses;
+  std::filesystem::path detections;
+  bool video = false;
+  bool force = false;
+
+  [[nodiscard]] bool lockstep() const { return rate == 0; }
+  [[nodiscard]] bus::Vendor vendor_of(const std::string& process) const {
+    const auto found = vendors.find(process);
+    return found == vendors.end() ? default_vendor : found->second;
+  }
+};
+
+}  // namespace rds::run

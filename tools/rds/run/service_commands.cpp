@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/service_commands.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "common/config/config_reader.hpp"
+#include "tools/rds/run/topology.hpp"
+
+namespace rds::run {
+namespace fs = std::filesystem;
+namespace {
+
+struct Section {
+  std::string process;
+  std::string key;
+};
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> kSections{{kTracker, "tracker"},
+                                              {kDetector, "detector"},
+                                              {kTransformer, "transformer"},
+                                              {kMapper, "mapper"},
+                                              {kLoopCloser, "loop_closer"}};
+  return kSections;
+}
+
+/// The user's file; every top-level key must be a service.
+YAML::Node read_user_config(const fs::path& file) {
+  if (file.empty()) return YAML::Node(YAML::NodeType::Map);
+  auto reader = config::ConfigReader::from_file(file);
+  YAML::Node services = YAML::LoadFile(file);
+  for (const Section& section : sections()) {
+    YAML::Node ignored;
+    reader.value(section.key, ignored);
+    if (services[section.key] && !services[section.key].IsMap())
+      reader.violation(section.key, YAML::Dump(services[section.key]), "expected a map");
+  }
+  reader.finish();
+  return services;
+}
+
+/// Takes the command line's word into one service's configuration.
+void complete(YAML::Node& node, const std::string& process, const RunOptions& options) {
+  if (process != kTransformer) node["lockstep"] = options.lockstep();
+  if (process == kTracker) {
+    node["dynamics"] = options.dynamics;
+    if (!options.poses.empty()) node["poses_file"] = fs::absolute(options.poses).string();
+  }
+  if (process == kMapper) node["expect_boxes"] = options.dynamics;
+  if (process != kDetector) return;
+  if (!options.model.empty()) node["network"] = options.model;
+  if (!options.model_dir.empty()) node["model_dir"] = fs::absolute(options.model_dir).string();
+  if (!options.detections.empty()) node["detections_file"] = fs::absolute(options.detections).string();
+}
+
+fs::path write_config(const YAML::Node& node, const fs::path& file) {
+  std::ofstream out(file);
+  out << YAML::Dump(node) << '\n';
+  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  return file;
+}
+
+}  // namespace
+
+std::vector<ServiceCommand> service_commands(const RunOptions& options, int domain, const fs::path& folder) {
+  const fs::path executables = fs::read_symlink("/proc/self/exe").parent_path();
+  const YAML::Node user = read_user_config(options.config);
+  fs::create_directories(folder / "config");
+  fs::create_directories(folder / "log");
+  std::vector<ServiceCommand> commands;
+  for (const auto& [process, key] : sections()) {
+    if (!options.dynamics && (process == kDetector || process == kTransformer)) continue;
+    YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
+    complete(node, process, options);
+    const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
+    commands.push_back({process,
+                        {(executables / process).string(), "--bus", bus::name_of(options.vendor_of(process)), "--domain",
+                         std::to_string(domain), "--loopback", "--config", config.string()},
+                        folder / "log" / (process + ".log")});
+  }
+  return commands;
+}
+
+}  // namespace rds::run

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/session.hpp"
+
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/rds/run/results.hpp"
+#include "tools/rds/run/service_commands.hpp"
+#include "tools/rds/run/topology.hpp"
+
+namespace rds::run {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr seconds kConnectLimit{30};
+constexpr milliseconds kStatusLimit{300};
+constexpr seconds kAcknowledgeLimit{30};
+constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
+constexpr seconds kFinishLimit{120};
+constexpr milliseconds kStopLimit{2500};
+
+std::vector<Endpoint> endpoints_of(const nlohmann::json& list) {
+  std::vector<Endpoint> endpoints;
+  for (const auto& e : list)
+    endpoints.push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
+  return endpoints;
+}
+
+std::vector<Endpoint> endpoints_of(const bus::Participant& bus) {
+  std::vector<Endpoint> endpoints;
+  for (const auto& e : bus.statistics()) endpoints.push_back({e.topic, e.publisher, e.matched});
+  return endpoints;
+}
+
+std::unique_ptr<bus::Participant> join(const RunOptions& options, int domain) {
+  return bus::Participant::create(
+      {.vendor = options.vendor_of(kPlayer), .domain = domain, .node_name = "rds_run", .loopback_only = true});
+}
+
+}  // namespace
+
+Session::Session(const RunOptions& options, const image::TumDataset& dataset)
+    : options_(options),
+      dataset_(dataset),
+      folder_(options.out, options.force),
+      bus_(join(options, domain_.domain())),
+      recorder_(*bus_),
+      commander_(*bus_),
+      player_(*bus_, dataset,
+              {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
+      fleet_(std::make_unique<Fleet>(service_commands(options, domain_.domain(), folder_.path()))),
+      overlay_(std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())) {}
+
+int Session::run(const std::stop_token& stop) {
+  wait_until_connected(stop);
+  started_ = last_progress_ = Clock::now();
+  if (!stop.stop_requested()) play(stop);
+  if (!stop.stop_requested()) drain(stop);
+  fleet_->stop(kStopLimit);
+  overlay_->finish();
+  if (stop.stop_requested()) {
+    fmt::print(stderr, "stopped after {} frames, nothing is written\n", played_);
+    return 1;
+  }
+  write_results();
+  return fleet_->healthy() && complete_ ? 0 : 1;
+}
+
+void Session::wait_until_connected(const std::stop_token& stop) {
+  std::set<std::string> running = fleet_->names();
+  const std::size_t services = running.size();
+  running.insert(kPlayer);
+  const auto deadline = Clock::now() + kConnectLimit;
+  std::vector<std::string> missing;
+  while (!stop.stop_requested()) {
+    fleet_->watch();
+    std::map<std::string, std::vector<Endpoint>> endpoints{{kPlayer, endpoints_of(*bus_)}};
+    for (const auto& [name, text] : commander_.ask_status(services, stop, kStatusLimit)) {
+      const auto status = nlohmann::json::parse(text, nullptr, false);
+      if (status.is_object() && status.contains("endpoints")) endpoints[name] = endpoints_of(status["endpoints"]);
+    }
+    missing = missing_links(running, endpoints);
+    if (missing.empty()) return;
+    if (Clock::now() > deadline)
+      throw std::runtime_error(fmt::format("the services did not connect within {} s: {}", kConnectLimit.count(),
+                                           fmt::join(missing, "; ")));
+  }
+}
+
+void Session::play(const std::stop_token& stop) {
+  report_ = player_.run(stop, [&](const image::RgbdFrame& frame, std::size_t index) {
+    return after_frame(frame, index, stop);
+  });
+  if (report_.played == 0 && report_.unreadable > 0)
+    throw std::runtime_error(fmt::format("no frame can be read: {}", report_.first_error));
+  if (report_.unreadable > 0)
+    fmt::print(stderr, "{} frames could not be read and were skipped: {}\n", report_.unreadable, report_.first_error);
+}
+
+bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
+  overlay_->add_picture(index, frame);
+  if (options_.lockstep()) {
+    complete_ &= recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit) || stop.stop_requested();
+    if (fleet_->alive(kMapper)) recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
+  }
+  fleet_->watch();
+  show_progress(++played_);
+  return true;
+}
+
+void Session::show_progress(std::size_t played) {
+  const auto now = Clock::now();
+  if (now - last_progress_ < seconds(1) && played < player_.frame_count()) return;
+  last_progress_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+  fmt::print(stderr, "\rframe {}/{}  {:.1f} frames/s  {} keyframes ", played, player_.frame_count(),
+             static_cast<double>(played) / elapsed_s, recorder_.last_keyframe_id().value_or(0) + 1);
+  if (played == player_.frame_count()) fmt::print(stderr, "\n");
+}
+
+/// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing left to do.
+void Session::drain(const std::stop_token& stop) {
+  const Recording so_far = recorder_.recording();
+  if (!so_far.frames.empty()) recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
+  const std::string final_poses = ask(kTracker, "finish", "", stop);
+  const auto json = nlohmann::json::parse(final_poses, nullptr, false);
+  if (json.is_object())
+    complete_ &= recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
+  map_description_ = ask(kMapper, "finish", final_poses, stop);
+  ask(kMapper, "save", folder_.path().string(), stop);
+  status_ = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
+}
+
+/// @return the answer; empty, and the run is not complete, if the command failed.
+std::string Session::ask(const std::string& service, const std::string& verb, const std::string& argument,
+                         const std::stop_token& stop) {
+  fleet_->watch();
+  const auto reply = commander_.ask(service, verb, argument, stop, kFinishLimit);
+  if (reply && reply->success) return reply->message;
+  complete_ = false;
+  if (!stop.stop_requested())
+    fmt::print(stderr, "{} {}: {}\n", service, verb, reply ? reply->message : "no answer");
+  return {};
+}
+
+void Session::write_results() {
+  const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
+  const Recording recording = recorder_.recording();
+  write_all_results({options_, recording, report_, fleet_->usage(), status_, player_.frame_count(), wall_s, map_description_, {}, {}},
+                    dataset_, folder_.path());
+  folder_.publish();
+}
+
+}  // namespace rds::run

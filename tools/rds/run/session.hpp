@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "common/image/tum_dataset.hpp"
+#include "tools/rds/play/player.hpp"
+#include "tools/rds/run/commander.hpp"
+#include "tools/rds/run/domain_lock.hpp"
+#include "tools/rds/run/fleet.hpp"
+#include "tools/rds/run/output_folder.hpp"
+#include "tools/rds/run/overlay_writer.hpp"
+#include "tools/rds/run/recorder.hpp"
+#include "tools/rds/run/run_options.hpp"
+
+namespace rds::run {
+
+/// One `rds run`: starts the services, plays the recording, waits until everything has drained, writes the results.
+class Session {
+ public:
+  /// @throws std::runtime_error with one sentence when the run cannot start.
+  Session(const RunOptions& options, const image::TumDataset& dataset);
+
+  /// @return the process's exit status: 0 if every service stayed healthy, 1 otherwise.
+  int run(const std::stop_token& stop);
+
+ private:
+  void wait_until_connected(const std::stop_token& stop);
+  void play(const std::stop_token& stop);
+  bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
+  void show_progress(std::size_t played);
+  void drain(const std::stop_token& stop);
+  std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
+                  const std::stop_token& stop);
+  void write_results();
+
+  const RunOptions& options_;
+  const image::TumDataset& dataset_;
+  OutputFolder folder_;
+  DomainLock domain_;
+  std::unique_ptr<bus::Participant> bus_;
+  Recorder recorder_;
+  Commander commander_;
+  play::Player player_;
+  std::unique_ptr<Fleet> fleet_;
+  std::unique_ptr<OverlayWriter> overlay_;
+  play::PlayerReport report_;
+  std::map<std::string, std::string> status_;
+  std::string map_description_;
+  std::chrono::steady_clock::time_point started_;
+  std::chrono::steady_clock::time_point last_progress_;
+  std::size_t played_ = 0;
+  bool complete_ = true;  // nothing timed out
+};
+
+}  // namespace rds::run

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace rds::run {
+
+/// Process names of `rds run`. "rds" is the player and recorder itself.
+inline const std::string kPlayer = "rds";
+inline const std::string kTracker = "rds-tracker";
+inline const std::string kDetector = "rds-detector";
+inline const std::string kTransformer = "rds-transformer";
+inline const std::string kMapper = "rds-mapper";
+inline const std::string kLoopCloser = "rds-loop-closer";
+
+/// One endpoint of a process, as its status tells.
+struct Endpoint {
+  std::string topic;
+  bool publisher = false;
+  int matched = 0;
+};
+
+/// Links between the running processes that are not up yet, one sentence each.
+///
+/// A volatile sample written before both ends know each other is lost, so a run starts when this is empty.
+/// @param endpoints  by process name, as each process reported; a process that has not reported is a missing link.
+std::vector<std::string> missing_links(const std::set<std::string>& running,
+                                       const std::map<std::string, std::vector<Endpoint>>& endpoints);
+
+}  // namespace rds::run

@@ -20,9 +20,6 @@ case $preset in release | dev | asan | tsan) ;; *) fail "--preset $preset: expec
 [ -z "${RDS_SHARED:-}" ] || RDS_SHARED=$(cd "$RDS_SHARED" 2>/dev/null && pwd) || fail "RDS_SHARED: expected a folder"
 export RDS_SHARED RDS_PYTHON=$root/.venv/bin/python
 
-# Attribute NAME of the results' first element.
-count() { sed -n "0,/ $1=\"/s/.* $1=\"\([0-9]*\)\".*/\1/p" "$results" | head -n 1; }
-
 "$root/tools/setup.sh"
 build "$preset"
 results=$root/build/$preset/results.xml
@@ -30,12 +27,7 @@ rm -f "$results"
 status=0
 (cd "$root" && ctest --preset "$preset" -j "$(jobs)" --output-junit "$results" "$@") || status=$?
 [ -f "$results" ] || fail "ctest left no results (exit status $status)"
-failed=$(count failures) skipped=$(($(count skipped) + $(count disabled)))
-passed=$(($(count tests) - failed - skipped))
-if [ "$skipped" -gt 0 ]; then
-  say "skipped:"
-  awk -F'"' '/<testcase / {name = $2} /SKIP_|Skipped|skipped/ && name != last {print "  " name; last = name}' "$results"
-fi
-say "$preset: $passed passed, $failed failed, $skipped skipped"
+skipped=0
+/usr/bin/python3 "$root/tools/test_summary.py" "$results" "$preset" || skipped=$?
 [ "$status" = 0 ] || exit "$status"
 $may_skip || [ "$skipped" = 0 ] || fail "no test may be skipped here"

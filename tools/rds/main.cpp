@@ -8,6 +8,7 @@
 #include "tools/rds/models_command.hpp"
 #include "tools/rds/play/play_command.hpp"
 #include "tools/rds/run/run_command.hpp"
+#include "tools/rds/simulate_command.hpp"
 #include "tools/rds/topic_command.hpp"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   rds::tools::add_topic_command(rds);
   rds::tools::add_models_command(rds);
   rds::tools::add_doctor_command(rds);
+  rds::tools::add_simulate_command(rds);
   try {
     rds.parse(argc, argv);
   } catch (const CLI::RuntimeError& e) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <opencv2/core.hpp>
+
+#include "tools/simulator/noise_field.hpp"
+#include "tools/simulator/renderer.hpp"
+
+namespace rds::simulator {
+
+/// A structured-light camera like the first Kinect (Khoshelham & Elberink, Sensors 2012): disparity in
+/// eighths of a pixel, so that the error grows with z²; holes in the projector's shadow, at rims, at grazing
+/// angles, on surfaces that swallow infrared light, and out of range.
+class DepthSensor {
+ public:
+  static constexpr double kUnitsPerMetre = 5000;
+  static constexpr float kNearestM = 0.45F;
+  static constexpr float kFarthestM = 4.8F;
+
+  DepthSensor(std::uint64_t seed, double fx);
+
+  /// @return CV_16UC1, kUnitsPerMetre, 0 = no measurement; the same frame number gives the same noise.
+  [[nodiscard]] cv::Mat measure(const Rendering& truth, std::uint64_t frame) const;
+  /// One standard deviation of a measurement at depth z [m], quantisation included.
+  [[nodiscard]] double sigma_m(double z) const;
+
+ private:
+  std::uint64_t seed_;
+  float focal_times_baseline_;
+  NoiseField fine_;    // disparity noise, correlated like the matching window
+  NoiseField coarse_;  // where patches drop out and rims run
+};
+
+}  // namespace rds::simulator

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/geometry/box.hpp"
+#include "tools/simulator/camera_path.hpp"
+#include "tools/simulator/color_sensor.hpp"
+#include "tools/simulator/depth_sensor.hpp"
+#include "tools/simulator/person.hpp"
+#include "tools/simulator/renderer.hpp"
+#include "tools/simulator/scene.hpp"
+#include "tools/simulator/walk.hpp"
+
+namespace rds::simulator {
+
+struct SimulationOptions {
+  PathKind path = PathKind::kXyz;
+  int people = 2;
+  double seconds = 20;
+  std::uint64_t seed = 1;
+  double rate_hz = 30;
+  geometry::CameraModel camera{640, 480, 525.0, 525.0, 319.5, 239.5, {}};
+};
+
+/// Truth about one person in one picture; only people with visible pixels are listed.
+struct PersonTruth {
+  int id = 0;
+  cv::Rect box;  // of the visible part [px]
+  double visible_fraction =
+      0;         // visible area / area of the whole silhouette were it unoccluded and the image unbounded
+  int area = 0;  // visible [px]
+  Eigen::Vector3d center_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_world = Eigen::Vector3d::Zero();
+  double distance = 0;  // along the optical axis [m]
+  std::string motion;   // walk, turn or stand
+};
+
+/// What a perfect detector would say about a labelled thing or person.
+struct VisibleObject {
+  std::string label;
+  cv::Rect box;
+  double depth_m = 0;  // median of its visible pixels
+};
+
+struct SimulatedFrame {
+  cv::Mat color;  // CV_8UC3, BGR
+  cv::Mat depth;  // CV_16UC1, DepthSensor::kUnitsPerMetre
+  cv::Mat mask;   // CV_8UC1, 0 = background, k = pixel shows person k − 1
+  std::vector<PersonTruth> people;
+  std::vector<VisibleObject> visible;
+};
+
+/// A recording that exists as a function: any frame can be rendered at any time, from any thread.
+///
+/// Room, camera path and sensor noise depend on the seed only, so `people = 0` gives the same recording
+/// without people.
+class Simulation {
+ public:
+  explicit Simulation(const SimulationOptions& options);
+
+  [[nodiscard]] const SimulationOptions& options() const { return options_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] int frame_count() const;
+  [[nodiscard]] double time_s(int frame) const { return frame / options_.rate_hz; }
+  [[nodiscard]] geometry::Pose world_from_camera(double time_s) const {
+    return path_.world_from_camera(time_s);
+  }
+  [[nodiscard]] const DepthSensor& depth_sensor() const { return depth_sensor_; }
+
+  /// @param renderer  of the calling thread, made for options().camera.
+  [[nodiscard]] SimulatedFrame frame(int index, Renderer& renderer) const;
+
+ private:
+  struct Actor {
+    PersonLook look;
+    Walk walk;
+  };
+  [[nodiscard]] PersonTruth truth_of(int id, double time_s, const Mesh& mesh, const cv::Mat& mask,
+                                     const geometry::Pose& pose) const;
+  void observe_objects(const Rendering& rendering, const geometry::Pose& pose, SimulatedFrame& out) const;
+
+  SimulationOptions options_;
+  Scene scene_;
+  CameraPath path_;
+  ColorSensor color_sensor_;
+  DepthSensor depth_sensor_;
+  std::vector<Actor> actors_;
+};
+
+}  // namespace rds::simulator

@@ -53,7 +53,9 @@ void publish(bus::Participant& participant, std::chrono::seconds duration) {
   const auto end = std::chrono::steady_clock::now() + duration;
   for (int i = 0; std::chrono::steady_clock::now() < end; ++i) {
     const std::int64_t stamp_ns = 1'000'000'000 + i * 33'333'333LL;
-    const messages::SpatialDetection person{"person", 0.9F, {{0, 0, 1}, {1, 2, 3}}, std::to_string(i)};
+    geometry::OrientedBox box{geometry::Pose::Identity(), {1, 2, 2}};
+    box.map_from_box.translation() = Eigen::Vector3d(0.5, 1, 2);
+    const messages::SpatialDetection person{"person", 0.9F, box, std::to_string(i)};
     odometry.write(make_odometry(stamp_ns, i));
     transforms.write(make_transforms(stamp_ns));
     boxes.write(

@@ -41,7 +41,7 @@ TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),
-                         [](const auto& info) { return std::string(info.param).substr(4, 4); });
+                         [](const auto& each) { return each.param.substr(4, 4); });
 
 TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
@@ -74,7 +74,7 @@ TEST_P(LoneService, StartsWithoutTheOthersAndStopsWhenAsked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, LoneService, ::testing::ValuesIn(kServices),
-                         [](const auto& info) { return std::string(info.param).substr(4, 4); });
+                         [](const auto& each) { return each.param.substr(4, 4); });
 
 }  // namespace
 }  // namespace rds::test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/run_support.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
@@ -23,12 +22,6 @@ nlohmann::json score(const fs::path& dataset, const fs::path& out, const fs::pat
   const ProcessResult result = run_process(command, std::chrono::seconds(120));
   if (result.status != 0) throw std::runtime_error("rds eval: " + result.standard_error);
   return nlohmann::json::parse(result.standard_output);
-}
-
-fs::path dynamic_sequence(const std::string& name) {
-  const char* made = std::getenv("RDS_DYNAMIC");
-  if (made == nullptr || !fs::exists(fs::path(made) / name / "people.json")) return {};
-  return fs::path(made) / name;
 }
 
 std::vector<pid_t> children(pid_t parent, const std::string& name) {

@@ -23,18 +23,7 @@ ProcessResult run(const std::filesystem::path& dataset, const std::filesystem::p
 nlohmann::json score(const std::filesystem::path& dataset, const std::filesystem::path& out,
                      const std::filesystem::path& background = {});
 
-/// A sequence with people that the recordings' own tool makes (presets of the recordings' README), made by a fixture
-/// that runs before the tests. Empty if it is not there.
-std::filesystem::path dynamic_sequence(const std::string& name);
-
 /// Process ids of the children of `parent` whose executable is called `name`.
 std::vector<pid_t> children(pid_t parent, const std::string& name);
 
 }  // namespace rds::test
-
-/// Skips the test, with the reason, unless the sequence has been made.
-#define RDS_REQUIRE_SEQUENCE(name)                                                                        \
-  do {                                                                                                    \
-    RDS_REQUIRE_SHARED("data");                                                                           \
-    ASSERT_FALSE(::rds::test::dynamic_sequence(name).empty()) << "the sequence " << name << " was not made"; \
-  } while (false)

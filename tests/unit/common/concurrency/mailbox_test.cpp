@@ -41,7 +41,9 @@ TEST(Mailbox, WorkerWakesForEitherInboxAndTakesEverythingInOrder) {
   int letters_taken = 0;
   while (next < 1000 || letters_taken < 1000) {
     ASSERT_TRUE(mailbox.wait({}, [&] { return !numbers.locked_empty() || !letters.locked_empty(); }));
-    if (const auto number = numbers.try_pop()) EXPECT_EQ(*number, next++);
+    if (const auto number = numbers.try_pop()) {
+      EXPECT_EQ(*number, next++);
+    }
     if (letters.try_pop()) ++letters_taken;
   }
 }

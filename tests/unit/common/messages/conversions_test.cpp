@@ -157,14 +157,19 @@ TEST(Detections, ImageBoxesSurviveTheMessage) {
   EXPECT_FLOAT_EQ((*read)[0].depth_m, 2.5F);
 }
 
+geometry::Pose turned_pose() {
+  return geometry::make_pose({1, 2, 3}, Eigen::Quaterniond(0.5, 0.1, -0.4, 0.7));
+}
+
 TEST(Detections, SpatialBoxesSurviveTheMessage) {
-  const std::vector<SpatialDetection> detections = {{"person", .75F, {{-1, 0, 1}, {1, 2, 4}}, "7"}};
+  const geometry::OrientedBox box{turned_pose(), {0.5, 1.8, 0.6}};
+  const std::vector<SpatialDetection> detections = {{"person", .75F, box, "7"}};
   const auto read = to_detections(to_detection_message(detections, make_header(7, "map")));
   ASSERT_TRUE(read.has_value());
   ASSERT_EQ(read->size(), 1U);
   EXPECT_EQ((*read)[0].id, "7");
-  EXPECT_TRUE((*read)[0].box.min.isApprox(Eigen::Vector3d(-1, 0, 1)));
-  EXPECT_TRUE((*read)[0].box.max.isApprox(Eigen::Vector3d(1, 2, 4)));
+  EXPECT_TRUE((*read)[0].box.map_from_box.isApprox(box.map_from_box));
+  EXPECT_TRUE((*read)[0].box.size.isApprox(box.size));
 }
 
 TEST(Detections, TakeTheBestHypothesisAndSkipTheUnlabelled) {
@@ -178,15 +183,6 @@ TEST(Detections, TakeTheBestHypothesisAndSkipTheUnlabelled) {
   EXPECT_TRUE(to_detections(message)->empty());
 }
 
-TEST(Detections, ATurnedBoxBecomesTheUprightOneAroundIt) {
-  auto message =
-      to_detection_message(std::vector<SpatialDetection>{{"car", 1, {{-2, -1, 0}, {2, 1, 1}}, ""}}, {});
-  auto& orientation = message.detections()[0].bbox().center().orientation();
-  orientation.z(std::sqrt(.5));  // 90° about z
-  orientation.w(std::sqrt(.5));
-  EXPECT_TRUE(to_detections(message)->at(0).box.max.isApprox(Eigen::Vector3d(1, 2, 1)));
-}
-
 TEST(Detections, RefuseNanAndNegativeSizes) {
   auto flat = to_detection_message(std::vector<ImageDetection>{{"cat", .3F, {0, 0, 4, 4}, 0}}, {});
   flat.detections()[0].bbox().size_x(-1);
@@ -194,7 +190,7 @@ TEST(Detections, RefuseNanAndNegativeSizes) {
   flat.detections()[0].bbox().size_x(kNan);
   EXPECT_FALSE(to_detections(flat).has_value());
   auto solid =
-      to_detection_message(std::vector<SpatialDetection>{{"cat", .3F, {{0, 0, 0}, {1, 1, 1}}, ""}}, {});
+      to_detection_message(std::vector<SpatialDetection>{{"cat", .3F, {turned_pose(), {1, 1, 1}}, ""}}, {});
   solid.detections()[0].bbox().center().position().x(kNan);
   EXPECT_FALSE(to_detections(solid).has_value());
 }

@@ -32,7 +32,7 @@ TEST(RecordedRun, TracksACameraThatComesBackInAKitchen) {
 }
 
 TEST(RecordedRun, KeepsPeopleOutOfPoseAndMapAndGivesTheSameBytesOverEitherBus) {
-  RDS_REQUIRE_SEQUENCE("kitchen_walkers");
+  RDS_REQUIRE_DYNAMIC("kitchen_walkers");
   const TemporaryFolder place;
   const auto dataset = dynamic_sequence("kitchen_walkers");
   const std::vector<std::pair<std::string, std::string>> runs{

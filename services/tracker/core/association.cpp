@@ -49,6 +49,13 @@ int TrackedFrame::matches() const {
   return static_cast<int>(std::ranges::count_if(points, [](PointId p) { return p != kNoId; }));
 }
 
+int TrackedFrame::static_matches() const {
+  int matches = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    matches += points[i] != kNoId && !(*features)[i].movable ? 1 : 0;
+  return matches;
+}
+
 std::optional<std::uint32_t> best_in_window(const FeatureSet& features, std::span<const PointId> taken,
                                             const ObservationModel& model, const Descriptor& descriptor,
                                             const SearchWindow& window, int max_distance, double ratio) {
@@ -181,11 +188,11 @@ int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingC
   return frame.matches();
 }
 
-int match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
-                 const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
-                 TrackedFrame& frame) {
+PointMatches match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
+                          const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
+                          TrackedFrame& frame) {
   const Eigen::Vector3d camera_in_map = frame.camera_from_map.inverse().translation();
-  int matches = 0;
+  PointMatches matches;
   for (const PointId id : points) {
     MapPoint* point = map.point(id);
     if (point == nullptr) continue;
@@ -193,6 +200,7 @@ int match_points(SlamMap& map, std::span<const PointId> points, const Observatio
         project_point(*point, frame.camera_from_map, camera_in_map, *frame.features, model, pyramid);
     if (!projected) continue;
     ++point->visible;
+    ++matches.expected;
     const double window = projected->view_cosine > kInLineOfSight ? kStraightWindowPx : kObliqueWindowPx;
     const SearchWindow where{projected->px.cast<float>(),
                              static_cast<float>(window * window_factor * pyramid.scale(projected->level)),
@@ -201,7 +209,7 @@ int match_points(SlamMap& map, std::span<const PointId> points, const Observatio
                                       config.max_distance_frame, config.ratio);
     if (!found) continue;
     frame.points[*found] = id;
-    ++matches;
+    ++matches.found;
   }
   return matches;
 }

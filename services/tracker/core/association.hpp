@@ -20,6 +20,8 @@ struct TrackedFrame {
   Pose camera_from_map = Pose::Identity();
 
   [[nodiscard]] int matches() const;
+  /// Matches of features that are not on movable objects; only these may carry a keyframe.
+  [[nodiscard]] int static_matches() const;
   void clear_matches() { points.assign(features->size(), kNoId); }
 };
 
@@ -63,17 +65,22 @@ int match_last_frame(const SlamMap& map, const TrackedFrame& last, const Observa
                      const ScalePyramid& pyramid, const MatchingConfig& config, double window_px,
                      TrackedFrame& frame);
 
-/// Matches a keyframe's map points by appearance alone (mutual nearest neighbour, rotation check).
+/// Matches a keyframe's map points by appearance alone (mutual nearest neighbour, rotation check), with
+/// features that are not on movable objects.
 /// @return number of matches; frame.points is overwritten.
 int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingConfig& config,
                    TrackedFrame& frame);
 
 /// Adds matches of points that the frame does not see yet.
 /// @param window_factor  times 2.5 px (seen from its usual direction) or 4 px, times the level's scale.
-/// @return number of new matches. Counts `visible` of points that should show.
-int match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
-                 const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
-                 TrackedFrame& frame);
+/// Counts `visible` of points that should show.
+struct PointMatches {
+  int expected = 0;  // points that should show
+  int found = 0;     // new matches
+};
+PointMatches match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
+                          const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
+                          TrackedFrame& frame);
 
 /// Pose from the frame's matches; outliers are removed from frame.points.
 /// @return number of inliers.

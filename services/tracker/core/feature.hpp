@@ -19,7 +19,8 @@ struct Feature {
   float angle_rad = 0;                                 // 0 … 2π, from x towards y
   float depth_m = 0;                                   // 0 without measurement
   std::uint8_t level = 0;                              // of the pyramid
-  bool movable = false;  // on a movable object: never matched, never a map point
+  bool movable = false;                                // on a movable object: never becomes a map point
+  bool matchable = true;                               // false: for show only, without angle and descriptor
   Descriptor descriptor{};
 };
 

@@ -20,7 +20,7 @@ FeatureSet::FeatureSet(const geometry::CameraModel& camera, std::vector<Feature>
   cells_per_px_ = Eigen::Vector2f(kColumns, kRows).cwiseQuotient((highest_ - lowest_).cwiseMax(1.0F));
   std::vector<std::size_t> place(features_.size());
   for (std::size_t i = 0; i < features_.size(); ++i) {
-    if (features_[i].movable) continue;
+    if (!features_[i].matchable) continue;
     place[i] = cell(column(features_[i].px.x()), row(features_[i].px.y()));
     ++cell_begin_[place[i] + 1];
   }
@@ -28,7 +28,7 @@ FeatureSet::FeatureSet(const geometry::CameraModel& camera, std::vector<Feature>
   cell_items_.resize(cell_begin_.back());
   std::vector<std::uint32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
   for (std::size_t i = 0; i < features_.size(); ++i)
-    if (!features_[i].movable) cell_items_[next[place[i]]++] = static_cast<std::uint32_t>(i);
+    if (features_[i].matchable) cell_items_[next[place[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 int FeatureSet::column(float x) const {

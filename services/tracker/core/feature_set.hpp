@@ -24,7 +24,7 @@ inline bool covers(const MovableRegion& region, const Eigen::Vector2f& image_px,
 class FeatureSet {
  public:
   FeatureSet() = default;
-  /// @param features  with undistorted px; those marked movable are kept but never found by look-up.
+  /// @param features  with undistorted px; those not matchable are kept but never found by look-up.
   FeatureSet(const geometry::CameraModel& camera, std::vector<Feature> features);
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return camera_; }

@@ -52,7 +52,25 @@ void OrbExtractor::build_pyramid(const cv::Mat& gray) {
   }
 }
 
-void OrbExtractor::fill_empty_cells(const cv::Mat& image, const cv::Rect& inner) {
+void OrbExtractor::detect(int level, const cv::Rect& place, int threshold, const MovableTest& is_movable) {
+  const cv::Rect seen(place.x - kFastRadius, place.y - kFastRadius, place.width + 2 * kFastRadius,
+                      place.height + 2 * kFastRadius);
+  cv::FAST(pyramid_[static_cast<std::size_t>(level)](seen), keypoints_, threshold, true);
+  for (const cv::KeyPoint& k : keypoints_) {
+    const Corner corner{k.pt.x + static_cast<float>(seen.x - kBorder),
+                        k.pt.y + static_cast<float>(seen.y - kBorder), k.response};
+    const bool movable = is_movable && is_movable(feature_at(level, corner).image_px);
+    (movable ? movable_corners_ : corners_).push_back(corner);
+  }
+}
+
+void OrbExtractor::find_corners(int level, const MovableTest& is_movable) {
+  const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
+  corners_.clear();
+  movable_corners_.clear();
+  const cv::Rect inner(kBorder, kBorder, image.cols - 2 * kBorder, image.rows - 2 * kBorder);
+  if (inner.width <= 0 || inner.height <= 0) return;
+  detect(level, inner, config_.fast_threshold, is_movable);
   const int cell = config_.cell_px;
   const int columns = (inner.width + cell - 1) / cell;
   const int rows = (inner.height + cell - 1) / cell;
@@ -60,29 +78,10 @@ void OrbExtractor::fill_empty_cells(const cv::Mat& image, const cv::Rect& inner)
   for (const Corner& c : corners_)
     ++corners_in_cell_[static_cast<std::size_t>(static_cast<int>(c.y) / cell * columns +
                                                 static_cast<int>(c.x) / cell)];
-  for (int i = 0; i < columns * rows; ++i) {
-    if (corners_in_cell_[static_cast<std::size_t>(i)] > 0) continue;
-    const cv::Rect place =
-        cv::Rect(inner.x + i % columns * cell, inner.y + i / columns * cell, cell, cell) & inner;
-    const cv::Rect seen(place.x - kFastRadius, place.y - kFastRadius, place.width + 2 * kFastRadius,
-                        place.height + 2 * kFastRadius);
-    cv::FAST(image(seen), keypoints_, config_.fast_threshold_low, true);
-    for (const cv::KeyPoint& k : keypoints_)
-      corners_.push_back({k.pt.x + static_cast<float>(seen.x - inner.x),
-                          k.pt.y + static_cast<float>(seen.y - inner.y), k.response});
-  }
-}
-
-void OrbExtractor::find_corners(const cv::Mat& image) {
-  corners_.clear();
-  const cv::Rect inner(kBorder, kBorder, image.cols - 2 * kBorder, image.rows - 2 * kBorder);
-  if (inner.width <= 0 || inner.height <= 0) return;
-  const cv::Rect seen(inner.x - kFastRadius, inner.y - kFastRadius, inner.width + 2 * kFastRadius,
-                      inner.height + 2 * kFastRadius);
-  cv::FAST(image(seen), keypoints_, config_.fast_threshold, true);
-  for (const cv::KeyPoint& k : keypoints_)
-    corners_.push_back({k.pt.x - kFastRadius, k.pt.y - kFastRadius, k.response});
-  fill_empty_cells(image, inner);
+  for (int i = 0; i < columns * rows; ++i)
+    if (corners_in_cell_[static_cast<std::size_t>(i)] == 0)
+      detect(level, cv::Rect(inner.x + i % columns * cell, inner.y + i / columns * cell, cell, cell) & inner,
+             config_.fast_threshold_low, is_movable);
 }
 
 float OrbExtractor::orientation(const cv::Mat& image, int x, int y) const {
@@ -101,8 +100,8 @@ float OrbExtractor::orientation(const cv::Mat& image, int x, int y) const {
   return cv::fastAtan2(static_cast<float>(moment_y), static_cast<float>(moment_x));
 }
 
-void OrbExtractor::describe_level(int level, const std::vector<Corner>& corners,
-                                  std::vector<Feature>& features) {
+void OrbExtractor::describe(int level, const std::vector<Corner>& corners, bool movable,
+                            std::vector<Feature>& features) {
   const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
   keypoints_.clear();
   for (const Corner& c : corners) {
@@ -115,6 +114,7 @@ void OrbExtractor::describe_level(int level, const std::vector<Corner>& corners,
   orb_->compute(image, keypoints_, descriptors_);
   for (std::size_t i = 0; i < keypoints_.size(); ++i) {
     Feature feature = feature_at(level, corners[i]);
+    feature.movable = movable;
     feature.angle_rad = keypoints_[i].angle * kRadPerDegree;
     std::memcpy(feature.descriptor.data(), descriptors_.ptr(static_cast<int>(i)), feature.descriptor.size());
     features.push_back(feature);
@@ -134,20 +134,20 @@ Feature OrbExtractor::feature_at(int level, const Corner& corner) const {
   return feature;
 }
 
-void OrbExtractor::split_movable(int level, const MovableTest& is_movable, std::vector<Feature>& features) {
-  const auto movable = std::stable_partition(corners_.begin(), corners_.end(), [&](const Corner& corner) {
-    return !is_movable(feature_at(level, corner).image_px);
-  });
-  movable_corners_.assign(movable, corners_.end());
-  // As many as the budget would give to this share of the corners.
-  const std::size_t quota = static_cast<std::size_t>(quota_[static_cast<std::size_t>(level)]);
-  const std::size_t share = corners_.empty() ? 0 : quota * movable_corners_.size() / corners_.size();
-  corners_.erase(movable, corners_.end());
+void OrbExtractor::add_movable(int level, std::size_t quota, std::vector<Feature>& features) {
   const cv::Mat& image = pyramid_[static_cast<std::size_t>(level)];
-  for (const Corner& corner : spread_evenly(movable_corners_, static_cast<float>(image.cols - 2 * kBorder),
-                                            static_cast<float>(image.rows - 2 * kBorder), share)) {
+  const std::size_t all = corners_.size() + movable_corners_.size();
+  const bool starved =
+      static_cast<double>(corners_.size()) < config_.starved_share * static_cast<double>(quota);
+  // For show, as many as the budget would give to this share of the corners.
+  const std::size_t wanted = starved ? quota - corners_.size() : quota * movable_corners_.size() / all;
+  const auto chosen = spread_evenly(movable_corners_, static_cast<float>(image.cols - 2 * kBorder),
+                                    static_cast<float>(image.rows - 2 * kBorder), wanted);
+  if (starved) return describe(level, chosen, true, features);
+  for (const Corner& corner : chosen) {
     features.push_back(feature_at(level, corner));
     features.back().movable = true;
+    features.back().matchable = false;
   }
 }
 
@@ -157,12 +157,12 @@ void OrbExtractor::extract(const cv::Mat& gray, const MovableTest& is_movable,
   build_pyramid(gray);
   for (int l = 0; l < config_.levels; ++l) {
     const cv::Mat& image = pyramid_[static_cast<std::size_t>(l)];
-    find_corners(image);
-    if (is_movable) split_movable(l, is_movable, features);
+    const auto quota = static_cast<std::size_t>(quota_[static_cast<std::size_t>(l)]);
+    find_corners(l, is_movable);
+    if (!movable_corners_.empty()) add_movable(l, quota, features);
     const auto chosen = spread_evenly(corners_, static_cast<float>(image.cols - 2 * kBorder),
-                                      static_cast<float>(image.rows - 2 * kBorder),
-                                      static_cast<std::size_t>(quota_[static_cast<std::size_t>(l)]));
-    describe_level(l, chosen, features);
+                                      static_cast<float>(image.rows - 2 * kBorder), quota);
+    describe(l, chosen, false, features);
   }
 }
 

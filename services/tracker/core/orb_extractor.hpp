@@ -26,18 +26,19 @@ class OrbExtractor {
 
   /// @param gray       CV_8UC1 of any size; pictures too small for a patch give no feature.
   /// @param is_movable  if given: tells by place in the picture what lies on a movable object. Such features
-  /// are returned for show, marked, without angle and descriptor; they cost nothing of the budget, so that
-  /// the static rest still gets all of it.
+  /// are marked and cost nothing of the budget, so that the static rest still gets all of it. They are for
+  /// show only, without angle and descriptor, unless a level shows too few static features: then they may
+  /// match, for the map they are compared with holds static points only (never starve, as SG-SLAM does).
   /// @param features   overwritten: px and image_px both as seen in the picture, no depth; level by level.
   void extract(const cv::Mat& gray, const MovableTest& is_movable, std::vector<Feature>& features);
 
  private:
   void build_pyramid(const cv::Mat& gray);
-  void find_corners(const cv::Mat& image);
-  void fill_empty_cells(const cv::Mat& image, const cv::Rect& inner);
-  void split_movable(int level, const MovableTest& is_movable, std::vector<Feature>& features);
+  void find_corners(int level, const MovableTest& is_movable);
+  void detect(int level, const cv::Rect& place, int threshold, const MovableTest& is_movable);
+  void add_movable(int level, std::size_t quota, std::vector<Feature>& features);
   [[nodiscard]] Feature feature_at(int level, const Corner& corner) const;
-  void describe_level(int level, const std::vector<Corner>& corners, std::vector<Feature>& features);
+  void describe(int level, const std::vector<Corner>& corners, bool movable, std::vector<Feature>& features);
   [[nodiscard]] float orientation(const cv::Mat& image, int x, int y) const;
 
   ExtractionConfig config_;

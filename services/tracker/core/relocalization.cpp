@@ -87,12 +87,11 @@ bool relocalize_against(SlamMap& map, KeyframeId id, const RelocalizationTools& 
   if (!solve_pnp(map, tools.config, frame)) return false;
   if (optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame) < kMinRefined) return false;
   const auto points = points_around(map, *keyframe);
-  int inliers = 0;
   for (const double window : {kWideWindow, kNarrowWindow}) {
     match_points(map, not_seen(points, frame), tools.model, tools.pyramid, tools.matching, window, frame);
-    inliers = optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame);
+    optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame);
   }
-  return inliers >= tools.config.min_inliers;
+  return frame.static_matches() >= tools.config.min_inliers;
 }
 
 cv::Mat static_descriptors(const FeatureSet& features) {

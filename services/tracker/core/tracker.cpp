@@ -161,10 +161,13 @@ int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
   if (local.reference == kNoId) return 0;
   for (const PointId id : frame.points)
     if (MapPoint* point = map_.point(id)) ++point->visible;
-  match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
+  const int seen = frame.matches();
+  const PointMatches more =
+      match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
   const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
   for (const PointId id : frame.points)
     if (MapPoint* point = map_.point(id)) ++point->found;
+  changed_ |= change_.update(seen + more.expected, inliers);
   reference_ = local.reference;
   return inliers;
 }
@@ -174,28 +177,41 @@ bool Tracker::relocalize(TrackedFrame& frame) {
   const RelocalizationTools tools{model, pyramid_, config_.matching, config_.pose, config_.relocalization};
   const auto candidates = places_.query(static_descriptors(*frame.features),
                                         static_cast<std::size_t>(config_.relocalization.candidates));
-  return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
+  const auto localized = [&](const vision::PlaceCandidate& candidate) {
     return relocalize_against(map_, candidate.id, tools, frame);
-  });
+  };
+  if (std::ranges::none_of(candidates, localized)) return false;
+  refine_with_local_map(frame, config_.matching.lost_window_factor);
+  return frame.static_matches() >= config_.relocalization.min_inliers;
+}
+
+int Tracker::track_from_last(TrackedFrame& frame) {
+  if (!last_) return 0;
+  int inliers = 0;
+  if (estimate_from_last_frame(frame))
+    inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
+  if (inliers >= config_.quality.min_inliers) return inliers;
+  TrackedFrame second = frame;
+  const KeyframeId reference = reference_;
+  if (estimate_from_keyframe(second)) {
+    const int again = refine_with_local_map(second, config_.matching.lost_window_factor);
+    if (again > inliers) {
+      frame = std::move(second);
+      return again;
+    }
+  }
+  reference_ = reference;
+  return inliers;
 }
 
 State Tracker::track_motion(TrackedFrame& frame) {
   const QualityConfig& quality = config_.quality;
-  int inliers = 0;
-  if (last_) {
-    if (estimate_from_last_frame(frame))
-      inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
-    if (inliers < quality.min_inliers && estimate_from_keyframe(frame))
-      inliers = refine_with_local_map(frame, config_.matching.lost_window_factor);
-    if (inliers >= quality.min_inliers) return State::kTracking;
-    const bool was_weak = state_ == State::kWeak;
-    if (!was_weak) weak_since_ns_ = frame.stamp_ns;
-    const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
-    if (inliers >= quality.min_inliers_weak && weak_s <= quality.weak_s) return State::kWeak;
-  }
-  if (!relocalize(frame)) return State::kLost;
-  inliers = refine_with_local_map(frame, config_.matching.lost_window_factor);
-  return inliers >= config_.relocalization.min_inliers ? State::kRelocalised : State::kLost;
+  const int inliers = track_from_last(frame);
+  if (inliers >= quality.min_inliers) return State::kTracking;
+  if (state_ != State::kWeak) weak_since_ns_ = frame.stamp_ns;
+  const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
+  if (inliers >= quality.min_inliers_weak && weak_s <= quality.weak_s) return State::kWeak;
+  return relocalize(frame) ? State::kRelocalised : State::kLost;
 }
 
 void Tracker::remember(TrackedFrame&& frame, State state) {

@@ -69,6 +69,7 @@ class Tracker {
                   TrackedFrame& frame);
   void initialize(TrackedFrame& frame, FrameResult& result);
   State track_motion(TrackedFrame& frame);
+  int track_from_last(TrackedFrame& frame);
   bool estimate_from_last_frame(TrackedFrame& frame);
   bool estimate_from_keyframe(TrackedFrame& frame);
   bool relocalize(TrackedFrame& frame);

@@ -11,6 +11,7 @@ void read(config::ConfigReader& r, ExtractionConfig& c) {
   r.value("fast_threshold", c.fast_threshold, 2, 100, "grey levels");
   r.value("fast_threshold_low", c.fast_threshold_low, 2, 100, "grey levels");
   r.value("cell_px", c.cell_px, 10, 200, "px");
+  r.value("starved_share", c.starved_share, 0.0, 1.0);
 }
 
 void read(config::ConfigReader& r, DepthConfig& c) {

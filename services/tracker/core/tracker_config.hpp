@@ -13,6 +13,9 @@ struct ExtractionConfig {
   int fast_threshold = 20;     // grey levels
   int fast_threshold_low = 7;  // where a cell shows no corner with the first
   int cell_px = 30;            // side of such a cell
+  double starved_share =
+      0.3;  // with fewer static features than this share of the wanted, movable ones may match
+  bool operator==(const ExtractionConfig&) const = default;
 };
 
 /// Depth measurements. Their disparity fx·virtual_baseline_m / depth is what is compared with the map.
@@ -21,6 +24,7 @@ struct DepthConfig {
   double close_depth_m = 3.2;          // points nearer than this are made into map points at once
   double virtual_baseline_m = 0.0775;  // of the virtual stereo pair; Kinect's true one is about this
   double disparity_sigma_px = 0.6;     // of one depth measurement, whatever the pyramid level
+  bool operator==(const DepthConfig&) const = default;
 };
 
 /// Motion-only optimisation of the camera pose.
@@ -29,6 +33,7 @@ struct PoseOptimizationConfig {
   int iterations = 10;     // per round, at most
   double chi2_2d = 5.991;  // 95 % for a pixel
   double chi2_3d = 7.815;  // 95 % for a pixel with disparity
+  bool operator==(const PoseOptimizationConfig&) const = default;
 };
 
 /// Data association.
@@ -39,6 +44,7 @@ struct MatchingConfig {
   double motion_window_px = 15;   // around where the motion model expects a feature, at level 0
   double map_window_factor = 3;   // of the local map's window (2.5 px in line of sight, else 4 px)
   double lost_window_factor = 6;  // the same after a weak prediction
+  bool operator==(const MatchingConfig&) const = default;
 };
 
 /// When a tracked frame becomes a keyframe.
@@ -52,6 +58,7 @@ struct KeyframeConfig {
   double movable_interval_s = 0.2;  // longest, while movable objects are there or the picture changes
   double static_interval_s = 1.0;   // longest, otherwise
   double changed_share = 0.35;      // drop of the share of expected points found that counts as a change
+  bool operator==(const KeyframeConfig&) const = default;
 };
 
 /// Life of map points and keyframes.
@@ -64,6 +71,7 @@ struct MapConfig {
   int min_covisible_weight = 15;  // shared points that make a covisibility edge
   int local_keyframes = 24;       // of the local map
   int max_local_points = 4000;    // of the local map
+  bool operator==(const MapConfig&) const = default;
 };
 
 /// Local mapping: fusion of map points and local bundle adjustment.
@@ -73,6 +81,7 @@ struct LocalMappingConfig {
   int max_points = 1600;        // of one job, most observed first
   int iterations = 4;           // of each of the two passes
   double fusion_window_px = 3;  // around the projection, at level 0
+  bool operator==(const LocalMappingConfig&) const = default;
 };
 
 /// Recovery of a lost camera.
@@ -81,6 +90,7 @@ struct RelocalizationConfig {
   int min_matches = 15;  // by appearance
   int min_inliers = 50;  // after widening the search
   int ransac_iterations = 200;
+  bool operator==(const RelocalizationConfig&) const = default;
 };
 
 /// States of tracking.
@@ -89,6 +99,7 @@ struct QualityConfig {
   int min_inliers = 30;             // below: weak
   int min_inliers_weak = 15;        // below: lost
   double weak_s = 1.0;              // of weak tracking in a row, then lost
+  bool operator==(const QualityConfig&) const = default;
 };
 
 struct TrackerConfig {
@@ -101,6 +112,7 @@ struct TrackerConfig {
   LocalMappingConfig local_mapping;
   RelocalizationConfig relocalization;
   QualityConfig quality;
+  bool operator==(const TrackerConfig&) const = default;
 };
 
 /// Reads section by section; an absent key keeps its default.

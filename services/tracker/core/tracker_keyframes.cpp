@@ -69,7 +69,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_th
 }
 
 void Tracker::decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result) {
-  if (state_ == State::kWeak) return;
+  if (state_ == State::kWeak || frame.static_matches() < config_.quality.min_inliers) return;
   const auto facts = keyframe_facts(frame, movable_there, static_cast<int>(result.inliers));
   if (is_keyframe(facts, config_.keyframe)) make_keyframe(frame, result);
 }

@@ -24,7 +24,10 @@ constexpr int kBadUsage = 2;
 void parse_vendors(const std::string& text, RunOptions& options) {
   for (const std::string& part : CLI::detail::split(text, ',')) {
     const auto equals = part.find('=');
-    const bus::Vendor vendor = bus::vendor_from_name(part.substr(equals == std::string::npos ? 0 : equals + 1));
+    const std::string name = part.substr(equals == std::string::npos ? 0 : equals + 1);
+    if (name != "fastdds" && name != "cyclonedds")
+      throw std::invalid_argument(fmt::format("--bus {}: expected fastdds or cyclonedds", part));
+    const bus::Vendor vendor = bus::vendor_from_name(name);
     if (equals == std::string::npos) {
       options.default_vendor = vendor;
       continue;

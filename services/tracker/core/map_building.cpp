@@ -109,9 +109,10 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
   return culled;
 }
 
-void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion> regions) {
+void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion> regions, const DepthConfig& depth,
+                     const MapConfig& config) {
   Keyframe* keyframe = map.keyframe(id);
-  if (keyframe == nullptr) return;
+  if (keyframe == nullptr || regions.empty()) return;
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
     const Feature& f = (*keyframe->features)[i];
     if (!std::ranges::any_of(regions,
@@ -126,6 +127,7 @@ void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion>
     else
       map.forget(point_id, id);
   }
+  make_points(map, depth, config, *keyframe);
 }
 
 }  // namespace rds::tracker

@@ -112,7 +112,9 @@ void Tracker::apply(const PoseGraphCorrection& correction) {
 }
 
 void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
-  tracker::retract_movable(map_, keyframe_id, regions);
+  const PointId first_new = map_.next_point_id();
+  tracker::retract_movable(map_, keyframe_id, regions, config_.depth, config_.map);
+  for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
 }
 
 }  // namespace rds::tracker

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,12 @@ class MovableObjects {
 
   explicit MovableObjects(const prediction::PredictionConfig& config) : predictor_(config) {}
 
-  void observe(std::int64_t stamp_ns, Observations observations) { predictor_.update(stamp_ns, observations); }
+  /// @param view  of the keyframe, if it is known.
+  void observe(std::int64_t stamp_ns, Observations observations,
+               const std::optional<prediction::KeyframeView>& view) {
+    predictor_.update(stamp_ns, observations, view);
+  }
+  void move_map(const geometry::Pose& new_from_old) { predictor_.move_map(new_from_old); }
   void reset() { predictor_.reset(); }
 
   /// Where the objects are expected in a frame; without those outside the picture.

@@ -159,7 +159,9 @@ void TrackerService::apply(const PosesMessage& poses) {
   if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});
-  outputs_.move_map(tracker_.last_map_from_camera() * before.inverse());
+  const geometry::Pose corrected_from_map = tracker_.last_map_from_camera() * before.inverse();
+  outputs_.move_map(corrected_from_map);
+  objects_.move_map(corrected_from_map);
   loop_revision_ = poses->revision();
   loops_closed_ = poses->loops_closed();
   spdlog::info("loop {} closed, keyframe poses corrected", loops_closed_);
@@ -173,10 +175,10 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   std::vector<prediction::ObjectObservation> observations;
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   ++box_sets_used_;
-  objects_.observe(stamp, observations);
   const auto keyframe = keyframes_with_boxes_due_.extract(stamp);
-  if (!keyframe) return;
+  if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
   const auto& [id, camera_from_map, camera] = keyframe.mapped();
+  objects_.observe(stamp, observations, prediction::KeyframeView{camera_from_map.inverse(), camera});
   tracker_.retract_movable(id, objects_.regions_of(observations, camera_from_map, camera));
 }
 

@@ -41,7 +41,8 @@ visualization_msgs::msg::Marker marker(const MapObject& object, std::int64_t sta
 
 std::size_t count_occupied(const octomap::ColorOcTree& tree) {
   std::size_t occupied = 0;
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) occupied += tree.isNodeOccupied(*leaf) ? 1U : 0U;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
+    occupied += tree.isNodeOccupied(*leaf) ? 1U : 0U;
   return occupied;
 }
 
@@ -79,9 +80,10 @@ void MapOutputs::publish_delta(const MapDelta& delta) {
   delta_.write(message);
 }
 
-void MapOutputs::publish_info(const SemanticMapper& mapper, const MapProgress& progress) {
+void MapOutputs::publish_info(const SemanticMapper& mapper, const MapProgress& progress,
+                              std::int64_t stamp_ns) {
   rds_msgs::msg::MapInfo info;
-  info.header(messages::make_header(stamp_ns_, kMap));
+  info.header(messages::make_header(stamp_ns, kMap));
   info.map_epoch(mapper.map_epoch());
   info.revision(mapper.revision());
   const octomap::ColorOcTree& tree = mapper.tree();
@@ -99,10 +101,11 @@ void MapOutputs::publish_info(const SemanticMapper& mapper, const MapProgress& p
   info_.write(info);
 }
 
-void MapOutputs::publish_all(const SemanticMapper& mapper, const MapProgress& progress, std::int64_t stamp_ns) {
+void MapOutputs::publish_all(const SemanticMapper& mapper, const MapProgress& progress,
+                             std::int64_t stamp_ns) {
   stamp_ns_ = std::max(stamp_ns, stamp_ns_ + 1);
   publish_full(mapper);
-  publish_info(mapper, progress);
+  publish_info(mapper, progress, stamp_ns_);
   publish_objects(mapper);
   publish_grid(mapper);
 }

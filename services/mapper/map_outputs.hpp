@@ -22,13 +22,15 @@ struct MapProgress {
 
 /// All topics that the mapper writes.
 ///
-/// The full map and the MapInfo that tells its epoch and revision carry the same stamp, and no two full maps do.
+/// The full map and the MapInfo that tells its epoch and revision carry the same stamp, and no two full maps
+/// do. A reader that has both goes on with the deltas from that revision.
 class MapOutputs {
  public:
   explicit MapOutputs(service::ServiceContext& context);
 
   void publish_delta(const MapDelta& delta);
-  void publish_info(const SemanticMapper& mapper, const MapProgress& progress);
+  /// @param stamp_ns  of the newest keyframe, or of the full map that this describes.
+  void publish_info(const SemanticMapper& mapper, const MapProgress& progress, std::int64_t stamp_ns);
   /// Full map, its MapInfo, objects, markers and grid.
   void publish_all(const SemanticMapper& mapper, const MapProgress& progress, std::int64_t stamp_ns);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 100;
 constexpr std::uint8_t kLocal = 0;
-constexpr std::chrono::seconds kRestLimit{30};        // lockstep: everything that was sent must come
+constexpr std::chrono::seconds kRestLimit{30};          // lockstep: everything that was sent must come
 constexpr std::chrono::milliseconds kQuietLimit{1500};  // real time: what has not come by then was dropped
 
 }  // namespace
@@ -123,7 +123,8 @@ void MapperService::take(const Poses& message) {
 
 /// Moves the map after a loop, and now and then after what local bundle adjustment has moved.
 void MapperService::correct() {
-  if (poses_.empty() || (!poses_changed_by_loop_ && since_correction_ < config_.local_correction_every)) return;
+  if (poses_.empty() || (!poses_changed_by_loop_ && since_correction_ < config_.local_correction_every))
+    return;
   const auto started = std::chrono::steady_clock::now();
   const MapDelta delta = mapper_.apply_poses(poses_);
   poses_changed_by_loop_ = false;
@@ -156,8 +157,8 @@ void MapperService::integrate(const Images& images) {
   if (!frame) return context_.diagnostics.reject("rds/keyframe/images", frame.error());
   const auto map_from_camera = messages::to_pose(images->map_from_camera());
   if (!map_from_camera) return context_.diagnostics.reject("rds/keyframe/images", map_from_camera.error());
-  KeyframeInput input{images->keyframe_id(), frame->stamp_ns, *map_from_camera, frame->color, frame->depth,
-                      frame->camera,         std::nullopt};
+  KeyframeInput input{images->keyframe_id(), frame->stamp_ns, *map_from_camera, frame->color,
+                      frame->depth,          frame->camera,   std::nullopt};
   const auto known = std::ranges::find(poses_, input.id, &KeyframePose::id);
   if (known != poses_.end()) input.map_from_camera = known->map_from_camera;
   const geometry::Pose camera_from_map = map_from_camera->inverse();
@@ -173,7 +174,8 @@ void MapperService::integrate(const Images& images) {
   } catch (const std::invalid_argument& e) {
     return context_.diagnostics.reject("rds/keyframe/images", e.what());
   }
-  integrated_by_stamp_.insert_or_assign(frame->stamp_ns, Integrated{input.id, camera_from_map, frame->camera});
+  integrated_by_stamp_.insert_or_assign(frame->stamp_ns,
+                                        Integrated{input.id, camera_from_map, frame->camera});
   last_keyframe_id_ = input.id;
   last_stamp_ns_ = frame->stamp_ns;
   ++since_full_;
@@ -189,11 +191,13 @@ void MapperService::publish(const MapDelta& delta) {
     since_full_ = 0;
     outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
   } else {
-    outputs_.publish_info(mapper_, progress());
+    outputs_.publish_info(mapper_, progress(), last_stamp_ns_);
   }
 }
 
-MapProgress MapperService::progress() const { return {last_keyframe_id_, waiting_.size()}; }
+MapProgress MapperService::progress() const {
+  return {last_keyframe_id_, waiting_.size()};
+}
 
 service::CommandOutcome MapperService::execute(const std::string& verb, const std::string& argument) {
   if (verb == "finish") return finish(argument);
@@ -213,8 +217,8 @@ service::CommandOutcome MapperService::execute(const std::string& verb, const st
   return unknown_command(verb);
 }
 
-/// Nothing more comes: integrates the rest, then makes the map again from scratch with the final poses, so that it
-/// depends on the data alone and not on when they arrived.
+/// Nothing more comes: integrates the rest, then makes the map again from scratch with the final poses, so
+/// that it depends on the data alone and not on when they arrived.
 service::CommandOutcome MapperService::finish(const std::string& argument) {
   const auto json = nlohmann::json::parse(argument, nullptr, false);
   const std::uint64_t revision = json.is_object() ? json.value("poses_revision", std::uint64_t{0}) : 0;
@@ -227,7 +231,8 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   }
   outputs_.publish_delta(mapper_.settle(poses_));
   outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
-  const bool complete = poses_revision_ >= revision && (!config_.lockstep || mapper_.keyframes() >= keyframes);
+  const bool complete =
+      poses_revision_ >= revision && (!config_.lockstep || mapper_.keyframes() >= keyframes);
   const Eigen::Vector3d up = mapper_.up_in_map();
   return {complete, nlohmann::json{{"keyframes", mapper_.keyframes()},
                                    {"poses_revision", poses_revision_},

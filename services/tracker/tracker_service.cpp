@@ -27,17 +27,20 @@ std::uint64_t random_epoch() {
 }
 
 std::uint32_t microseconds_since(Clock::time_point start) {
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
 }
 
 }  // namespace
 
 void read(config::ConfigReader& reader, LockstepConfig& config) {
   reader.value("lockstep", config.enabled);
-  reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1}, std::uint64_t{100},
+  reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1},
+               std::uint64_t{100}, "frames");
+  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100},
                "frames");
-  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100}, "frames");
-  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000}, "frames");
+  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000},
+               "frames");
   reader.value("lockstep_timeout_s", config.timeout_s, 0.1, 600.0, "s");
 }
 
@@ -89,7 +92,8 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   const auto started = Clock::now();
   apply_answers();
   const auto predict_started = Clock::now();
-  const auto regions = objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
+  const auto regions =
+      objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
   std::uint32_t predict_us = microseconds_since(predict_started);
   const FrameResult result = tracker_.track(frame, regions);
   const auto project_started = Clock::now();
@@ -98,7 +102,8 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   start_mapping();
   const std::uint32_t total_us = microseconds_since(started);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
-  outputs_.publish({frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
+  outputs_.publish(
+      {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
@@ -128,7 +133,9 @@ void TrackerService::await_answers() {
   const auto deadline = Clock::now() + std::chrono::duration<double>(config_.lockstep.timeout_s);
   while (!stop_.stop_requested()) {
     sort_in_arrivals();
-    if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) && mappings_.complete(frame_index_)) return;
+    if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) &&
+        mappings_.complete(frame_index_))
+      return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) break;
     mailbox_.wait_for(stop_, left, [this] {
@@ -136,7 +143,8 @@ void TrackerService::await_answers() {
     });
   }
   ++context_.diagnostics.counter("lockstep timeouts");
-  spdlog::warn("frame {} goes on without an answer it waited {} s for", frame_index_, config_.lockstep.timeout_s);
+  spdlog::warn("frame {} goes on without an answer it waited {} s for", frame_index_,
+               config_.lockstep.timeout_s);
 }
 
 void TrackerService::apply_answers() {
@@ -185,7 +193,8 @@ void TrackerService::apply(const BoxesMessage& boxes) {
 void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
   const LockstepConfig& lockstep = config_.lockstep;
   if (config_.dynamics) {
-    boxes_.ask(static_cast<std::uint64_t>(keyframe.stamp_ns), frame_index_ + lockstep.detection_latency_frames);
+    boxes_.ask(static_cast<std::uint64_t>(keyframe.stamp_ns),
+               frame_index_ + lockstep.detection_latency_frames);
     keyframes_with_boxes_due_.insert_or_assign(
         keyframe.stamp_ns, KeyframeView{keyframe.id, keyframe.map_from_camera.inverse(), camera});
     while (keyframes_with_boxes_due_.size() > kMaxAnswers)
@@ -225,7 +234,8 @@ service::CommandOutcome TrackerService::finish() {
   while (const auto frame = input_.frames().try_pop()) process(*frame);
   const std::uint64_t last_frame = frame_index_;
   if (config_.lockstep.enabled) {
-    for (; !(boxes_.empty() && loop_answers_.empty() && mappings_.empty()) && !stop_.stop_requested(); ++frame_index_) {
+    for (; !(boxes_.empty() && loop_answers_.empty() && mappings_.empty()) && !stop_.stop_requested();
+         ++frame_index_) {
       await_answers();
       apply_answers();
       start_mapping();

@@ -39,9 +39,10 @@ void parse_vendors(const std::string& text, RunOptions& options) {
                                                   kTransformer, kMapper,  kLoopCloser};
     if (process == "rds-loop_closer") process = kLoopCloser;
     if (!kProcesses.contains(process))
-      throw std::invalid_argument(fmt::format("--bus {}: expected player, tracker, detector, transformer, mapper or "
-                                              "loop-closer before '='",
-                                              part));
+      throw std::invalid_argument(
+          fmt::format("--bus {}: expected player, tracker, detector, transformer, mapper or "
+                      "loop-closer before '='",
+                      part));
     options.vendors[process] = vendor;
   }
 }
@@ -77,7 +78,9 @@ void add_run_command(CLI::App& rds) {
   auto no_dynamics = std::make_shared<bool>(false);
   command->add_option("--dataset", options->dataset, "folder in TUM RGB-D form")->required();
   command->add_option("--out", options->out, "folder for the results")->required();
-  command->add_option("--bus", *vendors, "fastdds, cyclonedds, or per process: tracker=cyclonedds,mapper=fastdds")
+  command
+      ->add_option("--bus", *vendors,
+                   "fastdds, cyclonedds, or per process: tracker=cyclonedds,mapper=fastdds")
       ->capture_default_str();
   add_rate_option(*command, options->rate);
   command->add_flag("--no-dynamics", *no_dynamics, "plain RGB-D SLAM: no detection, no prediction");
@@ -89,6 +92,10 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--poses", options->poses, "camera poses from a TUM file instead of estimated ones");
   command->add_option("--detections", options->detections,
                       "boxes from a detections.jsonl or a truth file instead of the network");
+  command
+      ->add_option("--domain", options->domain,
+                   "DDS domain, to listen from outside (default: one of its own)")
+      ->check(CLI::Range(0, 232));
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, no_dynamics] {

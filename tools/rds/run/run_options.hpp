@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "common/bus/participant.hpp"
@@ -25,6 +26,7 @@ struct RunOptions {
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::filesystem::path poses;
   std::filesystem::path detections;
+  std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
   bool video = false;
   bool force = false;
 

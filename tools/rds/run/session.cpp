@@ -39,8 +39,10 @@ std::vector<Endpoint> endpoints_of(const bus::Participant& bus) {
 }
 
 std::unique_ptr<bus::Participant> join(const RunOptions& options, int domain) {
-  return bus::Participant::create(
-      {.vendor = options.vendor_of(kPlayer), .domain = domain, .node_name = "rds_run", .loopback_only = true});
+  return bus::Participant::create({.vendor = options.vendor_of(kPlayer),
+                                   .domain = domain,
+                                   .node_name = "rds_run",
+                                   .loopback_only = true});
 }
 
 }  // namespace
@@ -49,13 +51,15 @@ Session::Session(const RunOptions& options, const image::TumDataset& dataset)
     : options_(options),
       dataset_(dataset),
       folder_(options.out, options.force),
-      bus_(join(options, domain_.domain())),
+      domain_(options.domain ? *options.domain : domain_lock_.emplace().domain()),
+      bus_(join(options, domain_)),
       recorder_(*bus_),
       commander_(*bus_),
       player_(*bus_, dataset,
               {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
-      fleet_(std::make_unique<Fleet>(service_commands(options, domain_.domain(), folder_.path()))),
-      overlay_(std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())) {}
+      fleet_(std::make_unique<Fleet>(service_commands(options, domain_, folder_.path()))),
+      overlay_(
+          std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())) {}
 
 int Session::run(const std::stop_token& stop) {
   wait_until_connected(stop);
@@ -83,13 +87,14 @@ void Session::wait_until_connected(const std::stop_token& stop) {
     std::map<std::string, std::vector<Endpoint>> endpoints{{kPlayer, endpoints_of(*bus_)}};
     for (const auto& [name, text] : commander_.ask_status(services, stop, kStatusLimit)) {
       const auto status = nlohmann::json::parse(text, nullptr, false);
-      if (status.is_object() && status.contains("endpoints")) endpoints[name] = endpoints_of(status["endpoints"]);
+      if (status.is_object() && status.contains("endpoints"))
+        endpoints[name] = endpoints_of(status["endpoints"]);
     }
     missing = missing_links(running, endpoints);
     if (missing.empty()) return;
     if (Clock::now() > deadline)
-      throw std::runtime_error(fmt::format("the services did not connect within {} s: {}", kConnectLimit.count(),
-                                           fmt::join(missing, "; ")));
+      throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
+                                           kConnectLimit.count(), fmt::join(missing, "; ")));
   }
 }
 
@@ -100,13 +105,15 @@ void Session::play(const std::stop_token& stop) {
   if (report_.played == 0 && report_.unreadable > 0)
     throw std::runtime_error(fmt::format("no frame can be read: {}", report_.first_error));
   if (report_.unreadable > 0)
-    fmt::print(stderr, "{} frames could not be read and were skipped: {}\n", report_.unreadable, report_.first_error);
+    fmt::print(stderr, "{} frames could not be read and were skipped: {}\n", report_.unreadable,
+               report_.first_error);
 }
 
 bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
   overlay_->add_picture(index, frame);
   if (options_.lockstep()) {
-    complete_ &= recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit) || stop.stop_requested();
+    complete_ &=
+        recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit) || stop.stop_requested();
     if (fleet_->alive(kMapper)) recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
   fleet_->watch();
@@ -124,14 +131,17 @@ void Session::show_progress(std::size_t played) {
   if (played == player_.frame_count()) fmt::print(stderr, "\n");
 }
 
-/// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing left to do.
+/// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing
+/// left to do.
 void Session::drain(const std::stop_token& stop) {
   const Recording so_far = recorder_.recording();
-  if (!so_far.frames.empty()) recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
+  if (!so_far.frames.empty())
+    recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
   const std::string final_poses = ask(kTracker, "finish", "", stop);
   const auto json = nlohmann::json::parse(final_poses, nullptr, false);
   if (json.is_object())
-    complete_ &= recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
+    complete_ &=
+        recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
   map_description_ = ask(kMapper, "finish", final_poses, stop);
   ask(kMapper, "save", folder_.path().string(), stop);
   status_ = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
@@ -152,7 +162,16 @@ std::string Session::ask(const std::string& service, const std::string& verb, co
 void Session::write_results() {
   const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
   const Recording recording = recorder_.recording();
-  write_all_results({options_, recording, report_, fleet_->usage(), status_, player_.frame_count(), wall_s, map_description_, {}, {}},
+  write_all_results({options_,
+                     recording,
+                     report_,
+                     fleet_->usage(),
+                     status_,
+                     player_.frame_count(),
+                     wall_s,
+                     map_description_,
+                     {},
+                     {}},
                     dataset_, folder_.path());
   folder_.publish();
 }

@@ -18,7 +18,8 @@
 
 namespace rds::run {
 
-/// One `rds run`: starts the services, plays the recording, waits until everything has drained, writes the results.
+/// One `rds run`: starts the services, plays the recording, waits until everything has drained, writes the
+/// results.
 class Session {
  public:
   /// @throws std::runtime_error with one sentence when the run cannot start.
@@ -40,7 +41,8 @@ class Session {
   const RunOptions& options_;
   const image::TumDataset& dataset_;
   OutputFolder folder_;
-  DomainLock domain_;
+  std::optional<DomainLock> domain_lock_;  // unless the user chose a domain
+  int domain_;
   std::unique_ptr<bus::Participant> bus_;
   Recorder recorder_;
   Commander commander_;

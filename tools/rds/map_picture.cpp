@@ -2,6 +2,7 @@
 #include "tools/rds/map_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ constexpr int kMarginPx = 18;
 constexpr double kElevation = 0.62;  // of the angled view [rad]
 constexpr double kSideways = 0.40;   // the eye stands beside the camera's place, turned by this [rad]
 const cv::Scalar kInk(52, 44, 40);
-const cv::Vec3f kPathColor(20, 110, 245);
+const cv::Vec3f kPathColor(58, 30, 24);  // no label has a dark colour
 
 cv::Vec3b color_of(const std::string& label) {
   const auto rgb = mapper::label_color(label);
@@ -69,13 +70,18 @@ void draw_floor_grid(const VoxelModel& model, Panel& panel) {
 }
 
 void draw_trajectory(const std::vector<Eigen::Vector3d>& trajectory, Panel& panel) {
-  for (std::size_t i = 1; i < trajectory.size(); ++i)
-    panel.canvas.line(panel.project(trajectory[i - 1]), panel.project(trajectory[i]), kPathColor,
-                      3 * kSupersampling, 1.0F, 0.35F);
+  const std::array<std::pair<cv::Vec3f, int>, 2> strokes{
+      {{cv::Vec3f(255, 255, 255), 5 * kSupersampling},
+       {kPathColor, 2 * kSupersampling + 1}}};  // a light rim around the path
+  for (const auto& [color, thickness] : strokes)
+    for (std::size_t i = 1; i < trajectory.size(); ++i)
+      panel.canvas.line(panel.project(trajectory[i - 1]), panel.project(trajectory[i]), color, thickness,
+                        1.0F, 0.5F);
   if (trajectory.empty()) return;
   for (const auto& [point, color] : {std::pair(trajectory.front(), cv::Scalar(80, 175, 60)),
                                      std::pair(trajectory.back(), cv::Scalar(60, 50, 215))}) {
     const auto p = panel.project(point);
+    if (!(p.head<2>().cwiseAbs().maxCoeff() < 1e5F)) continue;
     const cv::Point center(static_cast<int>(p.x()), static_cast<int>(p.y()));
     cv::circle(panel.canvas.pixels(), center, 7 * kSupersampling, cv::Scalar(255, 255, 255), -1, cv::LINE_AA);
     cv::circle(panel.canvas.pixels(), center, 5 * kSupersampling, color, -1, cv::LINE_AA);
@@ -96,6 +102,7 @@ void draw_box(const SceneObject& object, Panel& panel) {
         panel.canvas.line(corner(i), corner(i | bit), color * 0.8F, 2 * kSupersampling, 0.95F, 0.25F);
   }
   const auto center = panel.project((object.min + object.max) / 2);
+  if (!(std::abs(center.x()) < 1e5F && std::abs(top.y()) < 1e5F)) return;
   const double scale = 0.5 * kSupersampling;
   int baseline = 0;
   const auto size = cv::getTextSize(object.label, cv::FONT_HERSHEY_DUPLEX, scale, 1, &baseline);
@@ -123,6 +130,7 @@ View angled_view(const VoxelModel& model, const std::vector<Eigen::Vector3d>& tr
   if (!trajectory.empty()) {
     cameras.setZero();
     for (const auto& p : trajectory) cameras += level * p / static_cast<double>(trajectory.size());
+    if (!(cameras.cwiseAbs().maxCoeff() < 1e6)) cameras = target + Eigen::Vector3d(1, -1, 0);
   }
   const double azimuth = std::atan2(cameras.y() - target.y(), cameras.x() - target.x()) + kSideways;
   const Eigen::Vector3d direction(std::cos(azimuth) * std::cos(kElevation),

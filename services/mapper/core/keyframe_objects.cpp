@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "services/mapper/core/object_region.hpp"
 #include "services/mapper/core/segmentation.hpp"
@@ -15,6 +16,7 @@ constexpr double kBorderPx = 3;  // a box this near to the picture's border is c
 constexpr int kSameSurfaceTenthMm =
     500;  // depth step between a segment's pixel and its unsegmented neighbours
 constexpr std::size_t kMinSightingPixels = 30;
+constexpr double kMinShareInPlace = 0.5;  // of a segment's pixels in the object's box and depth interval
 
 /// All sampled pixels of a segment that was found on every `stride`-th of them.
 std::vector<std::size_t> refine(const Segment& segment, int stride, const KeyframeRecord& record) {
@@ -49,10 +51,29 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
   return sighting;
 }
 
+/// The segments as far as they lie in the object's place; those that mostly lie elsewhere in depth are left
+/// out.
+std::vector<Segment> segments_in_place(const std::vector<Segment>& segments, const ObjectPlace& place,
+                                       const KeyframeRecord& record) {
+  std::vector<Segment> inside;
+  for (const auto& segment : segments) {
+    Segment part{segment.box_px, {}, segment.is_plane};
+    std::ranges::copy_if(segment.pixels, std::back_inserter(part.pixels),
+                         [&](std::size_t i) { return place.contains(record, i); });
+    const bool mostly = static_cast<double>(part.pixels.size()) >=
+                        kMinShareInPlace * static_cast<double>(segment.pixels.size());
+    if (mostly && !part.pixels.empty()) inside.push_back(std::move(part));
+  }
+  return inside;
+}
+
 std::vector<std::size_t> static_pixels(const LabelledBox& box, const geometry::Box2& box_px,
                                        const std::vector<Segment>& segments, const KeyframeRecord& record,
                                        const MapperConfig& config) {
-  const Segment* found = best_segment(segments, box_px, config.segmentation);
+  const auto place = object_place(record, box, config.region);
+  if (!place) return {};
+  const auto candidates = segments_in_place(segments, *place, record);
+  const Segment* found = best_segment(candidates, box_px, config.segmentation);
   auto pixels = found != nullptr ? refine(*found, config.segmentation.stride, record)
                                  : object_region(record, box, config.region);
   std::erase_if(pixels, [&](std::size_t i) { return record.use[i] != PixelUse::kStatic; });

@@ -20,11 +20,11 @@ struct SamplingConfig {
 
 /// Depth cut of an object inside its box (NGD-SLAM's trick, know-how of the field).
 struct RegionConfig {
-  double half_depth_m = 0.35;   // object = |depth − object depth| below this
-  int margin_px = 24;           // the box is widened by this before the cut
-  int rim_px = 8;               // around a movable object: neither inserted nor lowered
-  double min_component = 0.05;  // connected parts smaller than this share of the largest are dropped
-  double min_inside = 0.3;      // a part must lie inside the unwidened box by this share
+  double half_depth_m = 0.35;  // object = |depth − object depth| below this
+  int margin_px = 24;          // the box is widened by this before the cut
+  int rim_px = 8;              // around a movable object: neither inserted nor lowered
+  double min_component = 0.0;  // connected parts smaller than this share of the largest are dropped
+  double min_inside = 0.05;    // a part must lie inside the unwidened box by this share
 };
 
 struct SegmentationConfig {

@@ -75,28 +75,66 @@ geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::P
 void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {
   for (auto& entry : entries_) entry.seen_now = false;
   for (const auto& sighting : record.sightings) fuse(sighting, record, labels);
+  merge_duplicates();
   if (!record.looked_for_objects) return;
   for (auto& entry : entries_)
     if (!entry.seen_now) fade(entry, record);
   std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
 }
 
-ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
+bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
+                             const geometry::Box3& b) const {
   const auto known = config_.class_radius_m.find(label);
   const double radius = known != config_.class_radius_m.end() ? known->second : config_.default_radius_m;
+  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap;
+}
+
+ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
   Entry* best = nullptr;
   double best_distance = std::numeric_limits<double>::infinity();
   for (auto& entry : entries_) {
     if (entry.object.label != label || entry.seen_now)
       continue;  // two sightings in one picture are two objects
-    const double distance = (geometry::Box3{entry.min, entry.max}.center() - box.center()).norm();
-    const bool same = distance < radius || iou({entry.min, entry.max}, box) > kMinOverlap;
-    if (same && distance < best_distance) {
+    const geometry::Box3 known{entry.min, entry.max};
+    const double distance = (known.center() - box.center()).norm();
+    if (distance < best_distance && is_same(label, known, box)) {
       best = &entry;
       best_distance = distance;
     }
   }
   return best;
+}
+
+/// Parts of one object that were taken for several before it was seen as a whole.
+void ObjectDatabase::merge_duplicates() {
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    for (std::size_t j = entries_.size(); j-- > i + 1;) {
+      auto& a = entries_[i];
+      const auto& b = entries_[j];
+      const bool apart = a.object.label != b.object.label || (a.seen_now && b.seen_now) ||
+                         !is_same(a.object.label, {a.min, a.max}, {b.min, b.max});
+      if (apart) continue;
+      const double share = b.weight / (a.weight + b.weight);
+      a.min += (b.min - a.min) * share;
+      a.max += (b.max - a.max) * share;
+      a.weight += b.weight;
+      a.score_sum += b.score_sum;
+      a.existence = std::max(a.existence, b.existence);
+      a.seen_now = a.seen_now || b.seen_now;
+      a.object.observations += b.object.observations;
+      a.object.first_seen_ns = std::min(a.object.first_seen_ns, b.object.first_seen_ns);
+      a.object.last_seen_ns = std::max(a.object.last_seen_ns, b.object.last_seen_ns);
+      describe(a);
+      entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
+/// What the entry's sums say about its object.
+void ObjectDatabase::describe(Entry& entry) {
+  auto& object = entry.object;
+  object.score = static_cast<float>(entry.score_sum / object.observations);
+  object.center = (entry.min + entry.max) / 2;
+  object.size = entry.max - entry.min;
 }
 
 void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& record,
@@ -121,12 +159,9 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
   entry->score_sum += sighting.score;
   entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
   entry->seen_now = true;
-  auto& object = entry->object;
-  ++object.observations;
-  object.score = static_cast<float>(entry->score_sum / object.observations);
-  object.center = (entry->min + entry->max) / 2;
-  object.size = entry->max - entry->min;
-  object.last_seen_ns = std::max(object.last_seen_ns, record.stamp_ns);
+  ++entry->object.observations;
+  entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, record.stamp_ns);
+  describe(*entry);
 }
 
 void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {

@@ -39,6 +39,10 @@ class ObjectDatabase {
 
   void fuse(const ObjectSighting& sighting, const KeyframeRecord& record, const LabelTable& labels);
   Entry* nearest(const std::string& label, const geometry::Box3& box);
+  [[nodiscard]] bool is_same(const std::string& label, const geometry::Box3& a,
+                             const geometry::Box3& b) const;
+  void merge_duplicates();
+  static void describe(Entry& entry);
   void fade(Entry& entry, const KeyframeRecord& record) const;
 
   ObjectConfig config_;

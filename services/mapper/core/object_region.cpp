@@ -67,6 +67,12 @@ float object_depth(std::vector<float> depths) {
   return (depths[depths.size() / 2] + depths[depths.size() / 3]) / 2;
 }
 
+/// Depth of the object in a box, from the box's inner part if that shows enough [m]; 0 if unknown.
+float depth_in_box(const geometry::Box2& box_px, const DepthInterval& limits, const KeyframeRecord& record) {
+  const float inner = object_depth(depths_in(sampled_rect(inner_part(box_px), 0, record), limits, record));
+  return inner > 0 ? inner : object_depth(depths_in(sampled_rect(box_px, 0, record), limits, record));
+}
+
 cv::Mat near_depth(const cv::Rect& rect, float depth_m, const RegionConfig& config,
                    const KeyframeRecord& record) {
   cv::Mat near(rect.size(), CV_8U, cv::Scalar(0));
@@ -113,13 +119,33 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.camera);
 }
 
+bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
+  const auto x = static_cast<double>(static_cast<int>(pixel) % record.width * record.stride);
+  const auto y = static_cast<double>(static_cast<int>(pixel) / record.width * record.stride);
+  const float depth = record.depth_m(pixel);
+  return box_px.contains(x, y) && depth >= min_depth_m && depth <= max_depth_m;
+}
+
+std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
+                                        const RegionConfig& config) {
+  const auto box_px = image_box(box, record);
+  if (!box_px) return std::nullopt;
+  const auto limits = depth_limits(box, record, config);
+  const float depth = depth_in_box(*box_px, limits, record);
+  if (depth <= 0) return std::nullopt;
+  const double margin = config.margin_px;
+  const auto half = static_cast<float>(config.half_depth_m);
+  const bool has_extent = box.box_in_map && !(box.depth_m > 0);
+  return ObjectPlace{{box_px->x0 - margin, box_px->y0 - margin, box_px->x1 + margin, box_px->y1 + margin},
+                     has_extent ? limits.min_m : depth - half,
+                     has_extent ? limits.max_m : depth + half};
+}
+
 std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
                                        const RegionConfig& config) {
   const auto box_px = image_box(box, record);
   if (!box_px) return {};
-  const auto limits = depth_limits(box, record, config);
-  float depth = object_depth(depths_in(sampled_rect(inner_part(*box_px), 0, record), limits, record));
-  if (depth <= 0) depth = object_depth(depths_in(sampled_rect(*box_px, 0, record), limits, record));
+  const float depth = depth_in_box(*box_px, depth_limits(box, record, config), record);
   if (depth <= 0) return {};
 
   const cv::Rect wide = sampled_rect(*box_px, config.margin_px, record);

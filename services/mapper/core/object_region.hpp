@@ -19,6 +19,20 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
                                        const RegionConfig& config);
 
+/// Where an object is in a keyframe: inside this box of the picture, between these depths.
+struct ObjectPlace {
+  geometry::Box2 box_px;  // widened by the margin
+  float min_depth_m = 0;
+  float max_depth_m = 0;
+
+  [[nodiscard]] bool contains(const KeyframeRecord& record, std::size_t pixel) const;
+};
+
+/// The place of an object: its 3-D box if known, else its depth in the picture give or take half_depth_m.
+/// @return nullopt if the box has no usable depth.
+std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
+                                        const RegionConfig& config);
+
 /// Marks the region as movable, and a rim around it as unusable.
 void mark_movable(KeyframeRecord& record, const std::vector<std::size_t>& region, const RegionConfig& config);
 

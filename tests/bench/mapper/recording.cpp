@@ -22,7 +22,9 @@ T or_throw(tl::expected<T, std::string> result) {
 Recording::Recording(const std::filesystem::path& folder, const std::filesystem::path& boxes_file)
     : dataset_(or_throw(image::TumDataset::open(folder))) {
   if (!dataset_.ground_truth()) throw std::runtime_error(folder.string() + "/groundtruth.txt: missing");
-  if (!boxes_file.empty()) read_boxes(boxes_file);
+  if (boxes_file.empty()) return;
+  read_boxes(boxes_file);
+  if (std::filesystem::exists(folder / "objects.json")) read_static_objects(folder / "objects.json");
 }
 
 void Recording::read_boxes(const std::filesystem::path& file) {
@@ -45,6 +47,19 @@ void Recording::read_boxes(const std::filesystem::path& file) {
   }
 }
 
+void Recording::read_static_objects(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const auto objects = nlohmann::json::parse(in);
+  for (const auto& object : objects) {
+    const auto center = object.at("center").get<std::vector<double>>();
+    const auto size = object.at("size").get<std::vector<double>>();
+    const Eigen::Vector3d c(center.at(0), center.at(1), center.at(2));
+    const Eigen::Vector3d half = Eigen::Vector3d(size.at(0), size.at(1), size.at(2)) / 2;
+    static_objects_.push_back(
+        {object.at("label").get<std::string>(), 0.9F, {}, geometry::Box3{c - half, c + half}, 0.0F, false});
+  }
+}
+
 mapper::KeyframeInput Recording::keyframe(std::size_t i) const {
   const auto frame = or_throw(dataset_.load(dataset_.frames().at(i)));
   mapper::KeyframeInput input{.id = i,
@@ -58,6 +73,7 @@ mapper::KeyframeInput Recording::keyframe(std::size_t i) const {
   if (!has_boxes_) return input;
   const auto found = boxes_.find(std::llround(static_cast<double>(frame.stamp_ns) * 1e-3));
   input.boxes = found == boxes_.end() ? std::vector<mapper::LabelledBox>{} : found->second;
+  input.boxes->insert(input.boxes->end(), static_objects_.begin(), static_objects_.end());
   return input;
 }
 

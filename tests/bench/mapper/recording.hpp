@@ -14,6 +14,8 @@ namespace rds::bench {
 class Recording {
  public:
   /// @param boxes_file  people.json of the sequence, or a file of its form; "" if nobody looked for objects.
+  /// Static objects in the folder's objects.json ([{label, center, size}], map frame) count as seen in every
+  /// frame.
   /// @throws std::runtime_error naming what is missing.
   Recording(const std::filesystem::path& folder, const std::filesystem::path& boxes_file);
 
@@ -23,10 +25,12 @@ class Recording {
 
  private:
   void read_boxes(const std::filesystem::path& file);
+  void read_static_objects(const std::filesystem::path& file);
 
   image::TumDataset dataset_;
   bool has_boxes_ = false;
   std::map<std::int64_t, std::vector<mapper::LabelledBox>> boxes_;  // by stamp [µs]
+  std::vector<mapper::LabelledBox> static_objects_;
 };
 
 }  // namespace rds::bench

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/keyframe_objects.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "services/mapper/core/object_region.hpp"
+#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using test::SyntheticKeyframe;
+
+KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels) {
+  const MapperConfig config;
+  auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
+  apply_boxes(record, *input.boxes, config, labels);
+  return record;
+}
+
+PixelUse use_at(const KeyframeRecord& record, int x_px, int y_px) {
+  return record.use[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
+}
+
+TEST(KeyframeObjects, CutsAPersonOutOfHisBoxAndLeavesARimUnused) {
+  const cv::Rect person(120, 40, 80, 200);
+  LabelTable labels;
+  const auto record = record_of(
+      SyntheticKeyframe(0).rectangle(person, 1.5).box("person", {90, 20, 140, 220}, true).make(), labels);
+  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
+  EXPECT_EQ(use_at(record, 116, 120), PixelUse::kNone);
+  EXPECT_EQ(use_at(record, 95, 120), PixelUse::kStatic);
+  EXPECT_TRUE(record.sightings.empty());
+}
+
+TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
+  const cv::Rect chair(130, 90, 60, 60);
+  LabelTable labels;
+  auto input = SyntheticKeyframe(0).rectangle(chair, 2.0).looked_for_objects().make();
+  input.boxes->push_back({"chair", 0.9F, {100, 60, 220, 180}, std::nullopt, 2.0F, false});
+  const auto record = record_of(input, labels);
+  ASSERT_EQ(record.sightings.size(), 1U);
+  for (const auto& p : record.sightings[0].points_in_camera) EXPECT_NEAR(p.z(), 2.0F, 0.1F);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record.labels[i] == 0) continue;
+    EXPECT_NEAR(record.depth_m(i), 2.0F, 0.1F);
+  }
+}
+
+TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
+  const cv::Rect thing(110, 80, 100, 80);
+  LabelTable labels;
+  const auto record = record_of(SyntheticKeyframe(0)
+                                    .rectangle(thing, 2.0)
+                                    .box("sofa", thing, false, 0.9F)
+                                    .box("chair", thing, false, 0.4F)
+                                    .make(),
+                                labels);
+  const auto center = static_cast<std::size_t>(120 / record.stride * record.width + 160 / record.stride);
+  EXPECT_EQ(labels.names()[record.labels[center]], "sofa");
+}
+
+TEST(KeyframeObjects, NewBoxesReplaceEarlierOnes) {
+  const cv::Rect person(120, 40, 80, 200);
+  LabelTable labels;
+  auto record =
+      record_of(SyntheticKeyframe(0).rectangle(person, 1.5).box("person", person, true).make(), labels);
+  apply_boxes(record, {}, MapperConfig{}, labels);
+  EXPECT_EQ(std::ranges::count(record.use, PixelUse::kMovable), 0);
+  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kStatic);
+}
+
+TEST(KeyframeObjects, ABoxWithoutDepthHasNoRegion) {
+  LabelTable labels;
+  const auto record =
+      record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);
+  const LabelledBox box{"person", 1.0F, {110, 60, 190, 140}, std::nullopt, 0.0F, true};
+  EXPECT_TRUE(object_region(record, box, RegionConfig{}).empty());
+  EXPECT_FALSE(object_place(record, box, RegionConfig{}).has_value());
+}
+
+}  // namespace
+}  // namespace rds::mapper

@@ -24,7 +24,7 @@ constexpr int kCannotExecute = 127;
 [[noreturn]] void become(char* const* arguments, int log, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kCannotExecute);  // the parent died before the line above
-  setpgid(0, 0);                                   // Ctrl-C reaches the parent only; it stops the children in order
+  setpgid(0, 0);  // Ctrl-C reaches the parent only; it stops the children in order
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   sigset_t none;
@@ -51,12 +51,14 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::f
   if (access(arguments[0], X_OK) != 0)
     throw std::runtime_error(fmt::format("{}: cannot be executed: {}", command[0], std::strerror(errno)));
   const int log_fd = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (log_fd < 0) throw std::runtime_error(fmt::format("{}: cannot be written: {}", log.string(), std::strerror(errno)));
+  if (log_fd < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", log.string(), std::strerror(errno)));
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ == 0) become(arguments.data(), log_fd, parent);
   close(log_fd);
-  if (pid_ < 0) throw std::runtime_error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
+  if (pid_ < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
 }
 
 ChildProcess::~ChildProcess() {

@@ -19,7 +19,8 @@ struct ChildExit {
   std::uint64_t peak_bytes = 0;
 };
 
-/// A process of ours with its standard error in a file. It dies with us, and the destructor leaves nothing behind.
+/// A process of ours with its standard error in a file. It dies with us, and the destructor leaves nothing
+/// behind.
 class ChildProcess {
  public:
   /// @param command  executable and arguments. @param log  appended to.

@@ -16,15 +16,17 @@ std::uint64_t random_id() {
 Commander::Commander(bus::Participant& bus)
     : next_id_(random_id()),
       commands_(bus.advertise<rds_msgs::msg::Command>("rds/command", bus::kStream)),
-      results_(bus.subscribe<rds_msgs::msg::CommandResult>("rds/command_result", bus::kStream, [this](const auto& m) {
-        const std::lock_guard lock(mutex_);
-        const auto request = replies_.find(m->request_id());
-        if (request == replies_.end()) return;  // somebody else's, or too late
-        request->second[m->service()] = {m->success(), m->message()};
-        changed_.notify_all();
-      })) {}
+      results_(bus.subscribe<rds_msgs::msg::CommandResult>(
+          "rds/command_result", bus::kStream, [this](const auto& m) {
+            const std::lock_guard lock(mutex_);
+            const auto request = replies_.find(m->request_id());
+            if (request == replies_.end()) return;  // somebody else's, or too late
+            request->second[m->service()] = {m->success(), m->message()};
+            changed_.notify_all();
+          })) {}
 
-std::uint64_t Commander::send(const std::string& service, const std::string& verb, const std::string& argument) {
+std::uint64_t Commander::send(const std::string& service, const std::string& verb,
+                              const std::string& argument) {
   rds_msgs::msg::Command command;
   {
     const std::lock_guard lock(mutex_);

@@ -27,10 +27,12 @@ class Commander {
   explicit Commander(bus::Participant& bus);
 
   /// Sends one command and waits for its answer; nullopt if none came within `limit`.
-  std::optional<CommandReply> ask(const std::string& service, const std::string& verb, const std::string& argument,
-                                  const std::stop_token& stop, std::chrono::milliseconds limit);
+  std::optional<CommandReply> ask(const std::string& service, const std::string& verb,
+                                  const std::string& argument, const std::stop_token& stop,
+                                  std::chrono::milliseconds limit);
 
-  /// Asks all services for their status at once. @return the answers that came within `limit`, by service name.
+  /// Asks all services for their status at once. @return the answers that came within `limit`, by service
+  /// name.
   std::map<std::string, std::string> ask_status(std::size_t expected, const std::stop_token& stop,
                                                 std::chrono::milliseconds limit);
 

@@ -11,7 +11,8 @@
 
 namespace rds::run {
 namespace {
-// People use low domains by hand; above 101 the ports collide with Linux's ephemeral ones (7400 + 250 × domain).
+// People use low domains by hand; above 101 the ports collide with Linux's ephemeral ones (7400 + 250 ×
+// domain).
 constexpr int kFirst = 30;
 constexpr int kLast = 100;
 }  // namespace
@@ -31,6 +32,8 @@ DomainLock::DomainLock() {
   throw std::runtime_error(fmt::format("all DDS domains {} to {} are in use by other runs", kFirst, kLast));
 }
 
-DomainLock::~DomainLock() { close(fd_); }
+DomainLock::~DomainLock() {
+  close(fd_);
+}
 
 }  // namespace rds::run

@@ -35,9 +35,11 @@ std::vector<tools::SceneObject> read_objects(const std::filesystem::path& file) 
 
 void write_map_image(const std::filesystem::path& folder, const std::string& description,
                      std::span<const geometry::StampedPose> trajectory) {
-  const std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read((folder / "map.ot").string()));
+  const std::unique_ptr<octomap::AbstractOcTree> any(
+      octomap::AbstractOcTree::read((folder / "map.ot").string()));
   const auto* tree = dynamic_cast<const octomap::ColorOcTree*>(any.get());
-  if (tree == nullptr) throw std::runtime_error(fmt::format("{}: not a ColorOcTree", (folder / "map.ot").string()));
+  if (tree == nullptr)
+    throw std::runtime_error(fmt::format("{}: not a ColorOcTree", (folder / "map.ot").string()));
   tools::MapScene scene{*tree, {}, read_objects(folder / "objects.json"), {}};
   for (const auto& pose : trajectory) scene.trajectory.push_back(pose.map_from_camera.translation());
   tools::PictureOptions options;

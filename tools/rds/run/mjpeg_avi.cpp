@@ -9,7 +9,8 @@
 namespace rds::run {
 namespace {
 
-// Source: Microsoft, "AVI RIFF File Reference" (structures MainAVIHeader, AVISTREAMHEADER, BITMAPINFOHEADER, idx1).
+// Source: Microsoft, "AVI RIFF File Reference" (structures MainAVIHeader, AVISTREAMHEADER, BITMAPINFOHEADER,
+// idx1).
 constexpr std::uint32_t kHasIndex = 0x10;
 constexpr std::uint32_t kKeyframe = 0x10;
 constexpr std::uint32_t kMainHeaderBytes = 56;
@@ -19,7 +20,9 @@ constexpr std::uint32_t kStreamListBytes = 4 + 8 + kStreamHeaderBytes + 8 + kFor
 constexpr std::uint32_t kHeaderListBytes = 4 + 8 + kMainHeaderBytes + 8 + kStreamListBytes;
 constexpr std::uint32_t kRateScale = 1000;
 
-void tag(std::ostream& out, std::string_view four) { out.write(four.data(), 4); }
+void tag(std::ostream& out, std::string_view four) {
+  out.write(four.data(), 4);
+}
 
 void u16(std::ostream& out, std::uint32_t value) {
   out.put(static_cast<char>(value & 0xFF)).put(static_cast<char>(value >> 8 & 0xFF));
@@ -39,7 +42,9 @@ void zeros(std::ostream& out, int words) {
 MjpegAvi::MjpegAvi(const std::filesystem::path& file, double frames_per_second)
     : out_(file, std::ios::binary), frames_per_second_(frames_per_second) {}
 
-MjpegAvi::~MjpegAvi() { close(); }
+MjpegAvi::~MjpegAvi() {
+  close();
+}
 
 void MjpegAvi::add(const cv::Mat& bgr) {
   if (offsets_.empty()) {
@@ -80,8 +85,10 @@ void MjpegAvi::write_header(std::uint32_t data_bytes) {
   tag(out_, "RIFF"), u32(out_, 4 + 8 + kHeaderListBytes + 8 + data_bytes), tag(out_, "AVI ");
   tag(out_, "LIST"), u32(out_, kHeaderListBytes), tag(out_, "hdrl");
   tag(out_, "avih"), u32(out_, kMainHeaderBytes);
-  u32(out_, static_cast<std::uint32_t>(std::lround(1e6 / frames_per_second_))), zeros(out_, 2), u32(out_, kHasIndex);
-  u32(out_, frames), u32(out_, 0), u32(out_, 1), u32(out_, width * height * 3), u32(out_, width), u32(out_, height);
+  u32(out_, static_cast<std::uint32_t>(std::lround(1e6 / frames_per_second_))), zeros(out_, 2),
+      u32(out_, kHasIndex);
+  u32(out_, frames), u32(out_, 0), u32(out_, 1), u32(out_, width * height * 3), u32(out_, width),
+      u32(out_, height);
   zeros(out_, 4);
   tag(out_, "LIST"), u32(out_, kStreamListBytes), tag(out_, "strl");
   tag(out_, "strh"), u32(out_, kStreamHeaderBytes), tag(out_, "vids"), tag(out_, "MJPG"), zeros(out_, 3);

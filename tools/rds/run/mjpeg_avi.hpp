@@ -11,7 +11,8 @@
 
 namespace rds::run {
 
-/// Motion-JPEG video in an AVI file, which every player reads; saves the tools a dependency on a video library.
+/// Motion-JPEG video in an AVI file, which every player reads; saves the tools a dependency on a video
+/// library.
 class MjpegAvi {
  public:
   MjpegAvi(const std::filesystem::path& file, double frames_per_second);

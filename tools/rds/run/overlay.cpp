@@ -34,7 +34,8 @@ void draw_features(cv::Mat& picture, const rds_msgs::msg::FrameFeatures& feature
 }
 
 void draw_box(cv::Mat& picture, const PredictionRecord& p) {
-  const cv::Rect box(cv::Point(cvRound(p.box.x0), cvRound(p.box.y0)), cv::Point(cvRound(p.box.x1), cvRound(p.box.y1)));
+  const cv::Rect box(cv::Point(cvRound(p.box.x0), cvRound(p.box.y0)),
+                     cv::Point(cvRound(p.box.x1), cvRound(p.box.y1)));
   cv::rectangle(picture, box, kBox, 2, cv::LINE_AA);
   draw_text(picture, fmt::format("{} {}  {:.1f} m/s", p.label, p.id, p.velocity.norm()),
             {box.x + 4, std::max(box.y + 16, 16)}, kBox);
@@ -48,8 +49,9 @@ cv::Mat draw_overlay(const cv::Mat& bgr, const rds_msgs::msg::FrameFeatures& fea
   draw_features(picture, features);
   for (const PredictionRecord& box : boxes) draw_box(picture, box);
   draw_text(picture,
-            fmt::format("{}{}  {} features, {} removed, {} inliers", frame.state, frame.is_keyframe ? " keyframe" : "",
-                        frame.features, frame.dynamic_features, frame.inliers),
+            fmt::format("{}{}  {} features, {} removed, {} inliers", frame.state,
+                        frame.is_keyframe ? " keyframe" : "", frame.features, frame.dynamic_features,
+                        frame.inliers),
             {8, picture.rows - 10}, kWhite);
   return picture;
 }

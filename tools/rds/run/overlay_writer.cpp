@@ -15,14 +15,14 @@ constexpr int kJpegQuality = 90;
 constexpr std::chrono::milliseconds kRecordLimit{1000};
 }  // namespace
 
-OverlayWriter::OverlayWriter(bus::Participant& bus, Recorder& recorder, std::filesystem::path folder, bool video,
-                             double frames_per_second)
+OverlayWriter::OverlayWriter(bus::Participant& bus, Recorder& recorder, std::filesystem::path folder,
+                             bool video, double frames_per_second)
     : recorder_(recorder),
       folder_(std::move(folder)),
       video_(video ? std::make_unique<MjpegAvi>(folder_ / "overlay.avi", frames_per_second) : nullptr),
       features_(mailbox_, kMaxWaiting),
-      subscription_(bus.subscribe<rds_msgs::msg::FrameFeatures>("rds/features", bus::kStream,
-                                                                [this](Features m) { features_.push(std::move(m)); })),
+      subscription_(bus.subscribe<rds_msgs::msg::FrameFeatures>(
+          "rds/features", bus::kStream, [this](Features m) { features_.push(std::move(m)); })),
       thread_([this](const std::stop_token& stop) { draw_all(stop); }) {
   std::filesystem::create_directories(folder_ / "overlay");
 }
@@ -53,7 +53,8 @@ void OverlayWriter::draw(const Features& features) {
   const auto picture = take_picture(stamp_ns);
   const auto frame = recorder_.frame(stamp_ns);
   if (!picture || !frame) return;
-  const cv::Mat drawn = draw_overlay(picture->color.bgr(), *features, recorder_.predictions(stamp_ns), *frame);
+  const cv::Mat drawn =
+      draw_overlay(picture->color.bgr(), *features, recorder_.predictions(stamp_ns), *frame);
   if (video_) video_->add(drawn);
   if (picture->index % kEvery == 0)
     cv::imwrite((folder_ / "overlay" / fmt::format("{:06}.jpg", picture->index)).string(), drawn,

@@ -16,7 +16,8 @@
 
 namespace rds::run {
 
-/// Draws overlay pictures on a thread of its own: every 50th frame as JPEG, every frame into overlay.avi if wanted.
+/// Draws overlay pictures on a thread of its own: every 50th frame as JPEG, every frame into overlay.avi if
+/// wanted.
 class OverlayWriter {
  public:
   /// @param folder  gets overlay/NNNNNN.jpg and, with `video`, overlay.avi.

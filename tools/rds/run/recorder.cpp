@@ -11,11 +11,14 @@ namespace rds::run {
 namespace {
 
 std::string state_name(std::uint8_t state) {
-  static const std::array<std::string, 5> kNames{"NOT_INITIALIZED", "TRACKING", "WEAK", "LOST", "RELOCALISED"};
+  static const std::array<std::string, 5> kNames{"NOT_INITIALIZED", "TRACKING", "WEAK", "LOST",
+                                                 "RELOCALISED"};
   return state < kNames.size() ? kNames[state] : "UNKNOWN";
 }
 
-bool state_has_pose(std::uint8_t state) { return state == 1 || state == 2 || state == 4; }
+bool state_has_pose(std::uint8_t state) {
+  return state == 1 || state == 2 || state == 4;
+}
 
 FrameRecord to_record(const rds_msgs::msg::TrackingState& m) {
   const auto ms = [](std::uint32_t us) { return us / 1000.0; };
@@ -32,7 +35,8 @@ FrameRecord to_record(const rds_msgs::msg::TrackingState& m) {
           .total_ms = ms(m.total_us()),
           .reference_keyframe_id = m.reference_keyframe_id(),
           .map_from_camera = messages::to_pose(m.map_from_camera()).value_or(geometry::Pose::Identity()),
-          .reference_from_camera = messages::to_pose(m.reference_from_camera()).value_or(geometry::Pose::Identity())};
+          .reference_from_camera =
+              messages::to_pose(m.reference_from_camera()).value_or(geometry::Pose::Identity())};
 }
 
 Eigen::Vector3d vector_at(const std::vector<double>& flat, std::size_t i) {
@@ -104,7 +108,8 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
     const std::lock_guard lock(mutex_);
     recording_.keyframes.clear();
     for (std::size_t i = 0; i < message.keyframe_ids().size(); ++i)
-      recording_.keyframes[message.keyframe_ids()[i]] = {message.stamps()[i], messages::pose_at(message.poses(), i)};
+      recording_.keyframes[message.keyframe_ids()[i]] = {message.stamps()[i],
+                                                         messages::pose_at(message.poses(), i)};
     recording_.keyframes_revision = message.revision();
     recording_.loops_closed = message.loops_closed();
   }
@@ -135,13 +140,15 @@ bool Recorder::wait(const std::stop_token& stop, std::chrono::milliseconds limit
   return changed_.wait_for(lock, stop, limit, ready);
 }
 
-bool Recorder::wait_acknowledged(std::int64_t stamp_ns, const std::stop_token& stop, std::chrono::milliseconds limit) {
+bool Recorder::wait_acknowledged(std::int64_t stamp_ns, const std::stop_token& stop,
+                                 std::chrono::milliseconds limit) {
   return wait(stop, limit, [&] {
     return recording_.frames.contains(stamp_ns) && recording_.predictions.contains(stamp_ns);
   });
 }
 
-bool Recorder::wait_mapper(std::uint64_t backlog, const std::stop_token& stop, std::chrono::milliseconds limit) {
+bool Recorder::wait_mapper(std::uint64_t backlog, const std::stop_token& stop,
+                           std::chrono::milliseconds limit) {
   return wait(stop, limit, [&] {
     const std::uint64_t made = last_keyframe_id_ ? *last_keyframe_id_ + 1 : 0;
     const std::uint64_t mapped = last_mapped_id_ ? *last_mapped_id_ + 1 : 0;
@@ -149,7 +156,8 @@ bool Recorder::wait_mapper(std::uint64_t backlog, const std::stop_token& stop, s
   });
 }
 
-bool Recorder::wait_poses(std::uint64_t revision, const std::stop_token& stop, std::chrono::milliseconds limit) {
+bool Recorder::wait_poses(std::uint64_t revision, const std::stop_token& stop,
+                          std::chrono::milliseconds limit) {
   return wait(stop, limit, [&] { return recording_.keyframes_revision >= revision; });
 }
 

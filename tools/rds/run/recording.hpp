@@ -51,7 +51,8 @@ struct KeyframeRecord {
   geometry::Pose map_from_camera = geometry::Pose::Identity();
 };
 
-/// Everything a run heard on the bus that its files need; ordered by stamp or id, whatever the order of arrival.
+/// Everything a run heard on the bus that its files need; ordered by stamp or id, whatever the order of
+/// arrival.
 struct Recording {
   std::map<std::int64_t, FrameRecord> frames;
   std::map<std::int64_t, std::vector<PredictionRecord>> predictions;

@@ -40,20 +40,23 @@ void write_summary(const nlohmann::ordered_json& summary, const std::filesystem:
 
 void print_main_figures(const nlohmann::ordered_json& s) {
   const auto& frames = s["frames"];
-  fmt::print("{} frames played, {} tracked, {} lost, {} dropped, {} keyframes, {} loops closed, {:.1f} frames/s\n",
-             frames["played"].get<int>(), frames["tracked"].get<int>(), frames["lost"].get<int>(),
-             frames["dropped"].get<int>(), frames["keyframes"].get<int>(), s["loops_closed"].get<int>(),
-             s["frames_per_s"].get<double>());
+  fmt::print(
+      "{} frames played, {} tracked, {} lost, {} dropped, {} keyframes, {} loops closed, {:.1f} frames/s\n",
+      frames["played"].get<int>(), frames["tracked"].get<int>(), frames["lost"].get<int>(),
+      frames["dropped"].get<int>(), frames["keyframes"].get<int>(), s["loops_closed"].get<int>(),
+      s["frames_per_s"].get<double>());
   for (const char* stage : {"total_ms", "extract_ms", "track_ms", "predict_ms"})
     fmt::print("{:<10}  median {:6.2f}  p95 {:6.2f}  p99 {:6.2f}\n", stage, s[stage]["median"].get<double>(),
                s[stage]["p95"].get<double>(), s[stage]["p99"].get<double>());
   if (s.contains("ate_final"))
-    fmt::print("ATE [m]     live {:.4f}  final {:.4f}\n", s["ate_live"].get<double>(), s["ate_final"].get<double>());
+    fmt::print("ATE [m]     live {:.4f}  final {:.4f}\n", s["ate_live"].get<double>(),
+               s["ate_final"].get<double>());
 }
 
 }  // namespace
 
-void write_all_results(SummaryInput input, const image::TumDataset& dataset, const std::filesystem::path& folder) {
+void write_all_results(SummaryInput input, const image::TumDataset& dataset,
+                       const std::filesystem::path& folder) {
   write_run_files(input.recording, folder);
   const std::vector<StampedPose> optimized = optimized_trajectory(input.recording);
   input.ate_live_m = ate_of(dataset, live_trajectory(input.recording));

@@ -48,7 +48,7 @@ void parse_vendors(const std::string& text, RunOptions& options) {
 }
 
 void check_files(const RunOptions& options) {
-  for (const auto& file : {options.config, options.poses, options.detections})
+  for (const auto& file : {options.config, options.detections})
     if (!file.empty() && !std::filesystem::is_regular_file(file))
       throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
 }
@@ -89,7 +89,6 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--config", options->config, "YAML with a section per service");
   command->add_option("--start", options->start, "first frame");
   command->add_option("--frames", options->frames, "number of frames")->check(CLI::PositiveNumber);
-  command->add_option("--poses", options->poses, "camera poses from a TUM file instead of estimated ones");
   command->add_option("--detections", options->detections,
                       "boxes from a detections.jsonl or a truth file instead of the network");
   command

@@ -40,20 +40,24 @@ void write_frames(const Recording& recording, const std::filesystem::path& file)
   out << "stamp,state,features,dynamic_features,inliers,extract_ms,predict_ms,track_ms,total_ms,boxes\n";
   for (const auto& [stamp, f] : recording.frames) {
     const auto boxes = recording.predictions.find(stamp);
-    out << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", format_stamp(stamp), f.state, f.features,
-                       f.dynamic_features, f.inliers, f.extract_ms, f.predict_ms, f.track_ms, f.total_ms,
-                       boxes == recording.predictions.end() ? 0 : boxes->second.size());
+    out << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", format_stamp(stamp), f.state,
+                       f.features, f.dynamic_features, f.inliers, f.extract_ms, f.predict_ms, f.track_ms,
+                       f.total_ms, boxes == recording.predictions.end() ? 0 : boxes->second.size());
   }
 }
 
 /// A number with at most `decimals` decimals, so that files stay readable and equal runs give equal bytes.
-double rounded(double value, int decimals) { return std::stod(fmt::format("{:.{}f}", value, decimals)); }
+double rounded(double value, int decimals) {
+  return std::stod(fmt::format("{:.{}f}", value, decimals));
+}
 
 ordered_json to_json(const geometry::Box2& box) {
   return {rounded(box.x0, 2), rounded(box.y0, 2), rounded(box.x1, 2), rounded(box.y1, 2)};
 }
 
-ordered_json to_json(const Eigen::Vector3d& v) { return {rounded(v.x(), 4), rounded(v.y(), 4), rounded(v.z(), 4)}; }
+ordered_json to_json(const Eigen::Vector3d& v) {
+  return {rounded(v.x(), 4), rounded(v.y(), 4), rounded(v.z(), 4)};
+}
 
 /// One line per stamp: {"stamp": 1.5, NAME: [...]}; the stamp keeps its digits.
 template <class Records, class ToJson>
@@ -68,7 +72,10 @@ void write_lines(const std::map<std::int64_t, Records>& by_stamp, const std::str
 }
 
 ordered_json detection_json(const DetectionRecord& d) {
-  return {{"label", d.label}, {"score", rounded(d.score, 4)}, {"box", to_json(d.box)}, {"depth_m", rounded(d.depth_m, 3)}};
+  return {{"label", d.label},
+          {"score", rounded(d.score, 4)},
+          {"box", to_json(d.box)},
+          {"depth_m", rounded(d.depth_m, 3)}};
 }
 
 ordered_json prediction_json(const PredictionRecord& p) {

@@ -24,7 +24,6 @@ struct RunOptions {
   std::filesystem::path config;
   std::size_t start = 0;
   std::size_t frames = std::numeric_limits<std::size_t>::max();
-  std::filesystem::path poses;
   std::filesystem::path detections;
   std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
   bool video = false;

@@ -46,10 +46,7 @@ YAML::Node read_user_config(const fs::path& file) {
 /// Takes the command line's word into one service's configuration.
 void complete(YAML::Node& node, const std::string& process, const RunOptions& options) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
-  if (process == kTracker) {
-    node["dynamics"] = options.dynamics;
-    if (!options.poses.empty()) node["poses_file"] = fs::absolute(options.poses).string();
-  }
+  if (process == kTracker) node["dynamics"] = options.dynamics;
   if (process == kMapper) node["expect_boxes"] = options.dynamics;
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
@@ -78,8 +75,8 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
     complete(node, process, options);
     const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
     commands.push_back({process,
-                        {(executables / process).string(), "--bus", bus::name_of(options.vendor_of(process)), "--domain",
-                         std::to_string(domain), "--loopback", "--config", config.string()},
+                        {(executables / process).string(), "--bus", bus::name_of(options.vendor_of(process)),
+                         "--domain", std::to_string(domain), "--loopback", "--config", config.string()},
                         folder / "log" / (process + ".log")});
   }
   return commands;

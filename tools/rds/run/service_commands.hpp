@@ -11,9 +11,10 @@ namespace rds::run {
 
 /// How to start the services of a run, each with its own configuration file in `folder`/config.
 ///
-/// A service's configuration is its section of the user's --config file (tracker, detector, transformer, mapper,
-/// loop_closer), completed with what the command line says.
-/// @throws std::runtime_error, config::ConfigError with one sentence for a file or section that is not understood.
+/// A service's configuration is its section of the user's --config file (tracker, detector, transformer,
+/// mapper, loop_closer), completed with what the command line says.
+/// @throws std::runtime_error, config::ConfigError with one sentence for a file or section that is not
+/// understood.
 std::vector<ServiceCommand> service_commands(const RunOptions& options, int domain,
                                              const std::filesystem::path& folder);
 

@@ -10,7 +10,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+double rounded(double value) {
+  return std::round(value * 1e4) / 1e4;
+}
 
 ordered_json distribution(const Recording& recording, double FrameRecord::*field) {
   std::vector<double> values;
@@ -82,18 +84,19 @@ double quantile(std::vector<double> values, double share) {
 }
 
 ordered_json summarize(const SummaryInput& in) {
-  ordered_json json{{"version", RDS_VERSION},
-                    {"dataset", in.options.dataset.string()},
-                    {"rate", in.options.lockstep() ? ordered_json("max") : ordered_json(in.options.rate)},
-                    {"dynamics", in.options.dynamics},
-                    {"frames", frames_json(in)},
-                    {"total_ms", distribution(in.recording, &FrameRecord::total_ms)},
-                    {"extract_ms", distribution(in.recording, &FrameRecord::extract_ms)},
-                    {"track_ms", distribution(in.recording, &FrameRecord::track_ms)},
-                    {"predict_ms", distribution(in.recording, &FrameRecord::predict_ms)},
-                    {"loops_closed", in.recording.loops_closed},
-                    {"wall_s", rounded(in.wall_s)},
-                    {"frames_per_s", rounded(static_cast<double>(in.player.played) / std::max(in.wall_s, 1e-9))}};
+  ordered_json json{
+      {"version", RDS_VERSION},
+      {"dataset", in.options.dataset.string()},
+      {"rate", in.options.lockstep() ? ordered_json("max") : ordered_json(in.options.rate)},
+      {"dynamics", in.options.dynamics},
+      {"frames", frames_json(in)},
+      {"total_ms", distribution(in.recording, &FrameRecord::total_ms)},
+      {"extract_ms", distribution(in.recording, &FrameRecord::extract_ms)},
+      {"track_ms", distribution(in.recording, &FrameRecord::track_ms)},
+      {"predict_ms", distribution(in.recording, &FrameRecord::predict_ms)},
+      {"loops_closed", in.recording.loops_closed},
+      {"wall_s", rounded(in.wall_s)},
+      {"frames_per_s", rounded(static_cast<double>(in.player.played) / std::max(in.wall_s, 1e-9))}};
   if (in.ate_live_m) json["ate_live"] = rounded(*in.ate_live_m);
   if (in.ate_final_m) json["ate_final"] = rounded(*in.ate_final_m);
   json["bus"] = ordered_json::object();

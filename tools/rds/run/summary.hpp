@@ -24,12 +24,14 @@ struct SummaryInput {
   const std::map<std::string, std::string>& status;  // by service, as the command `status` answers
   std::size_t frames_in_dataset = 0;                 // of the part that was played
   double wall_s = 0;
-  std::string map_description;  // the mapper's answer to `finish`: JSON with up and labels; empty if there is none
+  std::string
+      map_description;  // the mapper's answer to `finish`: JSON with up and labels; empty if there is none
   std::optional<double> ate_live_m;
   std::optional<double> ate_final_m;
 };
 
-/// frames in, tracked, lost and dropped; times; keyframes; loops; CPU and memory per process; traffic per topic; ATE.
+/// frames in, tracked, lost and dropped; times; keyframes; loops; CPU and memory per process; traffic per
+/// topic; ATE.
 nlohmann::ordered_json summarize(const SummaryInput& input);
 
 /// Quantile (0 … 1) by linear interpolation between ranks; 0 for no values.

@@ -58,8 +58,8 @@ std::vector<std::string> missing_links(const std::set<std::string>& running,
     });
     const int matched = endpoint == reported->second.end() ? 0 : endpoint->matched;
     if (matched < static_cast<int>(expected))
-      missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads", topic.name,
-                                    matched, expected, publisher ? "readers" : "writers"));
+      missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads",
+                                    topic.name, matched, expected, publisher ? "readers" : "writers"));
   };
   for (const Topic& topic : topics()) {
     for (const std::string& writer : topic.writers) check(writer, topic, true);

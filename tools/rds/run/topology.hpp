@@ -26,7 +26,8 @@ struct Endpoint {
 /// Links between the running processes that are not up yet, one sentence each.
 ///
 /// A volatile sample written before both ends know each other is lost, so a run starts when this is empty.
-/// @param endpoints  by process name, as each process reported; a process that has not reported is a missing link.
+/// @param endpoints  by process name, as each process reported; a process that has not reported is a missing
+/// link.
 std::vector<std::string> missing_links(const std::set<std::string>& running,
                                        const std::map<std::string, std::vector<Endpoint>>& endpoints);
 

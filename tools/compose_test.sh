@@ -39,7 +39,7 @@ try_vendor() {
   export RDS_BUS=$1
   local started=$SECONDS
   say "$RDS_BUS: starting the services"
-  compose up --detach --wait --wait-timeout 120 tracker detector transformer mapper loop-closer >"$log" 2>&1 ||
+  compose up --detach --wait --wait-timeout 180 tracker detector transformer mapper loop-closer >"$log" 2>&1 ||
     { cat "$log" >&2; compose logs --tail 20 >&2; fail "$RDS_BUS: the services did not become healthy"; }
   say "$RDS_BUS: healthy after $((SECONDS - started)) s; playing"
   compose up --no-recreate --exit-code-from player player >"$log" 2>&1 ||

@@ -23,6 +23,8 @@ start_engine() {
   install_missing dockerd docker.io
   if docker info >/dev/null 2>&1; then say "engine: the one that Debian has started"; return; fi
   mkdir -p "$engine_folder"
+  exec 8>"$engine_folder/lock"
+  flock -n 8 || fail "an engine already runs on $engine_folder/engine: wait for the compose test that started it"
   # A socket's path may have 107 characters at most.
   engine_run=$(mktemp -d)
   export DOCKER_HOST=unix://$engine_run/docker.sock

@@ -3,7 +3,7 @@
 
     external_client_test.py PATH_OF_external_client_source
 
-Needs a Python with PyPI's cyclonedds 11: this one, or the one RDS_CYCLONEDDS_PYTHON names; skips without.
+Needs a Python with PyPI's cyclonedds 11: this one, or the one RDS_PYTHON names; skips without.
 """
 
 import json
@@ -14,16 +14,16 @@ import sys
 import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-PYTHON = os.environ.get("RDS_CYCLONEDDS_PYTHON", sys.executable)
+PYTHON = os.environ.get("RDS_PYTHON", sys.executable)
 SOURCE = sys.argv.pop(1)
-DOMAIN = str(10 + os.getpid() % 200)
+DOMAIN = str(10 + os.getpid() % 14)  # below those that rds run takes
 
 
 def can_import_cyclonedds():
     return subprocess.run([PYTHON, "-c", "import cyclonedds.idl"], capture_output=True, check=False).returncode == 0
 
 
-@unittest.skipUnless(can_import_cyclonedds(), "no Python package cyclonedds (set RDS_CYCLONEDDS_PYTHON)")
+@unittest.skipUnless(can_import_cyclonedds(), "no Python package cyclonedds (set RDS_PYTHON)")
 class ExternalClient(unittest.TestCase):
     def hear(self, vendor):
         with subprocess.Popen([SOURCE, vendor, DOMAIN, "8"]) as source:

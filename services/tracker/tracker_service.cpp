@@ -17,7 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLiveFrames = 2;  // waiting while one is processed; older ones are dropped
+constexpr std::size_t kLiveFrames =
+    5;  // waiting while one is processed (as the topic keeps); older ones are dropped
 constexpr std::size_t kMaxAnswers = 100;
 constexpr std::uint8_t kLoop = 1;
 

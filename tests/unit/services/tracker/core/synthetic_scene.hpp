@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "common/image/rgbd_frame.hpp"
+#include "services/tracker/core/slam_map.hpp"
+
+namespace rds::tracker::test {
+
+/// 320×240 camera without distortion.
+geometry::CameraModel small_camera();
+
+/// Rotation about the camera's y axis [rad] and translation [m].
+Pose pose(double x, double y, double z, double turn_rad = 0);
+
+/// What the camera sees of a wall with random texture at z = 2 m.
+image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns);
+
+/// The same camera with its lens covered.
+image::RgbdFrame dark_picture(std::int64_t stamp_ns);
+
+/// Random points in front of the origin, 1.5 … 3 m away.
+std::vector<Eigen::Vector3d> random_points(std::size_t count, std::mt19937& random);
+
+/// Features where a camera sees the points (those in the picture), with random descriptors made from the
+/// point's index, so that the same point looks the same to every camera.
+struct SyntheticView {
+  std::shared_ptr<const FeatureSet> features;
+  std::vector<std::size_t> point;  // per feature: index into the points
+};
+SyntheticView view_of(const std::vector<Eigen::Vector3d>& points, const Pose& map_from_camera,
+                      double noise_px, std::mt19937& random);
+
+}  // namespace rds::tracker::test

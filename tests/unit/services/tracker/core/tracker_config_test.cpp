@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/tracker_config.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rds::tracker {
+namespace {
+
+TEST(TrackerConfig, ShippedYamlEqualsTheDefaults) {
+  const YAML::Node shipped = YAML::LoadFile(RDS_SOURCE_DIR "/services/tracker/tracker.yaml");
+  TrackerConfig config;
+  config.extraction.features = 123;  // reading must bring the defaults back
+  config.quality.weak_s = 5;
+  config::ConfigReader reader(shipped, "tracker.yaml");
+  read(reader, config);
+  EXPECT_EQ(config, TrackerConfig{});
+}
+
+TEST(TrackerConfig, NamesWhatIsOutOfRange) {
+  config::ConfigReader reader(YAML::Load("extraction: {features: 5}\nkeyframe: {typo: 1}"), "test.yaml");
+  TrackerConfig config;
+  read(reader, config);
+  try {
+    reader.finish();
+    FAIL() << "expected a complaint";
+  } catch (const config::ConfigError& e) {
+    EXPECT_NE(std::string(e.what()).find("extraction.features: 5, expected 100"), std::string::npos)
+        << e.what();
+    EXPECT_NE(std::string(e.what()).find("keyframe.typo: unknown key"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace rds::tracker

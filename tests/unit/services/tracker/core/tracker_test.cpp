@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/services/tracker/core/synthetic_scene.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr std::int64_t kFrameNs = 66'000'000;
+
+TrackerConfig small_config() {
+  TrackerConfig config;
+  config.extraction.features = 500;
+  config.extraction.levels = 4;
+  return config;
+}
+
+Pose truth(int frame) {
+  return test::pose(0.015 * frame, 0.004 * frame, 0.01 * frame, 0.004 * frame);
+}
+
+FrameResult step(Tracker& tracker, int frame, std::span<const MovableRegion> movable = {}) {
+  return tracker.track(test::picture_of_wall(truth(frame), frame * kFrameNs), movable);
+}
+
+double error_m(const FrameResult& result, int frame) {
+  const Pose expected = truth(0).inverse() * truth(frame);
+  return (expected.translation() - result.map_from_camera.translation()).norm();
+}
+
+TEST(Tracker, FollowsAMovingCamera) {
+  Tracker tracker(small_config());
+  for (int i = 0; i < 12; ++i) {
+    const FrameResult result = step(tracker, i);
+    ASSERT_EQ(result.state, State::kTracking) << i;
+    EXPECT_TRUE(error_m(result, i) < 0.015) << i << ": " << error_m(result, i);
+    EXPECT_EQ(result.verdicts.size(), result.features);
+  }
+  EXPECT_GT(tracker.map().keyframes(), 1U);
+}
+
+TEST(Tracker, TheFirstFrameIsAKeyframeAtTheOrigin) {
+  Tracker tracker(small_config());
+  const FrameResult result = step(tracker, 0);
+  ASSERT_TRUE(result.keyframe.has_value());
+  EXPECT_EQ(result.keyframe->id, 0U);
+  EXPECT_TRUE(result.map_from_camera.isApprox(Pose::Identity()));
+  EXPECT_EQ(result.keyframe->features.size(), result.features);
+  EXPECT_GE(result.keyframe->features.back().map_point_id, 0);
+}
+
+TEST(Tracker, InventsNoPoseWhenNothingIsSeenAndFindsBack) {
+  Tracker tracker(small_config());
+  EXPECT_EQ(tracker.track(test::dark_picture(0), {}).state, State::kNotInitialized);
+  for (int i = 1; i < 6; ++i) step(tracker, i);
+  const FrameResult lost = tracker.track(test::dark_picture(6 * kFrameNs), {});
+  EXPECT_EQ(lost.state, State::kLost);
+  EXPECT_FALSE(has_pose(lost.state));
+  EXPECT_FALSE(lost.keyframe.has_value());
+  const FrameResult found = step(tracker, 7);
+  EXPECT_EQ(found.state, State::kRelocalised);
+  const Pose expected = truth(1).inverse() * truth(7);
+  EXPECT_TRUE((found.map_from_camera.translation() - expected.translation()).norm() < 0.02);
+}
+
+TEST(Tracker, GivesTheSameBytesTwice) {
+  Tracker a(small_config());
+  Tracker b(small_config());
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ(step(a, i).map_from_camera.matrix(), step(b, i).map_from_camera.matrix());
+}
+
+TEST(Tracker, AppliedMappingCausesNoJump) {
+  Tracker tracker(small_config());
+  std::optional<LocalMappingJob> job;
+  FrameResult before;
+  for (int i = 0; i < 10; ++i) {
+    before = step(tracker, i);
+    if (auto taken = tracker.take_mapping_job()) job = std::move(taken);
+  }
+  ASSERT_TRUE(job.has_value());
+  EXPECT_FALSE(tracker.take_mapping_job().has_value());
+  tracker.apply(run_local_mapping(*job, LocalMappingConfig{}));
+  const FrameResult after = step(tracker, 10);
+  EXPECT_EQ(after.state, State::kTracking);
+  const Pose moved = before.map_from_camera.inverse() * after.map_from_camera;
+  const Pose expected = truth(9).inverse() * truth(10);
+  EXPECT_TRUE((moved.translation() - expected.translation()).norm() < 0.01);
+}
+
+TEST(Tracker, ACorrectionMovesTheCameraWithTheMap) {
+  Tracker tracker(small_config());
+  FrameResult before;
+  for (int i = 0; i < 5; ++i) before = step(tracker, i);
+  const Pose moved = test::pose(2, -1, 0.5, 0.7);
+  PoseGraphCorrection correction;
+  for (const KeyframePose& k : tracker.keyframe_poses())
+    correction.poses.push_back({k.id, k.stamp_ns, moved * k.map_from_camera});
+  tracker.apply(correction);
+  const FrameResult after = step(tracker, 5);
+  ASSERT_EQ(after.state, State::kTracking);
+  const Pose step_seen = (moved * before.map_from_camera).inverse() * after.map_from_camera;
+  EXPECT_TRUE((step_seen.translation() - (truth(4).inverse() * truth(5)).translation()).norm() < 0.01);
+}
+
+TEST(Tracker, DropsAMappingResultFromBeforeACorrection) {
+  Tracker tracker(small_config());
+  for (int i = 0; i < 5; ++i) step(tracker, i);
+  const auto job = tracker.take_mapping_job();
+  ASSERT_TRUE(job.has_value());
+  const auto result = run_local_mapping(*job, LocalMappingConfig{});
+  tracker.apply(PoseGraphCorrection{{{0, 0, test::pose(1, 0, 0)}}});
+  const auto poses = tracker.keyframe_poses();
+  tracker.apply(result);
+  EXPECT_TRUE(tracker.keyframe_poses().back().map_from_camera.isApprox(poses.back().map_from_camera, 0));
+}
+
+TEST(Tracker, MakesNoMapPointsOnMovableObjects) {
+  Tracker tracker(small_config());
+  const std::vector<MovableRegion> left{{{0, 0, 160, 240}, 0.5F, 4}};
+  const FrameResult result = step(tracker, 0, left);
+  ASSERT_TRUE(result.keyframe.has_value());
+  EXPECT_GT(result.dynamic_features, 50U);
+  int points = 0;
+  for (const KeyframeFeature& f : result.keyframe->features) {
+    EXPECT_EQ(f.feature.movable, f.feature.image_px.x() < 160);
+    if (f.feature.movable) {
+      EXPECT_EQ(f.map_point_id, -1);
+    }
+    points += f.map_point_id >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(points, 150);
+}
+
+TEST(Tracker, TakesBackPointsWhenBoxesComeLate) {
+  Tracker tracker(small_config());
+  step(tracker, 0);
+  const std::size_t before = tracker.map().points();
+  tracker.retract_movable(0, std::vector<MovableRegion>{{{0, 0, 160, 240}, 0.5F, 4}});
+  EXPECT_LT(tracker.map().points(), before * 3 / 4);
+  EXPECT_EQ(step(tracker, 1).state, State::kTracking);
+}
+
+TEST(Tracker, SurvivesBadPictures) {
+  Tracker tracker(small_config());
+  image::RgbdFrame empty;
+  EXPECT_EQ(tracker.track(empty, {}).state, State::kNotInitialized);
+  step(tracker, 0);
+  EXPECT_EQ(tracker.track(empty, {}).state, State::kLost);
+  image::RgbdFrame small_depth = test::picture_of_wall(truth(1), kFrameNs);
+  small_depth.depth.values = cv::Mat(3, 3, CV_16UC1);
+  EXPECT_EQ(tracker.track(small_depth, {}).state, State::kLost);
+  image::RgbdFrame nan = test::picture_of_wall(truth(1), kFrameNs);
+  nan.depth.values.setTo(std::numeric_limits<float>::quiet_NaN());
+  tracker.track(nan, {});
+  EXPECT_EQ(step(tracker, 2).state, State::kTracking);
+}
+
+TEST(Tracker, ForgetsEverythingOnReset) {
+  Tracker tracker(small_config());
+  for (int i = 0; i < 3; ++i) step(tracker, i);
+  tracker.reset();
+  EXPECT_TRUE(tracker.keyframe_poses().empty());
+  EXPECT_EQ(step(tracker, 8).keyframe->id, 0U);
+}
+
+}  // namespace
+}  // namespace rds::tracker

@@ -28,13 +28,6 @@ std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config
 
 }  // namespace
 
-void read(config::ConfigReader& reader, DetectorServiceConfig& config) {
-  reader.value("lockstep", config.lockstep);
-  reader.value("model_dir", config.model_dir);
-  reader.value("detections_file", config.detections_file);
-  read(reader, config.detector);
-}
-
 DetectorService::DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config)
     : Service(context),
       lockstep_(config.lockstep),

@@ -7,20 +7,11 @@
 
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
-#include "services/detector/core/detector_config.hpp"
 #include "services/detector/detection_source.hpp"
+#include "services/detector/detector_service_config.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 
 namespace rds::detector {
-
-struct DetectorServiceConfig {
-  bool lockstep = false;        // every keyframe is looked at; otherwise only the newest
-  std::string model_dir;        // looked through before $RDS_SHARED/models and the user's cache
-  std::string detections_file;  // boxes from a recording instead of the network
-  DetectorConfig detector;
-};
-
-void read(config::ConfigReader& reader, DetectorServiceConfig& config);
 
 /// Looks at keyframe pictures and publishes what is in them.
 class DetectorService : public service::Service {

@@ -16,11 +16,6 @@ constexpr std::size_t kMaxWaiting = 200;
 constexpr std::uint8_t kLoop = 1;
 }  // namespace
 
-void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
-  reader.value("lockstep", config.lockstep);
-  read(reader, config.loop_closer);
-}
-
 LoopCloserService::LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config)
     : Service(context),
       loop_closer_(config.loop_closer),

@@ -7,15 +7,9 @@
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/loop_closer/core/loop_closer.hpp"
+#include "services/loop_closer/loop_closer_service_config.hpp"
 
 namespace rds::loop_closer {
-
-struct LoopCloserServiceConfig {
-  bool lockstep = false;  // no keyframe is ever dropped
-  LoopCloserConfig loop_closer;
-};
-
-void read(config::ConfigReader& reader, LoopCloserServiceConfig& config);
 
 /// Recognises places among keyframes and answers each one with all keyframe poses as corrected so far.
 class LoopCloserService : public service::Service {

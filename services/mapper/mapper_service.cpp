@@ -22,15 +22,6 @@ constexpr std::chrono::milliseconds kQuietLimit{1500};  // real time: what has n
 
 }  // namespace
 
-void read(config::ConfigReader& reader, MapperServiceConfig& config) {
-  reader.value("lockstep", config.lockstep);
-  reader.value("expect_boxes", config.expect_boxes);
-  reader.value("boxes_timeout_s", config.boxes_timeout_s, 0.0, 60.0, "s");
-  reader.value("full_map_every", config.full_map_every, 1, 100000, "keyframes");
-  reader.value("local_correction_every", config.local_correction_every, 1, 100000, "keyframes");
-  read(reader, config.mapper);
-}
-
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
     : Service(context),
       config_(config),

@@ -12,20 +12,10 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "services/mapper/map_outputs.hpp"
+#include "services/mapper/mapper_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::mapper {
-
-struct MapperServiceConfig {
-  bool lockstep = false;        // no keyframe is ever dropped, and none integrated without its boxes
-  bool expect_boxes = true;     // a keyframe waits for its boxes …
-  double boxes_timeout_s = 1.0;   // … until a keyframe newer by this has come; later boxes act at the next rebuild
-  int full_map_every = 20;      // keyframes; besides, whenever somebody new subscribes
-  int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
-  MapperConfig mapper;
-};
-
-void read(config::ConfigReader& reader, MapperServiceConfig& config);
 
 /// Builds the semantic map from keyframe pictures, 3-D boxes and keyframe poses.
 class MapperService : public service::Service {
@@ -70,7 +60,7 @@ class MapperService : public service::Service {
   SemanticMapper mapper_;
   MapOutputs outputs_;
   std::set<std::uint64_t> earlier_epochs_;
-  std::map<std::uint64_t, Images> waiting_;  // by keyframe id
+  std::map<std::uint64_t, Images> waiting_;       // by keyframe id
   std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
   std::map<std::int64_t, Integrated> integrated_by_stamp_;
   std::vector<KeyframePose> poses_;

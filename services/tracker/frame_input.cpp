@@ -8,16 +8,8 @@
 
 namespace rds::tracker {
 
-void read(config::ConfigReader& reader, CameraTopics& topics) {
-  reader.value("color", topics.color);
-  reader.value("camera_info", topics.camera_info);
-  reader.value("depth", topics.depth);
-  reader.value("best_effort", topics.best_effort);
-  reader.value("pairing_tolerance_s", topics.pairing_tolerance_s, 0.0, 0.5, "s");
-}
-
-FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox, const CameraTopics& topics,
-                       std::size_t capacity)
+FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox,
+                       const CameraTopics& topics, std::size_t capacity)
     : context_(context),
       topics_(topics),
       pairer_(std::llround(topics.pairing_tolerance_s * 1e9)),
@@ -27,8 +19,10 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
   using sensor_msgs::msg::Image;
   subscriptions_.push_back(context.bus.subscribe<CameraInfo>(topics.camera_info, qos,
                                                              [this](const auto& m) { on_camera_info(*m); }));
-  subscriptions_.push_back(context.bus.subscribe<Image>(topics.color, qos, [this](const auto& m) { on_color(m); }));
-  subscriptions_.push_back(context.bus.subscribe<Image>(topics.depth, qos, [this](const auto& m) { on_depth(m); }));
+  subscriptions_.push_back(
+      context.bus.subscribe<Image>(topics.color, qos, [this](const auto& m) { on_color(m); }));
+  subscriptions_.push_back(
+      context.bus.subscribe<Image>(topics.depth, qos, [this](const auto& m) { on_depth(m); }));
   context.diagnostics.gauge("frames waiting", [this] { return frames_.size(); });
   context.diagnostics.gauge("frames dropped", [this] { return frames_.dropped(); });
   context.diagnostics.gauge("pictures without partner", [this] {

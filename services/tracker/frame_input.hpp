@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <mutex>
-#include <string>
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
@@ -11,18 +10,9 @@
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "services/tracker/frame_pairer.hpp"
+#include "services/tracker/tracker_service_config.hpp"
 
 namespace rds::tracker {
-
-struct CameraTopics {
-  std::string color = "camera/color/image_raw";
-  std::string camera_info = "camera/color/camera_info";
-  std::string depth = "camera/aligned_depth_to_color/image_raw";
-  bool best_effort = false;       // read a driver that publishes best effort
-  double pairing_tolerance_s = 0.02;
-};
-
-void read(config::ConfigReader& reader, CameraTopics& topics);
 
 /// The camera's topics, paired, as an inbox of frames. Pictures stay in the messages' memory.
 class FrameInput {

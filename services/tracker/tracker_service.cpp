@@ -34,26 +34,6 @@ std::uint32_t microseconds_since(Clock::time_point start) {
 
 }  // namespace
 
-void read(config::ConfigReader& reader, LockstepConfig& config) {
-  reader.value("lockstep", config.enabled);
-  reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1},
-               std::uint64_t{100}, "frames");
-  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100},
-               "frames");
-  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000},
-               "frames");
-  reader.value("lockstep_timeout_s", config.timeout_s, 0.1, 600.0, "s");
-}
-
-void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
-  read(reader.section("camera"), config.camera);
-  read(reader, config.lockstep);
-  reader.value("dynamics", config.dynamics);
-  reader.value("loop_closer", config.loop_closer);
-  read(reader, config.tracker);
-  read(reader.section("prediction"), config.prediction);
-}
-
 TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
     : Service(context),
       config_(config),

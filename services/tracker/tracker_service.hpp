@@ -13,29 +13,10 @@
 #include "services/tracker/mapping_worker.hpp"
 #include "services/tracker/movable_objects.hpp"
 #include "services/tracker/tracker_outputs.hpp"
+#include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::tracker {
-
-/// When answers of other threads and processes take effect (architecture, "Lockstep, not luck").
-struct LockstepConfig {
-  bool enabled = false;                   // otherwise whatever has arrived is used
-  std::uint64_t detection_latency_frames = 2;  // boxes of keyframe k take effect at frame k + this
-  std::uint64_t mapping_latency_frames = 3;    // local mapping of keyframe k likewise
-  std::uint64_t loop_latency_frames = 10;      // the loop closer's answer to keyframe k likewise
-  double timeout_s = 10;                  // then a frame goes on without the answer
-};
-
-struct TrackerServiceConfig {
-  CameraTopics camera;
-  LockstepConfig lockstep;
-  bool dynamics = true;      // boxes are used (and in lockstep waited for)
-  bool loop_closer = true;   // in lockstep: its answers are waited for
-  TrackerConfig tracker;
-  prediction::PredictionConfig prediction;
-};
-
-void read(config::ConfigReader& reader, TrackerServiceConfig& config);
 
 /// The tracking process: owns the map on its worker thread, runs local mapping on a second one.
 class TrackerService : public service::Service {
@@ -53,7 +34,8 @@ class TrackerService : public service::Service {
   /// What late boxes of a keyframe need.
   struct KeyframeView {
     std::uint64_t id;
-    geometry::Pose camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
+    geometry::Pose
+        camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
     geometry::CameraModel camera;
   };
 
@@ -80,10 +62,10 @@ class TrackerService : public service::Service {
   concurrency::Inbox<BoxesMessage> boxes_inbox_;
   concurrency::Inbox<PosesMessage> poses_inbox_;
   concurrency::Inbox<LocalMappingResult> mapping_inbox_;
-  DelayedValues<BoxesMessage> boxes_;           // by keyframe stamp
+  DelayedValues<BoxesMessage> boxes_;                              // by keyframe stamp
   std::map<std::int64_t, KeyframeView> keyframes_with_boxes_due_;  // by stamp
-  DelayedValues<PosesMessage> loop_answers_;    // by keyframe id
-  DelayedValues<LocalMappingResult> mappings_;  // by keyframe id; at most one
+  DelayedValues<PosesMessage> loop_answers_;                       // by keyframe id
+  DelayedValues<LocalMappingResult> mappings_;                     // by keyframe id; at most one
   std::uint64_t frame_index_ = 0;
   std::uint64_t box_sets_used_ = 0;
   std::uint64_t loop_revision_ = 0;

@@ -12,11 +12,6 @@ constexpr std::size_t kMaxPoses = 2000;
 constexpr std::uint8_t kLocal = 0;
 }  // namespace
 
-void read(config::ConfigReader& reader, TransformerServiceConfig& config) {
-  reader.value("camera_info_topic", config.camera_info_topic);
-  read(reader, config.transformer);
-}
-
 TransformerService::TransformerService(service::ServiceContext& context, const TransformerServiceConfig& config)
     : Service(context),
       config_(config),

@@ -12,17 +12,11 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "services/transformer/core/box_transform.hpp"
+#include "services/transformer/transformer_service_config.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::transformer {
-
-struct TransformerServiceConfig {
-  std::string camera_info_topic = "camera/color/camera_info";
-  TransformerConfig transformer;
-};
-
-void read(config::ConfigReader& reader, TransformerServiceConfig& config);
 
 /// Lifts the boxes of a keyframe into the map, as soon as the keyframe's pose and the camera are known.
 class TransformerService : public service::Service {
@@ -47,8 +41,8 @@ class TransformerService : public service::Service {
   TransformerServiceConfig config_;
   std::uint64_t map_epoch_ = 0;
   std::optional<geometry::CameraModel> camera_;
-  // Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so independent of
-  // how long the detector takes.
+  // Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so
+  // independent of how long the detector takes.
   std::map<std::int64_t, geometry::Pose> map_from_camera_by_stamp_;
   std::deque<Detections> waiting_;
   concurrency::Inbox<Detections> detections_inbox_;

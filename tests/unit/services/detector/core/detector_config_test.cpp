@@ -16,7 +16,6 @@ TEST(DetectorConfig, ShippedYamlSaysTheDefaults) {
   shipped.max_boxes = 7;
   shipped.depth = {.5, 1, 1, 1, 1};
   read(reader, shipped);
-  reader.finish();
   const DetectorConfig defaults;
   EXPECT_EQ(shipped.network, defaults.network);
   EXPECT_EQ(shipped.threads, defaults.threads);

@@ -21,7 +21,6 @@ TEST(LoopCloserConfig, ShippedFileHoldsTheDefaultsAndNothingElse) {
   shipped.pose_graph = {1, 1, 1, 1, 1, 1, 1, 1, 1};
   auto reader = config::ConfigReader::from_file(RDS_SOURCE_DIR "/services/loop_closer/loop_closer.yaml");
   read(reader, shipped);
-  reader.finish();
   const LoopCloserConfig defaults;
   EXPECT_EQ(shipped.max_features, defaults.max_features);
   EXPECT_EQ(shipped.place_index, defaults.place_index);

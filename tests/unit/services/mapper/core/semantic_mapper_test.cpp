@@ -251,21 +251,5 @@ TEST(SemanticMapper, KeyframesFarOutsideTheOctreeAreHarmless) {
   EXPECT_NO_THROW(mapper.integrate(SyntheticKeyframe(1).pose(shifted(0, 1638, 0)).make()));
 }
 
-TEST(MapperConfig, TheShippedFileHoldsTheDefaults) {
-  MapperConfig shipped;
-  shipped.octree.hit = 0;  // must be read from the file
-  shipped.movable_labels.clear();
-  auto reader = config::ConfigReader::from_file(RDS_SOURCE_DIR "/services/mapper/mapper.yaml");
-  read(reader, shipped);
-  EXPECT_NO_THROW(reader.finish());
-  const MapperConfig defaults;
-  EXPECT_EQ(shipped.octree.hit, defaults.octree.hit);
-  EXPECT_EQ(shipped.octree.resolution_m, defaults.octree.resolution_m);
-  EXPECT_EQ(shipped.movable_labels, defaults.movable_labels);
-  EXPECT_EQ(shipped.objects.class_radius_m, defaults.objects.class_radius_m);
-  EXPECT_EQ(shipped.region.rim_px, defaults.region.rim_px);
-  EXPECT_EQ(shipped.grid.up, defaults.grid.up);
-}
-
 }  // namespace
 }  // namespace rds::mapper

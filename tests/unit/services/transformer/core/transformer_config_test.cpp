@@ -15,7 +15,6 @@ TEST(TransformerConfig, ShippedFileEqualsTheDefaults) {
   config.min_depth_m = config.max_depth_m = config.default_thickness_m = -1;
   config.thickness_m = {};
   read(reader, config);
-  reader.finish();
   const TransformerConfig defaults;
   EXPECT_EQ(config.min_depth_m, defaults.min_depth_m);
   EXPECT_EQ(config.max_depth_m, defaults.max_depth_m);

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/loop_closer_service_config.hpp"
+
+namespace rds::loop_closer {
+
+void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
+  reader.value("lockstep", config.lockstep);
+  read(reader, config.loop_closer);
+}
+
+}  // namespace rds::loop_closer

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/config/config_reader.hpp"
+#include "services/loop_closer/core/loop_closer_config.hpp"
+
+namespace rds::loop_closer {
+
+struct LoopCloserServiceConfig {
+  bool lockstep = false;  // no keyframe is ever dropped
+  LoopCloserConfig loop_closer;
+};
+
+void read(config::ConfigReader& reader, LoopCloserServiceConfig& config);
+
+}  // namespace rds::loop_closer

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/mapper_service_config.hpp"
+
+namespace rds::mapper {
+
+void read(config::ConfigReader& reader, MapperServiceConfig& config) {
+  reader.value("lockstep", config.lockstep);
+  reader.value("expect_boxes", config.expect_boxes);
+  reader.value("boxes_timeout_s", config.boxes_timeout_s, 0.0, 60.0, "s");
+  reader.value("full_map_every", config.full_map_every, 1, 100000, "keyframes");
+  reader.value("local_correction_every", config.local_correction_every, 1, 100000, "keyframes");
+  read(reader, config.mapper);
+}
+
+}  // namespace rds::mapper

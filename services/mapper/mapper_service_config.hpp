@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/config/config_reader.hpp"
+#include "services/mapper/core/mapper_config.hpp"
+
+namespace rds::mapper {
+
+struct MapperServiceConfig {
+  bool lockstep = false;            // no keyframe is ever dropped, and none integrated without its boxes
+  bool expect_boxes = true;         // a keyframe waits for its boxes …
+  double boxes_timeout_s = 1.0;     // … until one newer by this has come; later boxes act at the next rebuild
+  int full_map_every = 20;          // keyframes; besides, whenever somebody new subscribes
+  int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
+  MapperConfig mapper;
+};
+
+void read(config::ConfigReader& reader, MapperServiceConfig& config);
+
+}  // namespace rds::mapper

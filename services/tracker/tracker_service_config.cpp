@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/tracker_service_config.hpp"
+
+namespace rds::tracker {
+namespace {
+
+void read(config::ConfigReader& reader, CameraTopics& topics) {
+  reader.value("color", topics.color);
+  reader.value("camera_info", topics.camera_info);
+  reader.value("depth", topics.depth);
+  reader.value("best_effort", topics.best_effort);
+  reader.value("pairing_tolerance_s", topics.pairing_tolerance_s, 0.0, 0.5, "s");
+}
+
+void read(config::ConfigReader& reader, LockstepConfig& config) {
+  reader.value("lockstep", config.enabled);
+  reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1},
+               std::uint64_t{100}, "frames");
+  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100},
+               "frames");
+  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000},
+               "frames");
+  reader.value("lockstep_timeout_s", config.timeout_s, 0.1, 600.0, "s");
+}
+
+}  // namespace
+
+void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
+  read(reader.section("camera"), config.camera);
+  read(reader, config.lockstep);
+  reader.value("dynamics", config.dynamics);
+  reader.value("loop_closer", config.loop_closer);
+  read(reader, config.tracker);
+  read(reader.section("prediction"), config.prediction);
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/config/config_reader.hpp"
+#include "services/tracker/core/prediction/prediction_config.hpp"
+#include "services/tracker/core/tracker_config.hpp"
+
+namespace rds::tracker {
+
+/// Where the camera's pictures come from; names without the leading rt/.
+struct CameraTopics {
+  std::string color = "camera/color/image_raw";
+  std::string camera_info = "camera/color/camera_info";
+  std::string depth = "camera/aligned_depth_to_color/image_raw";
+  bool best_effort = false;  // read a driver that publishes best effort
+  double pairing_tolerance_s = 0.02;
+};
+
+/// When answers of other threads and processes take effect (architecture, "Lockstep, not luck").
+struct LockstepConfig {
+  bool enabled = false;                        // otherwise whatever has arrived is used
+  std::uint64_t detection_latency_frames = 2;  // boxes of keyframe k take effect at frame k + this
+  std::uint64_t mapping_latency_frames = 3;    // local mapping of keyframe k likewise
+  std::uint64_t loop_latency_frames = 10;      // the loop closer's answer to keyframe k likewise
+  double timeout_s = 10;                       // then a frame goes on without the answer
+};
+
+struct TrackerServiceConfig {
+  CameraTopics camera;
+  LockstepConfig lockstep;
+  bool dynamics = true;     // boxes are used (and in lockstep waited for)
+  bool loop_closer = true;  // in lockstep: its answers are waited for
+  TrackerConfig tracker;
+  prediction::PredictionConfig prediction;
+};
+
+void read(config::ConfigReader& reader, TrackerServiceConfig& config);
+
+}  // namespace rds::tracker

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "common/config/config_reader.hpp"
+#include "services/transformer/core/transformer_config.hpp"
+
+namespace rds::transformer {
+
+struct TransformerServiceConfig {
+  std::string camera_info_topic = "camera/color/camera_info";
+  TransformerConfig transformer;
+};
+
+void read(config::ConfigReader& reader, TransformerServiceConfig& config);
+
+}  // namespace rds::transformer

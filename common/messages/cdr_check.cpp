@@ -2,6 +2,7 @@
 #include "common/messages/cdr_check.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace rds::messages {
 namespace {
@@ -10,11 +11,11 @@ constexpr std::size_t kEncapsulationSize = 4;
 constexpr std::size_t kMaximumPadding = 3;
 
 /// Walks through a CDR body. Offsets count from the first byte after the encapsulation header, as alignment
-/// does.
+/// does. Over bytes that are not const it clears the padding that it passes.
+template <class Byte>
 class Walker {
  public:
-  Walker(std::span<const std::uint8_t> body, bool little_endian)
-      : body_(body), little_endian_(little_endian) {}
+  Walker(std::span<Byte> body, bool little_endian) : body_(body), little_endian_(little_endian) {}
 
   bool walk(const StructLayout& layout) {
     return std::all_of(layout.fields, layout.fields + layout.field_count,
@@ -75,11 +76,12 @@ class Walker {
   bool skip(std::size_t alignment, std::size_t size) {
     const std::size_t padding = (0 - offset_) & (alignment - 1);
     if (padding > remaining() || size > remaining() - padding) return false;
+    if constexpr (!std::is_const_v<Byte>) std::ranges::fill(body_.subspan(offset_, padding), std::uint8_t{0});
     offset_ += padding + size;
     return true;
   }
 
-  std::span<const std::uint8_t> body_;
+  std::span<Byte> body_;
   bool little_endian_;
   std::size_t offset_ = 0;
 };
@@ -90,6 +92,11 @@ bool is_well_formed(std::span<const std::uint8_t> bytes, const StructLayout& lay
   if (bytes.size() < kEncapsulationSize || bytes[0] != 0 || bytes[1] > 1) return false;
   Walker walker(bytes.subspan(kEncapsulationSize), bytes[1] == 1);
   return walker.walk(layout) && walker.remaining() <= kMaximumPadding;
+}
+
+void clear_padding(std::span<std::uint8_t> bytes, const StructLayout& layout) {
+  if (bytes.size() < kEncapsulationSize) return;
+  Walker(bytes.subspan(kEncapsulationSize), bytes[1] == 1).walk(layout);
 }
 
 }  // namespace rds::messages

@@ -14,4 +14,8 @@ namespace rds::messages {
 /// the decoder memory in proportion to the bytes, whoever sent them.
 bool is_well_formed(std::span<const std::uint8_t> bytes, const StructLayout& layout);
 
+/// Sets the alignment bytes between the members of a whole message to zero: Fast CDR skips them, and what
+/// stood in that memory before would go out on the network.
+void clear_padding(std::span<std::uint8_t> bytes, const StructLayout& layout);
+
 }  // namespace rds::messages

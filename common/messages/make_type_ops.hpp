@@ -30,7 +30,9 @@ std::size_t encode(const void* message, std::uint8_t* bytes, std::size_t capacit
     fastcdr::Cdr cdr(buffer, fastcdr::Cdr::LITTLE_ENDIANNESS, fastcdr::Cdr::DDS_CDR);
     cdr.serialize_encapsulation();
     static_cast<const T*>(message)->serialize(cdr);
-    return cdr.getSerializedDataLength();
+    const std::size_t size = cdr.getSerializedDataLength();
+    messages::clear_padding(std::span(bytes, size), messages::Fields<T>::kLayout);
+    return size;
   } catch (const fastcdr::exception::Exception&) {
     return 0;  // does not fit
   }

@@ -50,7 +50,7 @@ inline MessagePtr make_message(const MessageType& type) {
 }
 
 inline std::vector<std::uint8_t> encode(const MessageType& type, const void* message) {
-  std::vector<std::uint8_t> bytes(type.ops->encoded_size(message));
+  std::vector<std::uint8_t> bytes(type.ops->encoded_size(message), 0xAA);  // memory that was used before
   bytes.resize(type.ops->encode(message, bytes.data(), bytes.size()));
   return bytes;
 }

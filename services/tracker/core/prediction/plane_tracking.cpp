@@ -46,7 +46,7 @@ PlaneTracking::PlaneTracking(const PlaneSortConfig& config)
     : config_(config), planes_{Plane{make_sort(), {}}, Plane{make_sort(), {}}, Plane{make_sort(), {}}} {}
 
 Sort PlaneTracking::make_sort() const {
-  return Sort({config_.min_iou, 1, config_.max_age_s / config_.frame_period_s});
+  return Sort({config_.min_iou, 1, config_.max_age_s * config_.frames_per_second});
 }
 
 void PlaneTracking::reset() {
@@ -61,7 +61,7 @@ geometry::Box2 PlaneTracking::to_plane(const geometry::Box3& hull, std::size_t p
 
 void PlaneTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
                            const KeyframeView* /*view*/) {
-  const double frames = seconds_between(state_ns_, stamp_ns) / config_.frame_period_s;
+  const double frames = seconds_between(state_ns_, stamp_ns) * config_.frames_per_second;
   state_ns_ = stamp_ns;
   std::array<std::vector<std::uint64_t>, kPlanes> track_of;
   for (std::size_t p = 0; p < kPlanes; ++p) {  // lines 1 and 3
@@ -98,10 +98,10 @@ std::vector<PlaneTracking::Prediction> PlaneTracking::predict_plane(std::size_t 
   for (const Sort::Track& track : planes_[plane].sort.tracks()) {
     BoxFilter filter = track.filter;
     if (frames > 0) filter.predict(frames);  // line 5
-    if (!filter.is_finite() || track.age + frames > config_.max_age_s / config_.frame_period_s) continue;
+    if (!filter.is_finite() || track.age + frames > config_.max_age_s * config_.frames_per_second) continue;
     const geometry::Box2 box = filter.box();
     predictions.push_back({{box.x0 / scale, box.y0 / scale, box.x1 / scale, box.y1 / scale},
-                           filter.velocity() / (scale * config_.frame_period_s),
+                           filter.velocity() * (config_.frames_per_second / scale),
                            filter.center_variance() / (scale * scale),
                            &planes_[plane].latest.at(track.id)});
   }
@@ -109,7 +109,7 @@ std::vector<PlaneTracking::Prediction> PlaneTracking::predict_plane(std::size_t 
 }
 
 std::vector<PredictedObject> PlaneTracking::predict(std::int64_t stamp_ns) const {
-  const double frames = seconds_between(state_ns_, stamp_ns) / config_.frame_period_s;
+  const double frames = seconds_between(state_ns_, stamp_ns) * config_.frames_per_second;
   std::array<std::vector<Prediction>, kPlanes> predicted;
   for (std::size_t p = 0; p < kPlanes; ++p) predicted[p] = predict_plane(p, frames);
   std::size_t largest = 0;  // line 7

@@ -10,7 +10,7 @@ void read(config::ConfigReader& reader, PlaneSortConfig& config) {
   reader.value("min_iou", config.min_iou, 0.0, 1.0);
   reader.value("max_age_s", config.max_age_s, 0.0, 60.0, "s");
   reader.value("units_per_metre", config.units_per_metre, 1.0, 10000.0);
-  reader.value("frame_period_s", config.frame_period_s, 0.001, 10.0, "s");
+  reader.value("frames_per_second", config.frames_per_second, 0.1, 1000.0, "1/s");
 }
 
 void read(config::ConfigReader& reader, Kalman3dConfig& config) {

@@ -11,10 +11,12 @@ namespace rds::tracker::prediction {
 
 /// The paper's Algorithm 1.
 struct PlaneSortConfig {
-  double min_iou = 0.3;              // SORT's, in each coordinate plane
-  double max_age_s = 1.0;            // a track without a match is forgotten
-  double units_per_metre = 200;      // scale of the planes: SORT's noise is published in pixels
-  double frame_period_s = 1.0 / 30;  // ... per frame of its videos
+  double min_iou = 0.3;           // SORT's, in each coordinate plane
+  double max_age_s = 1.0;         // a track without a match is forgotten
+  double units_per_metre = 200;   // scale of the planes: SORT's noise is published in pixels
+  double frames_per_second = 30;  // ... and per frame of videos
+
+  bool operator==(const PlaneSortConfig&) const = default;
 };
 
 /// One constant-velocity filter per object in 3-D. "Vertical" is along the picture's y axis.
@@ -34,12 +36,16 @@ struct Kalman3dConfig {
   double max_age_s = 1.5;       // ... and so is one that has not been seen for longer
   double growth_sigma = 0.3;    // standard deviations of the centre that the box grows per side
   double max_growth_m = 0.2;    // ... at most
+
+  bool operator==(const Kalman3dConfig&) const = default;
 };
 
 /// From the predicted box to the features that are dropped.
 struct RegionConfig {
   double margin_px = 4;         // added to each side of the region's box
   double margin_depth_m = 0.1;  // added to each end of the depth interval
+
+  bool operator==(const RegionConfig&) const = default;
 };
 
 struct PredictionConfig {
@@ -51,6 +57,8 @@ struct PredictionConfig {
   PlaneSortConfig paper;
   Kalman3dConfig kalman3d;
   RegionConfig region;
+
+  bool operator==(const PredictionConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, PredictionConfig& config);

@@ -113,7 +113,7 @@ TEST(TrackerServiceConfig, ShippedFileSaysThePredictionsDefaults) {
   prediction.paper.min_iou = .9;
   prediction.paper.max_age_s = 9;
   prediction.paper.units_per_metre = 9;
-  prediction.paper.frame_period_s = 9;
+  prediction.paper.frames_per_second = 9;
   prediction.kalman3d.acceleration = 9;
   prediction.kalman3d.initial_speed = 9;
   prediction.kalman3d.vertical_share = 9;
@@ -141,7 +141,7 @@ TEST(TrackerServiceConfig, ShippedFileSaysThePredictionsDefaults) {
   EXPECT_EQ(shipped.paper.min_iou, defaults.paper.min_iou);
   EXPECT_EQ(shipped.paper.max_age_s, defaults.paper.max_age_s);
   EXPECT_EQ(shipped.paper.units_per_metre, defaults.paper.units_per_metre);
-  EXPECT_EQ(shipped.paper.frame_period_s, defaults.paper.frame_period_s);
+  EXPECT_EQ(shipped.paper.frames_per_second, defaults.paper.frames_per_second);
   EXPECT_EQ(shipped.kalman3d.acceleration, defaults.kalman3d.acceleration);
   EXPECT_EQ(shipped.kalman3d.initial_speed, defaults.kalman3d.initial_speed);
   EXPECT_EQ(shipped.kalman3d.vertical_share, defaults.kalman3d.vertical_share);

@@ -7,7 +7,6 @@
 #include <spdlog/spdlog.h>
 
 #include "common/messages/conversions.hpp"
-#include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "services/detector/models/model_store.hpp"
 
@@ -35,7 +34,8 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
       subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
-          "rds/keyframe/images", bus::kKeyframeImages, [this](Keyframe m) { keyframes_.push(std::move(m)); })) {
+          "rds/keyframe/images", bus::kKeyframeImages,
+          [this](Keyframe m) { keyframes_.push(std::move(m)); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }
@@ -44,7 +44,10 @@ void DetectorService::run(const std::stop_token& stop) {
   while (mailbox_.wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
     const auto keyframe = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest();
-    if (keyframe && !paused_) look_at(*keyframe);
+    if (keyframe && !paused_)
+      look_at(*keyframe);
+    else if (keyframe && lockstep_)  // the tracker waits
+      publish({}, *keyframe);
   }
 }
 
@@ -55,9 +58,13 @@ void DetectorService::look_at(const Keyframe& keyframe) {
   std::vector<messages::ImageDetection> found;
   for (const Detection& d : source_->detections(*frame))
     found.push_back({.label = d.label, .score = d.score, .box = d.box, .depth_m = d.depth_m});
-  detections_.write(messages::to_detection_message(found, keyframe->header()));
+  publish(found, keyframe);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("detect").add_ms(took.count());
+}
+
+void DetectorService::publish(const std::vector<messages::ImageDetection>& found, const Keyframe& keyframe) {
+  detections_.write(messages::to_detection_message(found, keyframe->header()));
 }
 
 service::CommandOutcome DetectorService::execute(const std::string& verb, const std::string& /*argument*/) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "common/messages/detection_conversions.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "services/detector/detection_source.hpp"
@@ -26,6 +28,7 @@ class DetectorService : public service::Service {
  private:
   using Keyframe = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
   void look_at(const Keyframe& keyframe);
+  void publish(const std::vector<messages::ImageDetection>& found, const Keyframe& keyframe);
 
   bool lockstep_;
   bool paused_ = false;

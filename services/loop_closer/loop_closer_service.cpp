@@ -22,7 +22,8 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)),
       features_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
-          "rds/keyframe/features", bus::kKeyframeFeatures, [this](Features m) { features_.push(std::move(m)); })) {
+          "rds/keyframe/features", bus::kKeyframeFeatures,
+          [this](Features m) { features_.push(std::move(m)); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
 }
@@ -30,11 +31,12 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
 void LoopCloserService::run(const std::stop_token& stop) {
   while (mailbox_.wait(stop, [this] { return !features_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
-    if (const auto features = features_.try_pop(); features && !paused_) take(*features);
+    if (const auto features = features_.try_pop()) take(*features);
   }
 }
 
 void LoopCloserService::take(const Features& features) {
+  if (paused_) return answer(features, {});
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe) return context_.diagnostics.reject("rds/keyframe/features", keyframe.error());
@@ -45,21 +47,21 @@ void LoopCloserService::take(const Features& features) {
   context_.diagnostics.latency("keyframe").add_ms(took.count());
 }
 
-/// Every keyframe is answered: in lockstep the tracker waits for that.
+/// Every keyframe is answered, with the latest correction: in lockstep the tracker waits for that.
 void LoopCloserService::answer(const Features& features, const LoopAnswer& found) {
   if (features->map_epoch() != corrected_.map_epoch()) corrected_ = {};
   if (!found.poses.empty()) {
     spdlog::info("keyframe {} closes loop {}", found.keyframe_id, found.loops_closed);
     corrected_ = {};
     messages::append_poses(found.poses, corrected_);
+    corrected_.revision(found.revision);
+    corrected_.loop_revision(found.revision);
+    corrected_.loops_closed(found.loops_closed);
   }
   corrected_.header(features->header());
   corrected_.header().frame_id("map");
   corrected_.map_epoch(features->map_epoch());
   corrected_.source(kLoop);
-  corrected_.revision(found.revision);
-  corrected_.loop_revision(found.revision);
-  corrected_.loops_closed(found.loops_closed);
   corrected_.answered_keyframe_id(features->keyframe_id());
   poses_.write(corrected_);
 }

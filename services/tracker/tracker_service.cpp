@@ -58,12 +58,14 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
 
 void TrackerService::run(const std::stop_token& stop) {
   stop_ = stop;
-  while (mailbox_.wait(stop, [this] {
-    return !input_.frames().locked_empty() || !commands_.locked_empty() || !boxes_inbox_.locked_empty() ||
-           !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+  const auto holds_frames = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
+  while (mailbox_.wait(stop, [&] {
+    return (!holds_frames() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
+           !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
   })) {
     handle_commands();
     sort_in_arrivals();
+    if (holds_frames()) continue;
     if (const auto frame = input_.frames().try_pop(); frame && !paused_) process(*frame);
   }
 }

@@ -5,10 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include "common/bus/participant.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/rds/run/commander.hpp"
 
 namespace rds::test {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const std::vector<std::string> kServices{"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper",
                                          "rds-loop-closer"};
@@ -43,6 +46,26 @@ TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
 INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),
                          [](const auto& each) { return each.param.substr(4, 4); });
 
+TEST(PausedServices, DoNotHoldALockstepRunUp) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const TemporaryFolder place;
+  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 300);
+  Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
+                   "--rate", "max", "--domain", "27"});
+  const auto bus = bus::Participant::create({.domain = 27, .node_name = "pauser", .loopback_only = true});
+  run::Commander commander(*bus);
+  ASSERT_TRUE(process.wait_for_output("frame", 60s));
+  while (commander.ask_status(kServices.size(), {}, 300ms).size() < kServices.size())
+    ASSERT_TRUE(process.running());
+  for (const char* service : {"rds-detector", "rds-loop-closer"}) {
+    const auto reply = commander.ask(service, "pause", "", {}, 20s);
+    ASSERT_TRUE(reply && reply->success) << service;
+  }
+  EXPECT_EQ(process.wait(120s), 0) << process.standard_error();
+  EXPECT_THAT(read_text(place / "out" / "log" / "rds-tracker.log"),
+              Not(HasSubstr("goes on without an answer")));
+}
+
 TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
@@ -64,7 +87,8 @@ class LoneService : public ::testing::TestWithParam<std::string> {};
 TEST_P(LoneService, StartsWithoutTheOthersAndStopsWhenAsked) {
   RDS_REQUIRE_SHARED("models");
   for (const char* bus : {"fastdds", "cyclonedds"}) {
-    Process process({std::string(RDS_BIN_DIR) + "/" + GetParam(), "--bus", bus, "--domain", "25", "--loopback"});
+    Process process(
+        {std::string(RDS_BIN_DIR) + "/" + GetParam(), "--bus", bus, "--domain", "25", "--loopback"});
     ASSERT_TRUE(process.wait_for_output("version", 20s)) << bus << process.standard_error();
     std::this_thread::sleep_for(500ms);
     EXPECT_TRUE(process.running());

@@ -48,6 +48,7 @@ struct Panel {
   View view;
   Canvas canvas;
   const Eigen::Matrix3d& level;
+  std::vector<cv::Rect> labels{};  // already drawn
 
   [[nodiscard]] ScreenPoint project(const Eigen::Vector3d& point_in_map) const {
     return view.project(level * point_in_map);
@@ -88,6 +89,24 @@ void draw_trajectory(const std::vector<Eigen::Vector3d>& trajectory, Panel& pane
   }
 }
 
+/// Above a point; higher where another label is already, not at all where there is no room.
+void draw_label(const std::string& label, cv::Point bottom_center, Panel& panel) {
+  constexpr int kLevels = 4;
+  const double scale = 0.5 * kSupersampling;
+  int baseline = 0;
+  const cv::Size size = cv::getTextSize(label, cv::FONT_HERSHEY_DUPLEX, scale, 1, &baseline);
+  cv::Rect place({bottom_center.x - size.width / 2, bottom_center.y - size.height}, size);
+  for (int level = 0; level < kLevels; ++level, place.y -= size.height + baseline) {
+    if (std::ranges::any_of(panel.labels, [&](const cv::Rect& other) { return (other & place).area() > 0; }))
+      continue;
+    panel.labels.push_back(place);
+    const cv::Point at(place.x, place.br().y);
+    put_text(panel.canvas.pixels(), label, at, scale, cv::Scalar(255, 255, 255), 6);
+    put_text(panel.canvas.pixels(), label, at, scale, kInk, 2);
+    return;
+  }
+}
+
 void draw_box(const SceneObject& object, Panel& panel) {
   const auto corner = [&](unsigned i) {
     return panel.project({i & 1 ? object.max.x() : object.min.x(), i & 2 ? object.max.y() : object.min.y(),
@@ -103,12 +122,7 @@ void draw_box(const SceneObject& object, Panel& panel) {
   }
   const auto center = panel.project((object.min + object.max) / 2);
   if (!(std::abs(center.x()) < 1e5F && std::abs(top.y()) < 1e5F)) return;
-  const double scale = 0.5 * kSupersampling;
-  int baseline = 0;
-  const auto size = cv::getTextSize(object.label, cv::FONT_HERSHEY_DUPLEX, scale, 1, &baseline);
-  const cv::Point at(static_cast<int>(center.x()) - size.width / 2, static_cast<int>(top.y()) - 8);
-  put_text(panel.canvas.pixels(), object.label, at, scale, cv::Scalar(255, 255, 255), 6);
-  put_text(panel.canvas.pixels(), object.label, at, scale, kInk, 2);
+  draw_label(object.label, {static_cast<int>(center.x()), static_cast<int>(top.y()) - 8}, panel);
 }
 
 cv::Mat finish(const MapScene& scene, const VoxelModel& model, Panel& panel) {

@@ -5,7 +5,8 @@
 
 namespace rds::config {
 
-ConfigReader::ConfigReader(YAML::Node node, std::string source) : node_(std::move(node)), source_(std::move(source)) {
+ConfigReader::ConfigReader(const YAML::Node& node, std::string source)
+    : node_(node), source_(std::move(source)) {
   if (node_.IsNull()) node_ = YAML::Node(YAML::NodeType::Map);
   if (!node_.IsMap()) throw ConfigError(fmt::format("{}: expected a map of keys and values", source_));
 }
@@ -20,7 +21,8 @@ ConfigReader ConfigReader::from_file(const std::string& path) {
   }
 }
 
-void ConfigReader::choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed) {
+void ConfigReader::choice(const std::string& key, std::string& target,
+                          const std::vector<std::string>& allowed) {
   std::string read = target;
   if (!take(key, read)) return;
   if (std::ranges::find(allowed, read) == allowed.end())

@@ -27,7 +27,7 @@ class ConfigReader {
   /// An empty configuration: every default stays.
   ConfigReader() = default;
   /// @param source  named in messages, e.g. the file's path.
-  ConfigReader(YAML::Node node, std::string source);
+  ConfigReader(const YAML::Node& node, std::string source);
   /// @throws ConfigError if the file cannot be read or is not a YAML map.
   static ConfigReader from_file(const std::string& path);
 
@@ -37,7 +37,8 @@ class ConfigReader {
     T read = target;
     if (!take(key, read)) return;
     if (!(read >= lowest && read <= highest))
-      violation(key, fmt::format("{}", read), fmt::format("expected {} … {} {}", lowest, highest, unit));
+      violation(key, fmt::format("{}", read),
+                fmt::format("expected {} … {}{}{}", lowest, highest, unit.empty() ? "" : " ", unit));
     else
       target = read;
   }

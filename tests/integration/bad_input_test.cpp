@@ -26,7 +26,8 @@ class BadInput : public ::testing::Test {
   }
 
   /// Runs and expects exit status 2 and a sentence with these words.
-  void expect_refused(const std::vector<std::string>& words, const std::vector<std::string>& arguments = {}) const {
+  void expect_refused(const std::vector<std::string>& words,
+                      const std::vector<std::string>& arguments = {}) const {
     std::vector<std::string> all{"--rate", "max", "--no-dynamics"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const ProcessResult result = run(data(), place_ / "out", all, std::chrono::seconds(60));
@@ -73,9 +74,13 @@ TEST_F(BadInput, UnknownOptionAndValue) {
 }
 
 TEST_F(BadInput, ConfigurationWithAllItsFaultsAtOnce) {
-  write_text(place_ / "config.yaml", "tracker:\n  extraction: {features: -5, colour: red}\n  typo: 1\n");
-  expect_refused({"extraction.features: -5", "extraction.colour: unknown key", "typo: unknown key"},
-                 {"--config", (place_ / "config.yaml").string()});
+  const std::string file = place_ / "config.yaml";
+  write_text(file,
+             "tracker:\n  extraction: {features: -5, colour: red}\n  typo: 1\nmapper:\n  lockstep: "
+             "perhaps\nwheels: 4\n");
+  expect_refused({file + ": tracker.extraction.features: -5", "tracker.extraction.colour: unknown key",
+                  "tracker.typo: unknown key", "mapper.lockstep: perhaps", "wheels: unknown key"},
+                 {"--config", file});
 }
 
 TEST_F(BadInput, OutputThatHoldsSomethingElse) {
@@ -85,9 +90,11 @@ TEST_F(BadInput, OutputThatHoldsSomethingElse) {
 }
 
 TEST_F(BadInput, MissingNetworkSaysHowToGetIt) {
-  const ProcessResult result = run_process(
-      {rds(), "run", "--dataset", data().string(), "--out", (place_ / "out").string(), "--model", "yolox_nano"},
-      std::chrono::seconds(60), {{"RDS_SHARED", place_.path().string()}, {"XDG_CACHE_HOME", place_.path().string()}});
+  const ProcessResult result =
+      run_process({rds(), "run", "--dataset", data().string(), "--out", (place_ / "out").string(), "--model",
+                   "yolox_nano"},
+                  std::chrono::seconds(60),
+                  {{"RDS_SHARED", place_.path().string()}, {"XDG_CACHE_HOME", place_.path().string()}});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.standard_error, HasSubstr("yolox_nano"));
 }

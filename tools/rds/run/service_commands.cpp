@@ -8,6 +8,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include "common/config/config_reader.hpp"
+#include "services/detector/detector_service_config.hpp"
+#include "services/loop_closer/loop_closer_service_config.hpp"
+#include "services/mapper/mapper_service_config.hpp"
+#include "services/tracker/tracker_service_config.hpp"
+#include "services/transformer/transformer_service_config.hpp"
 #include "tools/rds/run/topology.hpp"
 
 namespace rds::run {
@@ -28,19 +33,24 @@ const std::vector<Section>& sections() {
   return kSections;
 }
 
-/// The user's file; every top-level key must be a service.
+template <class Config>
+void check(config::ConfigReader& services, const std::string& key) {
+  Config config;
+  read(services.section(key), config);
+}
+
+/// The user's file, a map of services' settings.
+/// @throws config::ConfigError naming every key and value, of all services, that no service would take.
 YAML::Node read_user_config(const fs::path& file) {
   if (file.empty()) return YAML::Node(YAML::NodeType::Map);
   auto reader = config::ConfigReader::from_file(file);
-  YAML::Node services = YAML::LoadFile(file);
-  for (const Section& section : sections()) {
-    YAML::Node ignored;
-    reader.value(section.key, ignored);
-    if (services[section.key] && !services[section.key].IsMap())
-      reader.violation(section.key, YAML::Dump(services[section.key]), "expected a map");
-  }
+  check<tracker::TrackerServiceConfig>(reader, "tracker");
+  check<detector::DetectorServiceConfig>(reader, "detector");
+  check<transformer::TransformerServiceConfig>(reader, "transformer");
+  check<mapper::MapperServiceConfig>(reader, "mapper");
+  check<loop_closer::LoopCloserServiceConfig>(reader, "loop_closer");
   reader.finish();
-  return services;
+  return YAML::LoadFile(file);
 }
 
 /// Takes the command line's word into one service's configuration.

@@ -102,4 +102,13 @@ Pose interpolate(std::span<const StampedPose> poses, std::int64_t stamp_ns) {
   return make_pose(t, a.slerp(share, b));
 }
 
+std::optional<Pose> pose_at(std::span<const StampedPose> poses, std::int64_t stamp_ns,
+                            std::int64_t max_gap_ns) {
+  const auto next = std::ranges::lower_bound(poses, stamp_ns, {}, &StampedPose::stamp_ns);
+  if (next == poses.end()) return std::nullopt;
+  if (next->stamp_ns == stamp_ns) return next->map_from_camera;
+  if (next == poses.begin() || next->stamp_ns - (next - 1)->stamp_ns > max_gap_ns) return std::nullopt;
+  return interpolate(poses, stamp_ns);
+}
+
 }  // namespace rds::geometry

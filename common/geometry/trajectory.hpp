@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,5 +42,12 @@ tl::expected<void, std::string> write_trajectory(const std::filesystem::path& fi
 ///
 /// @param poses  ascending in time, at least one. @throws std::invalid_argument if empty.
 Pose interpolate(std::span<const StampedPose> poses, std::int64_t stamp_ns);
+
+/// Pose at a time, never further than the poses reach: the one with this stamp, or interpolated between two
+/// neighbours at most `max_gap_ns` apart; otherwise nullopt.
+///
+/// @param poses  ascending in time.
+std::optional<Pose> pose_at(std::span<const StampedPose> poses, std::int64_t stamp_ns,
+                            std::int64_t max_gap_ns);
 
 }  // namespace rds::geometry

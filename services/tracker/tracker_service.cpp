@@ -11,6 +11,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "services/tracker/pose_file.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -38,7 +39,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       map_epoch_(random_epoch()),
-      tracker_(config.tracker),
+      tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s)),
       objects_(config.prediction),
       outputs_(context, map_epoch_),
       input_(context, mailbox_, config.camera,
@@ -183,8 +184,8 @@ void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometr
     while (keyframes_with_boxes_due_.size() > kMaxAnswers)
       keyframes_with_boxes_due_.erase(keyframes_with_boxes_due_.begin());
   }
-  if (config_.loop_closer || !lockstep.enabled)
-    loop_answers_.ask(keyframe.id, frame_index_ + lockstep.loop_latency_frames);
+  const bool corrections_wanted = config_.poses_file.empty() && (config_.loop_closer || !lockstep.enabled);
+  if (corrections_wanted) loop_answers_.ask(keyframe.id, frame_index_ + lockstep.loop_latency_frames);
 }
 
 void TrackerService::start_mapping() {

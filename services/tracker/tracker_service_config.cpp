@@ -30,6 +30,8 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   read(reader, config.lockstep);
   reader.value("dynamics", config.dynamics);
   reader.value("loop_closer", config.loop_closer);
+  reader.value("poses_file", config.poses_file);
+  reader.value("poses_max_gap_s", config.poses_max_gap_s, 0.0, 3600.0, "s");
   read(reader, config.tracker);
   read(reader.section("prediction"), config.prediction);
 }

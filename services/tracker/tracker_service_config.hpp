@@ -31,8 +31,10 @@ struct LockstepConfig {
 struct TrackerServiceConfig {
   CameraTopics camera;
   LockstepConfig lockstep;
-  bool dynamics = true;     // boxes are used (and in lockstep waited for)
-  bool loop_closer = true;  // in lockstep: its answers are waited for
+  bool dynamics = true;          // boxes are used (and in lockstep waited for)
+  bool loop_closer = true;       // in lockstep: its answers are waited for
+  std::string poses_file;        // TUM trajectory that the camera follows; empty: poses are estimated
+  double poses_max_gap_s = 0.1;  // between neighbours that a pose is interpolated from
   TrackerConfig tracker;
   prediction::PredictionConfig prediction;
 };

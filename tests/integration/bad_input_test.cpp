@@ -83,6 +83,18 @@ TEST_F(BadInput, ConfigurationWithAllItsFaultsAtOnce) {
                  {"--config", file});
 }
 
+TEST_F(BadInput, PosesThatCannotBeFollowed) {
+  const auto poses = place_ / "poses.txt";
+  const std::vector<std::string> arguments{"--poses", poses.string()};
+  expect_refused({"poses.txt: cannot be read"}, arguments);
+  write_text(poses, "10.0 0 0 0 0 0 0 1\n10.1 0 0 0 0 0 0 0\n");
+  expect_refused({"poses.txt:2: expected"}, arguments);
+  write_text(poses, "10.1 0 0 0 0 0 0 1\n10.0 0 0 0 0 0 0 1\n");
+  expect_refused({"poses.txt:2: stamp 10.0 goes back"}, arguments);
+  write_text(poses, "90.0 0 0 0 0 0 0 1\n");
+  expect_refused({"poses.txt: expected poses between 10.000000 and"}, arguments);
+}
+
 TEST_F(BadInput, OutputThatHoldsSomethingElse) {
   write_text(place_ / "out" / "thesis.tex", "precious");
   expect_refused({(place_ / "out").string()}, {"--force"});

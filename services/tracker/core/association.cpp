@@ -228,7 +228,9 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
     observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid)});
     feature.push_back(i);
   }
-  const OptimizedPose optimized = optimize_pose(model, observations, frame.camera_from_map, config);
+  const OptimizedPose optimized = frame.pose_is_given
+                                      ? check_pose(model, observations, frame.camera_from_map, config)
+                                      : optimize_pose(model, observations, frame.camera_from_map, config);
   frame.camera_from_map = optimized.camera_from_map;
   for (std::size_t i = 0; i < feature.size(); ++i)
     if (!optimized.inlier[i]) frame.points[feature[i]] = kNoId;

@@ -18,6 +18,7 @@ struct TrackedFrame {
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();
+  bool pose_is_given = false;  // and not to be estimated
 
   [[nodiscard]] int matches() const;
   /// Matches of features that are not on movable objects; only these may carry a keyframe.
@@ -82,7 +83,7 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
                           const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
                           TrackedFrame& frame);
 
-/// Pose from the frame's matches; outliers are removed from frame.points.
+/// Pose from the frame's matches, unless it is given; outliers are removed from frame.points.
 /// @return number of inliers.
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,
                    const PoseOptimizationConfig& config, TrackedFrame& frame);

@@ -68,6 +68,7 @@ bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfi
 Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth,
                           const MapConfig& config) {
   Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
+  keyframe.pose_is_given = frame.pose_is_given;
   observe_matches(map, frame, keyframe);
   make_points(map, depth, config, keyframe);
   map.update_covisibility(keyframe.id);
@@ -109,8 +110,8 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
   return culled;
 }
 
-void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion> regions, const DepthConfig& depth,
-                     const MapConfig& config) {
+void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion> regions,
+                     const DepthConfig& depth, const MapConfig& config) {
   Keyframe* keyframe = map.keyframe(id);
   if (keyframe == nullptr || regions.empty()) return;
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {

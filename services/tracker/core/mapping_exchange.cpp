@@ -58,7 +58,8 @@ LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId id, const LocalM
   for (const KeyframeId k : all) {
     const Keyframe& keyframe = *map.keyframe(k);
     // Without a holder the oldest keyframe fixes the gauge.
-    const bool is_fixed = k == 0 || fixed.contains(k) || (!held && k == *all.begin());
+    const bool is_fixed =
+        k == 0 || keyframe.pose_is_given || fixed.contains(k) || (!held && k == *all.begin());
     job.keyframes.push_back(
         {k, keyframe.map_from_camera, keyframe.features, keyframe.points, keyframe.movable, is_fixed});
   }
@@ -75,7 +76,7 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
     if (MapPoint* p = map.point(moved.id)) p->position = moved.position;
   const Pose moved_from_before = map.pose_of(result.keyframe) * centre_before.inverse();
   map.all_keyframes().for_each([&](Keyframe& k) {
-    if (k.id > result.keyframe) k.map_from_camera = moved_from_before * k.map_from_camera;
+    if (k.id > result.keyframe && !k.pose_is_given) k.map_from_camera = moved_from_before * k.map_from_camera;
   });
   map.all_points().for_each([&](MapPoint& p) {
     if (p.created_by > result.keyframe) p.position = moved_from_before * p.position;

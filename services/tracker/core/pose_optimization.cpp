@@ -143,4 +143,14 @@ OptimizedPose optimize_pose(const ObservationModel& model, std::span<const Point
   return result;
 }
 
+OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
+                         const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config) {
+  PoseProblem problem(model, observations, config);
+  OptimizedPose result;
+  result.camera_from_map = camera_from_map;
+  result.inliers = problem.classify(camera_from_map);
+  result.inlier = problem.take_inliers();
+  return result;
+}
+
 }  // namespace rds::tracker

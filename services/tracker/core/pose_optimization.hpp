@@ -30,4 +30,8 @@ struct OptimizedPose {
 OptimizedPose optimize_pose(const ObservationModel& model, std::span<const PointObservation> observations,
                             const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config);
 
+/// Which observations agree with a pose (χ² bound); the pose stays.
+OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
+                         const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config);
+
 }  // namespace rds::tracker

@@ -50,6 +50,7 @@ struct Keyframe {
   KeyframeId id = kNoId;
   std::int64_t stamp_ns = 0;
   Pose map_from_camera = Pose::Identity();
+  bool pose_is_given = false;  // and held by bundle adjustment
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;               // per feature; kNoId
   std::vector<bool> movable;                 // per feature; more than the set knows after late boxes

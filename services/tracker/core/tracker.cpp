@@ -46,15 +46,16 @@ std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config)
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
     : config_(config),
+      given_poses_(std::move(given_poses)),
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction),
       map_(config.map, pyramid_),
       change_(config.keyframe.changed_share) {}
 
 void Tracker::reset() {
-  *this = Tracker(config_);
+  *this = Tracker(config_, std::move(given_poses_));
 }
 
 void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
@@ -87,7 +88,9 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
   result.features = static_cast<unsigned>(frame.features->size());
   result.dynamic_features =
       static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
-  if (state_ == State::kNotInitialized)
+  if (given_poses_)
+    follow(frame, result);
+  else if (state_ == State::kNotInitialized)
     initialize(frame, result);
   else
     state_ = track_motion(frame);
@@ -119,6 +122,8 @@ Pose Tracker::last_map_from_camera() const {
 }
 
 Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
+  if (given_poses_)
+    if (const auto given = given_poses_(stamp_ns)) return given->inverse();
   const Pose last = last_map_from_camera().inverse();
   if (!velocity_) return last;
   const double gap = static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,22 +20,28 @@
 
 namespace rds::tracker {
 
+/// map_from_camera at a time [ns], known from elsewhere (a robot's odometry, a motion capture); nullopt where
+/// it is not.
+using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
+
 /// RGB-D tracking against a map of ORB features that it builds.
 ///
 /// Owned by one thread. Local mapping is a pure function on a snapshot: take_mapping_job() after a keyframe,
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
+/// With given poses the map is made as usual, but no pose is estimated or moved.
 /// Same calls, same results, bit by bit.
 class Tracker {
  public:
-  explicit Tracker(const TrackerConfig& config);
+  /// @param given_poses  what the camera's poses are; if empty they are estimated.
+  explicit Tracker(const TrackerConfig& config, GivenPoses given_poses = {});
 
   /// Tracks the next picture.
   ///
   /// @param movable  features in these regions are dropped and never become map points.
   /// @return state and pose; a frame that could not be localised has state kLost (kNotInitialized before the
-  /// first keyframe) and no pose. Pictures that are empty, of other sizes or types than promised count as
-  /// pictures without features.
+  /// first keyframe) and no pose; so has, with given poses, a frame that none is given for. Pictures that are
+  /// empty, of other sizes or types than promised count as pictures without features.
   FrameResult track(const image::RgbdFrame& frame, std::span<const MovableRegion> movable);
 
   /// Snapshot around the newest keyframe; nullopt if there is no keyframe since the last call.
@@ -43,7 +50,7 @@ class Tracker {
   /// is left alone.
   void apply(const LocalMappingResult& result);
   /// Moves keyframes to corrected poses; keyframes that the correction does not know and all points move
-  /// with the keyframes they hang on.
+  /// with the keyframes they hang on. Given poses are not corrected.
   void apply(const PoseGraphCorrection& correction);
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
@@ -51,7 +58,8 @@ class Tracker {
   /// Every keyframe since the last reset, culled ones too, by id.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return map_.keyframe_poses(); }
   [[nodiscard]] const SlamMap& map() const { return map_; }
-  /// Where the motion model expects the camera; its last pose before there is a motion, identity before there is a pose.
+  /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
+  /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
   /// Pose of the last frame that had one, as the map stands now; identity before that.
   [[nodiscard]] Pose last_map_from_camera() const;
@@ -68,6 +76,8 @@ class Tracker {
   void make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                   TrackedFrame& frame);
   void initialize(TrackedFrame& frame, FrameResult& result);
+  void follow(TrackedFrame& frame, FrameResult& result);
+  void associate(TrackedFrame& frame);
   State track_motion(TrackedFrame& frame);
   int track_from_last(TrackedFrame& frame);
   bool estimate_from_last_frame(TrackedFrame& frame);
@@ -80,6 +90,7 @@ class Tracker {
   [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers);
 
   TrackerConfig config_;
+  GivenPoses given_poses_;
   ScalePyramid pyramid_;
   OrbExtractor extractor_;
   SlamMap map_;

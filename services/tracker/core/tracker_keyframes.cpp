@@ -69,7 +69,8 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_th
 }
 
 void Tracker::decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result) {
-  if (state_ == State::kWeak || frame.static_matches() < config_.quality.min_inliers) return;
+  const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
+  if (!well_localized && !frame.pose_is_given) return;
   const auto facts = keyframe_facts(frame, movable_there, static_cast<int>(result.inliers));
   if (is_keyframe(facts, config_.keyframe)) make_keyframe(frame, result);
 }
@@ -107,6 +108,7 @@ void Tracker::apply(const LocalMappingResult& result) {
 }
 
 void Tracker::apply(const PoseGraphCorrection& correction) {
+  if (given_poses_) return;
   apply_correction(map_, correction.poses);
   ++revision_;
 }

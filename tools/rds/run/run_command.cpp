@@ -48,9 +48,22 @@ void parse_vendors(const std::string& text, RunOptions& options) {
 }
 
 void check_files(const RunOptions& options) {
-  for (const auto& file : {options.config, options.detections})
+  for (const auto& file : {options.config, options.detections, options.poses})
     if (!file.empty() && !std::filesystem::is_regular_file(file))
       throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+}
+
+/// The poses can be read, and reach into what is played.
+void check_poses(const RunOptions& options, const image::TumDataset& dataset) {
+  if (options.poses.empty()) return;
+  const auto poses = geometry::read_trajectory(options.poses);
+  if (!poses) throw std::runtime_error(poses.error());
+  const auto& frames = dataset.frames();
+  const auto& first = frames[options.start];
+  const auto& last = frames[options.start + std::min(options.frames, frames.size() - options.start) - 1];
+  if (poses->empty() || poses->back().stamp_ns < first.stamp_ns || poses->front().stamp_ns > last.stamp_ns)
+    throw std::runtime_error(fmt::format("{}: expected poses between {} and {}, where the frames are",
+                                         options.poses.string(), first.stamp_text, last.stamp_text));
 }
 
 int run(RunOptions& options, const std::string& vendors) {
@@ -60,6 +73,7 @@ int run(RunOptions& options, const std::string& vendors) {
     const auto dataset = image::TumDataset::open(options.dataset);
     if (!dataset) throw std::runtime_error(dataset.error());
     play::check_first_frame(*dataset, options.start);
+    check_poses(options, *dataset);
     Interrupt interrupt;
     Session session(options, *dataset);
     return session.run(interrupt.token());
@@ -91,6 +105,8 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--frames", options->frames, "number of frames")->check(CLI::PositiveNumber);
   command->add_option("--detections", options->detections,
                       "boxes from a detections.jsonl or a truth file instead of the network");
+  command->add_option("--poses", options->poses,
+                      "poses from a TUM trajectory instead of estimated ones; no loops are closed");
   command
       ->add_option("--domain", options->domain,
                    "DDS domain, to listen from outside (default: one of its own)")

@@ -25,7 +25,8 @@ struct RunOptions {
   std::size_t start = 0;
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::filesystem::path detections;
-  std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
+  std::filesystem::path poses;  // empty: estimated
+  std::optional<int> domain;    // DDS domain, to listen from outside; otherwise one that no other run uses
   bool video = false;
   bool force = false;
 

@@ -57,6 +57,8 @@ YAML::Node read_user_config(const fs::path& file) {
 void complete(YAML::Node& node, const std::string& process, const RunOptions& options) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
   if (process == kTracker) node["dynamics"] = options.dynamics;
+  if (process == kTracker && !options.poses.empty())
+    node["poses_file"] = fs::absolute(options.poses).string();
   if (process == kMapper) node["expect_boxes"] = options.dynamics;
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
@@ -81,6 +83,7 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
   std::vector<ServiceCommand> commands;
   for (const auto& [process, key] : sections()) {
     if (!options.dynamics && (process == kDetector || process == kTransformer)) continue;
+    if (!options.poses.empty() && process == kLoopCloser) continue;
     YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
     complete(node, process, options);
     const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));

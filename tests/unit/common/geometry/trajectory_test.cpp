@@ -74,5 +74,14 @@ TEST(Interpolate, HoldsTheEndsAndTheFirstOfEqualStamps) {
   EXPECT_THROW(interpolate({}, 0), std::invalid_argument);
 }
 
+TEST(PoseAt, NeverReachesBeyondThePosesNorOverAGap) {
+  const std::vector<StampedPose> poses{at(0, 0, 0), at(100, 1, 1), at(250, 4, 1)};
+  EXPECT_NEAR(pose_at(poses, 25, 100)->translation().x(), 0.25, 1e-12);
+  EXPECT_EQ(pose_at(poses, 250, 100)->translation().x(), 4);
+  EXPECT_TRUE(pose_at(poses, 101, 150).has_value());
+  for (const std::int64_t stamp : {-1, 101, 249, 251}) EXPECT_FALSE(pose_at(poses, stamp, 100)) << stamp;
+  EXPECT_FALSE(pose_at({}, 0, 100));
+}
+
 }  // namespace
 }  // namespace rds::geometry

@@ -62,6 +62,7 @@ TEST(GivenPoses, MakeTheMapOfARecording) {
   expect_poses(place / "out", poses_in(dataset / "groundtruth.txt"), 60);
   const auto summary = nlohmann::json::parse(read_text(place / "out/summary.json"));
   EXPECT_GE(summary["frames"]["keyframes"].get<int>(), 3);
+  EXPECT_EQ(summary["poses"], (dataset / "groundtruth.txt").string());
   EXPECT_LT(summary["ate_final"].get<double>(), 1e-6);
   const ProcessResult info = run_process({rds(), "map", "info", "--map", (place / "out/map.ot").string()},
                                          std::chrono::seconds(30), {});

@@ -89,6 +89,7 @@ ordered_json summarize(const SummaryInput& in) {
       {"dataset", in.options.dataset.string()},
       {"rate", in.options.lockstep() ? ordered_json("max") : ordered_json(in.options.rate)},
       {"dynamics", in.options.dynamics},
+      {"poses", in.options.poses.empty() ? "estimated" : in.options.poses.string()},
       {"frames", frames_json(in)},
       {"total_ms", distribution(in.recording, &FrameRecord::total_ms)},
       {"extract_ms", distribution(in.recording, &FrameRecord::extract_ms)},

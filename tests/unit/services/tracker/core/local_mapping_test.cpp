@@ -13,19 +13,21 @@ namespace {
 constexpr int kKeyframes = 6;
 
 /// Six keyframes on an arc that see the same points; poses and points of all but the first are disturbed.
-class LocalMapping : public ::testing::Test {
- protected:
-  LocalMapping() {
+class Arc {
+ public:
+  /// @param disturbance  standard deviation in m and rad.
+  explicit Arc(double disturbance) {
     std::normal_distribution<double> noise(0, 1);
     for (int k = 0; k < kKeyframes; ++k) {
       const auto view = test::view_of(points, truth(k), 0.3, random);
       Twist error;
-      for (int i = 0; i < 6; ++i) error(i) = k == 0 ? 0 : 0.01 * noise(random);
+      for (int i = 0; i < 6; ++i) error(i) = k == 0 ? 0 : disturbance * noise(random);
       const KeyframeId id = map.add_keyframe(k, truth(k) * se3_exp(error), view.features).id;
       for (std::uint32_t f = 0; f < view.point.size(); ++f) {
         PointId& p = ids[view.point[f]];
         if (p == kNoId) {
-          const Eigen::Vector3d moved = 0.01 * Eigen::Vector3d(noise(random), noise(random), noise(random));
+          const Eigen::Vector3d moved =
+              disturbance * Eigen::Vector3d(noise(random), noise(random), noise(random));
           p = map.add_point(points[view.point[f]] + moved, id, f).id;
         } else if (!(k == 3 && f % 5 == 0)) {  // some observations are left to be found
           map.observe(p, id, f);
@@ -67,12 +69,25 @@ class LocalMapping : public ::testing::Test {
   SlamMap map{MapConfig{}, ScalePyramid(8, 1.2)};
 };
 
-TEST_F(LocalMapping, BundleAdjustmentReducesTheErrorOfPosesAndPoints) {
+class LocalMapping : public ::testing::Test, protected Arc {
+ protected:
+  LocalMapping() : Arc(0.01) {}
+};
+
+/// Noise leaves an error at the optimum, too: 0.3 px seen from an arc of 0.4 m, 2 m away, are 8 mm, most of
+/// it in depth. Where that is says an adjustment that starts at the truth and runs until nothing moves.
+TEST_F(LocalMapping, BundleAdjustmentReachesTheOptimum) {
+  Arc optimum(0);
+  LocalMappingConfig until_convergence;
+  until_convergence.iterations = 100;
+  apply_mapping_result(optimum.map, run_local_mapping(optimum.job(), until_convergence));
   const double poses_before = pose_error();
   const double points_before = point_error();
   apply_mapping_result(map, run_local_mapping(job(), LocalMappingConfig{}));
-  EXPECT_LT(pose_error(), 0.2 * poses_before);
-  EXPECT_LT(point_error(), points_before);
+  EXPECT_NEAR(pose_error(), optimum.pose_error(), 0.03 * optimum.pose_error());
+  EXPECT_NEAR(point_error(), optimum.point_error(), 0.005 * optimum.point_error());
+  EXPECT_LT(pose_error(), 0.12 * poses_before);
+  EXPECT_LT(point_error(), 0.6 * points_before);
 }
 
 TEST_F(LocalMapping, HoldsTheFirstKeyframe) {

@@ -14,6 +14,19 @@ if(RDS_SANITIZE)
   add_compile_options(-fsanitize=${RDS_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${RDS_SANITIZE})
 endif()
+set(RDS_SLOWDOWN 1)  # of a test's time limit
+if(RDS_SANITIZE)
+  set(RDS_SLOWDOWN 10)
+endif()
+if(RDS_SANITIZE MATCHES undefined)
+  add_compile_options(-fno-sanitize-recover=all)  # a finding ends the process, as with the other sanitizers
+endif()
+if(RDS_SANITIZE STREQUAL thread)
+  add_library(rds_mutex_clocklock OBJECT ${PROJECT_SOURCE_DIR}/tests/support/sanitizers/mutex_clocklock.cpp)
+  target_compile_features(rds_mutex_clocklock PRIVATE cxx_std_20)
+  target_sources(rds_options INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:$<TARGET_OBJECTS:rds_mutex_clocklock>>)
+endif()
 
 # rds_library(NAME SOURCES a.cpp b.cpp [PUBLIC libs] [PRIVATE libs])
 # A library without sources is header-only.
@@ -55,6 +68,7 @@ function(rds_test name)
   if(NOT A_TIMEOUT)
     set(A_TIMEOUT 120)
   endif()
+  math(EXPR A_TIMEOUT "${A_TIMEOUT} * ${RDS_SLOWDOWN}")
   add_executable(${name} ${A_SOURCES})
   target_link_libraries(${name} PRIVATE rds_options ${A_PRIVATE} GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

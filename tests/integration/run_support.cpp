@@ -7,13 +7,15 @@
 namespace rds::test {
 namespace fs = std::filesystem;
 
-std::string rds() { return RDS_BIN_DIR "/rds"; }
+std::string rds() {
+  return RDS_BIN_DIR "/rds";
+}
 
 ProcessResult run(const fs::path& dataset, const fs::path& out, const std::vector<std::string>& arguments,
-                  std::chrono::seconds limit) {
+                  std::chrono::seconds limit, const Process::Environment& environment) {
   std::vector<std::string> command{rds(), "run", "--dataset", dataset.string(), "--out", out.string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  return run_process(command, limit);
+  return run_process(command, limit, environment);
 }
 
 nlohmann::json score(const fs::path& dataset, const fs::path& out, const fs::path& background) {
@@ -32,7 +34,8 @@ std::vector<pid_t> children(pid_t parent, const std::string& name) {
     if (error || executable.filename() != name) continue;
     std::ifstream status(entry.path() / "status");
     for (std::string line; std::getline(status, line);)
-      if (line == "PPid:\t" + std::to_string(parent)) found.push_back(std::stoi(entry.path().filename().string()));
+      if (line == "PPid:\t" + std::to_string(parent))
+        found.push_back(std::stoi(entry.path().filename().string()));
   }
   return found;
 }

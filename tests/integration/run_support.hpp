@@ -15,9 +15,12 @@ namespace rds::test {
 /// The `rds` executable that was built with the tests.
 std::string rds();
 
-/// `rds run` on a dataset with these further arguments. @return exit status, stdout, stderr.
+/// `rds run` on a dataset with these further arguments and environment variables. @return exit status,
+/// stdout, stderr.
 ProcessResult run(const std::filesystem::path& dataset, const std::filesystem::path& out,
-                  const std::vector<std::string>& arguments, std::chrono::seconds limit = std::chrono::seconds(300));
+                  const std::vector<std::string>& arguments,
+                  std::chrono::seconds limit = std::chrono::seconds(300),
+                  const Process::Environment& environment = {});
 
 /// Figures of `rds eval DATASET OUT --json [--background DIR]`.
 nlohmann::json score(const std::filesystem::path& dataset, const std::filesystem::path& out,

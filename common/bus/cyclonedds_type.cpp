@@ -10,9 +10,8 @@
 #include <dds/ddsi/ddsi_keyhash.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/q_radmin.h>
-#ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
-#endif
+
+#include "common/bus/hand_over.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -44,21 +43,14 @@ struct CarriedMessage : ddsi_serdata {
   std::size_t size = 0;
 };
 
-/// A look at a message that Cyclone DDS holds. It counts a message's holders with an atomic, and the last one
-/// frees it, after all looks. The thread sanitizer does not see Cyclone DDS count, so it is told.
+/// A look at a message that Cyclone DDS holds.
 class Look {
  public:
   explicit Look(const ddsi_serdata* data) : message_(static_cast<const CarriedMessage*>(data)) {}
-  ~Look() {
-#ifdef __SANITIZE_THREAD__
-    __tsan_release(const_cast<ddsrt_atomic_uint32_t*>(&message_->refc));
-#endif
-  }
+  ~Look() { tell_read(&message_->refc); }
   Look(const Look&) = delete;
   Look& operator=(const Look&) = delete;
-  const CarriedMessage* operator->() const {
-    return message_;
-  }
+  const CarriedMessage* operator->() const { return message_; }
 
  private:
   const CarriedMessage* message_;
@@ -66,9 +58,7 @@ class Look {
 
 /// What the last holder calls.
 void free_message(ddsi_serdata* data) {
-#ifdef __SANITIZE_THREAD__
-  __tsan_acquire(&data->refc);
-#endif
+  tell_read_by_all(&data->refc);
   delete static_cast<CarriedMessage*>(data);
 }
 

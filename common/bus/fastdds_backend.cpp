@@ -19,6 +19,7 @@
 
 #include "common/bus/backend.hpp"
 #include "common/bus/fastdds_settings.hpp"
+#include "common/bus/hand_over.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -46,6 +47,7 @@ class CarriedType final : public dds::TopicDataType {
     auto_fill_type_information(false);
   }
   bool serialize(void* message, rtps::SerializedPayload_t* payload) override {
+    tell_read_by_all(payload->data);
     const std::size_t size = type_.encode(message, payload->data, payload->max_size);
     payload->length = static_cast<std::uint32_t>(size);
     payload->encapsulation = CDR_LE;
@@ -53,6 +55,7 @@ class CarriedType final : public dds::TopicDataType {
   }
   bool deserialize(rtps::SerializedPayload_t* payload, void* sample) override {
     static_cast<Sample*>(sample)->decode(payload->data, payload->length);
+    tell_read(payload->data);
     return true;
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* message) override {

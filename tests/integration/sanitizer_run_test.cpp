@@ -20,6 +20,10 @@ struct RunMode {
   std::string rate;
 };
 
+void PrintTo(const RunMode& mode, std::ostream* out) {
+  *out << mode.name;
+}
+
 /// The sanitizers' options as they are, and a folder for what they find.
 Process::Environment reporting_to(const fs::path& folder) {
   Process::Environment environment;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tracker core alone, in lockstep and without a loop closer, on recordings.
+#include <gtest/gtest.h>
+
+#include "tests/support/shared_data.hpp"
+#include "tests/support/tracker_sequence.hpp"
+#include "tools/evaluation/trajectory_evaluation.hpp"
+
+namespace rds::test {
+namespace {
+
+struct Figures {
+  double tracked = 0;  // share of the recording's frames
+  double ate_live_m = 0;
+  double ate_final_m = 0;
+};
+
+image::TumDataset open(const std::filesystem::path& folder) {
+  auto dataset = image::TumDataset::open(folder);
+  if (!dataset) throw std::runtime_error(dataset.error());
+  return std::move(*dataset);
+}
+
+double ate_m(const image::TumDataset& dataset, const std::vector<geometry::StampedPose>& estimate) {
+  const auto errors = evaluation::evaluate_trajectory(dataset.ground_truth().value(), estimate);
+  return errors.value().absolute_m.rmse;
+}
+
+TrackerSequence tracked(const image::TumDataset& dataset, const TrackerSequenceOptions& options,
+                        std::size_t start, std::size_t frames) {
+  cv::setNumThreads(1);
+  TrackerSequence sequence(options, dataset, tracker::TrackerConfig{});
+  const std::size_t end = std::min(frames, dataset.frames().size() - start) + start;
+  for (std::size_t i = start; i < end; ++i) sequence.step(i);
+  return sequence;
+}
+
+Figures figures(const std::filesystem::path& folder, const TrackerSequenceOptions& options = {}) {
+  const image::TumDataset dataset = open(folder);
+  const TrackerSequence sequence = tracked(dataset, options, 0, dataset.frames().size());
+  return {static_cast<double>(sequence.live().size()) / static_cast<double>(dataset.frames().size()),
+          ate_m(dataset, sequence.live()), ate_m(dataset, sequence.optimized())};
+}
+
+/// Two runs over the same stretch, compared bit by bit.
+void expect_same_bytes_twice(const std::filesystem::path& folder, const TrackerSequenceOptions& options) {
+  const image::TumDataset dataset = open(folder);
+  const TrackerSequence a = tracked(dataset, options, 100, 80);
+  const TrackerSequence b = tracked(dataset, options, 100, 80);
+  EXPECT_GT(a.keyframes_made(), 3);
+  EXPECT_EQ(a.tracker().map().points(), b.tracker().map().points());
+  const auto optimized_a = a.optimized();
+  const auto optimized_b = b.optimized();
+  ASSERT_EQ(a.live().size(), b.live().size());
+  for (std::size_t i = 0; i < a.live().size(); ++i) {
+    EXPECT_EQ(a.live()[i].map_from_camera.matrix(), b.live()[i].map_from_camera.matrix()) << i;
+    EXPECT_EQ(optimized_a[i].map_from_camera.matrix(), optimized_b[i].map_from_camera.matrix()) << i;
+  }
+}
+
+TEST(TrackerRecordings, TurningCameraInAnOffice) {
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  const Figures f = figures(shared() / "data/tum_fr1_rpy");
+  EXPECT_EQ(f.tracked, 1);
+  EXPECT_LE(f.ate_live_m, 0.045);
+  EXPECT_LE(f.ate_final_m, 0.040);
+}
+
+TEST(TrackerRecordings, CameraThatComesBackInAKitchen) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const Figures f = figures(shared() / "data/7scenes_kitchen");
+  EXPECT_EQ(f.tracked, 1);
+  EXPECT_LE(f.ate_live_m, 0.065);
+  EXPECT_LE(f.ate_final_m, 0.060);
+}
+
+/// For half a second people fill the picture: then a lost frame is right, and a pose would be invented.
+TEST(TrackerRecordings, PeopleInTheKitchenKnownWithEveryFrame) {
+  RDS_REQUIRE_DYNAMIC("kitchen_walkers");
+  const Figures f = figures(dynamic_sequence("kitchen_walkers"), {.truth_boxes = true});
+  EXPECT_GE(f.tracked, 0.95);
+  EXPECT_LE(f.ate_live_m, 0.12);
+  EXPECT_LE(f.ate_final_m, 0.11);
+}
+
+TEST(TrackerRecordings, SameBytesTwice) {
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  expect_same_bytes_twice(shared() / "data/tum_fr1_rpy", {});
+}
+
+TEST(TrackerRecordings, SameBytesTwiceWithPeople) {
+  RDS_REQUIRE_DYNAMIC("kitchen_walkers");
+  expect_same_bytes_twice(dynamic_sequence("kitchen_walkers"), {.truth_boxes = true, .late_boxes = true});
+}
+
+}  // namespace
+}  // namespace rds::test

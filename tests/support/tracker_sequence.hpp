@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/geometry/trajectory.hpp"
+#include "common/image/tum_dataset.hpp"
+#include "services/tracker/core/tracker.hpp"
+
+namespace rds::test {
+
+struct TrackerSequenceOptions {
+  std::size_t mapping_latency = 3;  // frames until a local mapping result is applied
+  std::size_t box_latency = 2;      // frames until late boxes are applied
+  bool truth_boxes = false;         // people.json's boxes are given with every frame
+  bool late_boxes = false;          // people.json's boxes are taken back from keyframes
+  bool no_mapping = false;
+  bool verbose = false;  // one line per frame on stdout
+};
+
+/// Processor times [ms] of one thread: other programs on the machine do not show in them.
+struct TrackerTimes {
+  std::vector<double> total;         // per frame
+  std::vector<double> extract_wall;  // per frame; by the clock
+  std::vector<double> mapping, snapshot, apply;
+};
+
+/// The tracker core over a recording, in lockstep, without bus, threads and loop closer.
+class TrackerSequence {
+ public:
+  /// @throws std::runtime_error if boxes are asked for and there is no readable people.json.
+  TrackerSequence(const TrackerSequenceOptions& options, const image::TumDataset& dataset,
+                  const tracker::TrackerConfig& config);
+
+  /// Tracks frame i of the recording. @throws std::runtime_error if it cannot be read.
+  void step(std::size_t i);
+
+  /// Poses as estimated live.
+  [[nodiscard]] const std::vector<geometry::StampedPose>& live() const { return live_; }
+  /// The same frames, each through its reference keyframe's pose now.
+  [[nodiscard]] std::vector<geometry::StampedPose> optimized() const;
+  [[nodiscard]] const TrackerTimes& times() const { return times_; }
+  [[nodiscard]] const std::map<int, int>& frames_by_state() const { return states_; }
+  [[nodiscard]] int keyframes_made() const { return keyframes_; }
+  [[nodiscard]] const tracker::Tracker& tracker() const { return tracker_; }
+
+ private:
+  struct TrackedPose {
+    std::size_t frame;
+    std::uint64_t reference;
+    geometry::Pose reference_from_camera;
+  };
+  struct DueBoxes {
+    std::size_t at;
+    std::size_t frame;
+    std::uint64_t keyframe;
+  };
+
+  void record(std::size_t i, const tracker::FrameResult& result);
+  void apply_due(std::size_t i);
+  void run_mapping(std::size_t i);
+
+  TrackerSequenceOptions options_;
+  const image::TumDataset& dataset_;
+  tracker::TrackerConfig config_;
+  tracker::Tracker tracker_;
+  std::vector<std::vector<tracker::MovableRegion>> boxes_;  // by frame
+  std::deque<DueBoxes> due_boxes_;
+  std::optional<tracker::LocalMappingResult> result_;
+  std::size_t result_due_ = 0;
+  std::vector<geometry::StampedPose> live_;
+  std::vector<TrackedPose> tracked_;
+  TrackerTimes times_;
+  std::map<int, int> states_;
+  int keyframes_ = 0;
+};
+
+}  // namespace rds::test

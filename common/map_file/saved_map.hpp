@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/map_file/map_file.hpp"
+
+namespace rds::map_file {
+
+inline const std::string kMapFile = "map.rds";
+
+/// Names of the sections. The tracker writes the first two: keyframe poses are what all agree on.
+inline const std::string kKeyframePoses = "keyframe_poses";
+inline const std::string kTracker = "tracker";
+inline const std::string kMapper = "mapper";
+inline const std::string kLoopCloser = "loop_closer";
+
+/// The file that a service writes into the folder of the command `save`: FOLDER/tracker.rds …
+std::filesystem::path service_file(const std::filesystem::path& folder, const std::string& service);
+
+/// Makes one map.rds of the services' files in a folder and removes these. What a service did not save is
+/// left out.
+/// @return or one sentence naming the file that is damaged, cannot be written, or that there is none.
+tl::expected<void, std::string> merge_service_files(const std::filesystem::path& folder,
+                                                    const std::filesystem::path& target);
+
+/// A saved map from what a user names: the file, a folder that holds map.rds (as a run's does), or the folder
+/// of a command `save`. @return or one sentence.
+tl::expected<Sections, std::string> read_saved_map(const std::filesystem::path& path);
+
+/// The same, of which these sections must be there.
+tl::expected<Sections, std::string> read_saved_map(const std::filesystem::path& path,
+                                                   const std::vector<std::string>& needed);
+
+}  // namespace rds::map_file

@@ -22,7 +22,7 @@ void cull_recent_points(SlamMap& map, KeyframeId newest, const MapConfig& config
                         std::vector<PointId>& recent);
 
 /// Removes keyframes around `newest` of whose close points most are seen by enough others at the same or a
-/// finer scale. The first keyframe and the last few always stay.
+/// finer scale. The first keyframe, those held and the last few always stay.
 /// @return the removed ones. Source: Mur-Artal & Tardós 2017, §III-E.
 std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest, const DepthConfig& depth,
                                                  const MapConfig& config);

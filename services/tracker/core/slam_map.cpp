@@ -48,6 +48,11 @@ Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_came
   return keyframes_.emplace(std::move(keyframe));
 }
 
+void SlamMap::add_culled_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera) {
+  records_.push_back({stamp_ns, 0, pose_of(0).inverse() * map_from_camera});
+  keyframes_.skip_id();
+}
+
 MapPoint& SlamMap::add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature) {
   if (keyframes_.find(keyframe) == nullptr) throw std::out_of_range("SlamMap::add_point: no such keyframe");
   MapPoint fresh;
@@ -191,9 +196,9 @@ void SlamMap::set_pose(KeyframeId id, const Pose& map_from_camera) {
   }
 }
 
-std::vector<KeyframePose> SlamMap::keyframe_poses() const {
+std::vector<KeyframePose> SlamMap::keyframe_poses(KeyframeId first) const {
   std::vector<KeyframePose> poses;
-  for (KeyframeId id = 0; id < records_.size(); ++id)
+  for (KeyframeId id = first; id < records_.size(); ++id)
     poses.push_back({id, records_[id].stamp_ns, pose_of(id)});
   return poses;
 }

@@ -77,10 +77,20 @@ class SlamMap {
   /// The id of the point that is made next.
   [[nodiscard]] PointId next_point_id() const { return points_.next_id(); }
   IdTable<MapPoint>& all_points() { return points_; }
+  [[nodiscard]] const IdTable<MapPoint>& all_points() const { return points_; }
   IdTable<Keyframe>& all_keyframes() { return keyframes_; }
+  [[nodiscard]] const IdTable<Keyframe>& all_keyframes() const { return keyframes_; }
 
   Keyframe& add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
                          std::shared_ptr<const FeatureSet> features);
+  /// Takes an id for a keyframe that a saved map knows but no longer holds. @pre keyframe 0 is there.
+  void add_culled_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera);
+  /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
+  void hold_keyframes() { held_ = records_.size(); }
+  /// The id of the first keyframe that hold_keyframes() did not find, and of the one that is made next.
+  [[nodiscard]] KeyframeId first_free_keyframe() const { return held_; }
+  [[nodiscard]] KeyframeId next_keyframe_id() const { return records_.size(); }
+  [[nodiscard]] bool is_held(KeyframeId id) const { return id < held_; }
   /// A new point seen by this feature. @throws std::out_of_range for an unknown keyframe.
   MapPoint& add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature);
 
@@ -108,8 +118,8 @@ class SlamMap {
   [[nodiscard]] std::int64_t keyframe_stamp_ns(KeyframeId id) const { return records_.at(id).stamp_ns; }
   /// Sets the pose, also of a culled keyframe. Points stay.
   void set_pose(KeyframeId id, const Pose& map_from_camera);
-  /// Every keyframe that ever was, by id.
-  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
+  /// Every keyframe that ever was, from this one on, by id.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses(KeyframeId first = 0) const;
 
  private:
   /// What stays of every keyframe.
@@ -126,6 +136,7 @@ class SlamMap {
   IdTable<Keyframe> keyframes_;
   IdTable<MapPoint> points_;
   std::vector<Record> records_;  // by keyframe id
+  KeyframeId held_ = 0;
 };
 
 }  // namespace rds::tracker

@@ -58,6 +58,15 @@ void Tracker::reset() {
   *this = Tracker(config_, std::move(given_poses_));
 }
 
+void Tracker::start_from(SlamMap&& map) {
+  reset();
+  map_ = std::move(map);
+  if (map_.keyframes() == 0) return;
+  map_.all_keyframes().for_each(
+      [&](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+  state_ = State::kLost;
+}
+
 void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                          TrackedFrame& frame) {
   picture.color.to_gray(gray_);
@@ -111,7 +120,7 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
 void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
   const auto with_depth = std::ranges::count_if(frame.features->all(),
                                                 [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
-  if (with_depth < config_.quality.min_features_to_start) return;
+  if (config_.localize_only || with_depth < config_.quality.min_features_to_start) return;
   frame.camera_from_map = Pose::Identity();
   state_ = State::kTracking;
   make_keyframe(frame, result);

@@ -30,6 +30,7 @@ using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
+/// With config.localize_only nothing enters the map; keyframes are then only looked at by others.
 /// Same calls, same results, bit by bit.
 class Tracker {
  public:
@@ -55,8 +56,12 @@ class Tracker {
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
-  /// Every keyframe since the last reset, culled ones too, by id.
-  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return map_.keyframe_poses(); }
+  /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
+  void start_from(SlamMap&& map);
+
+  /// Every keyframe since the last reset, culled ones too, by id; without those of a map that it started
+  /// from.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
@@ -87,7 +92,11 @@ class Tracker {
   void remember(TrackedFrame&& frame, State state);
   void decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
-  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers);
+  void show_keyframe(const TrackedFrame& frame, FrameResult& result);
+  [[nodiscard]] std::optional<KeyframePose> newest_keyframe() const;
+  void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
+  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, const KeyframePose& newest,
+                                             bool movable_there, int inliers) const;
 
   TrackerConfig config_;
   GivenPoses given_poses_;
@@ -101,8 +110,9 @@ class Tracker {
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
   State state_ = State::kNotInitialized;
   KeyframeId reference_ = kNoId;
-  KeyframeId newest_keyframe_ = kNoId;
-  std::uint64_t revision_ = 0;  // of the map's geometry, counts corrections
+  KeyframeId newest_keyframe_ = kNoId;  // of those made here
+  std::vector<KeyframePose> shown_;     // keyframes that did not enter the map, by id
+  std::uint64_t revision_ = 0;          // of the map's geometry, counts corrections
   bool job_due_ = false;
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;

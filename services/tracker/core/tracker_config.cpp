@@ -94,6 +94,7 @@ void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("local_mapping"), config.local_mapping);
   read(reader.section("relocalization"), config.relocalization);
   read(reader.section("quality"), config.quality);
+  reader.value("localize_only", config.localize_only);
 }
 
 }  // namespace rds::tracker

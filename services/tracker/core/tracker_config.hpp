@@ -112,6 +112,7 @@ struct TrackerConfig {
   LocalMappingConfig local_mapping;
   RelocalizationConfig relocalization;
   QualityConfig quality;
+  bool localize_only = false;  // in the map that it starts from, which stays as it is
   bool operator==(const TrackerConfig&) const = default;
 };
 

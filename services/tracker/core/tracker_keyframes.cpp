@@ -48,9 +48,19 @@ KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
 
 }  // namespace
 
-KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers) {
-  KeyframeFacts facts;
-  facts.inliers = inliers;
+std::optional<KeyframePose> Tracker::newest_keyframe() const {
+  if (!shown_.empty()) return shown_.back();
+  if (newest_keyframe_ == kNoId) return std::nullopt;
+  return KeyframePose{newest_keyframe_, map_.keyframe_stamp_ns(newest_keyframe_),
+                      map_.pose_of(newest_keyframe_)};
+}
+
+std::vector<KeyframePose> Tracker::keyframe_poses() const {
+  return config_.localize_only ? shown_ : map_.keyframe_poses(map_.first_free_keyframe());
+}
+
+/// How well the map serves the frame; left out where it cannot be made better.
+void Tracker::add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const {
   const Keyframe* reference = map_.keyframe(reference_);
   if (reference != nullptr) facts.reference_points = well_observed_points(map_, *reference);
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
@@ -58,12 +68,18 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_th
     if (f.movable || f.depth_m <= 0 || static_cast<double>(f.depth_m) > config_.depth.close_depth_m) continue;
     ++(frame.points[i] != kNoId ? facts.close_tracked : facts.close_new);
   }
-  const Pose moved = frame.camera_from_map * map_.pose_of(newest_keyframe_);
+}
+
+KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, const KeyframePose& newest,
+                                      bool movable_there, int inliers) const {
+  KeyframeFacts facts;
+  facts.inliers = inliers;
+  if (!config_.localize_only) add_facts_of_map(frame, facts);
+  const Pose moved = frame.camera_from_map * newest.map_from_camera;
   facts.rotation_rad = geometry::rotation_angle_rad(moved.linear());
   facts.translation_m = moved.translation().norm();
   facts.median_depth_m = median_depth(*frame.features);
-  facts.since_last_s =
-      static_cast<double>(frame.stamp_ns - map_.keyframe_stamp_ns(newest_keyframe_)) / kNsPerSecond;
+  facts.since_last_s = static_cast<double>(frame.stamp_ns - newest.stamp_ns) / kNsPerSecond;
   facts.movable_or_changed = movable_there || changed_;
   return facts;
 }
@@ -71,8 +87,24 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_th
 void Tracker::decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result) {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
   if (!well_localized && !frame.pose_is_given) return;
-  const auto facts = keyframe_facts(frame, movable_there, static_cast<int>(result.inliers));
-  if (is_keyframe(facts, config_.keyframe)) make_keyframe(frame, result);
+  const auto newest = newest_keyframe();
+  const int inliers = static_cast<int>(result.inliers);
+  if (newest && !is_keyframe(keyframe_facts(frame, *newest, movable_there, inliers), config_.keyframe))
+    return;
+  if (config_.localize_only)
+    show_keyframe(frame, result);
+  else
+    make_keyframe(frame, result);
+}
+
+/// A keyframe for others to look at; the map does not learn of it.
+void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
+  result.keyframe.emplace();
+  result.keyframe->id = map_.next_keyframe_id() + shown_.size();
+  result.keyframe->stamp_ns = frame.stamp_ns;
+  result.keyframe->map_from_camera = frame.camera_from_map.inverse();
+  shown_.push_back({result.keyframe->id, frame.stamp_ns, result.keyframe->map_from_camera});
+  changed_ = false;
 }
 
 void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/map_bytes.hpp"
+
+#include <fmt/format.h>
+
+#include "common/map_file/byte_reader.hpp"
+#include "common/map_file/geometry_bytes.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using map_file::ByteReader;
+using map_file::ByteWriter;
+
+constexpr std::size_t kFeatureBytes = 24 + 2 + sizeof(Descriptor);
+constexpr std::size_t kKeyframeBytes = 8 + 88 + 8;
+constexpr std::size_t kPointBytes = 24 + 8;
+constexpr std::size_t kObservationBytes = 8 + 4;
+
+enum Flag : std::uint8_t { kMovable = 1, kMatchable = 2, kMovableAfterLateBoxes = 4, kAllFlags = 7 };
+
+void put(ByteWriter& writer, const Feature& feature, bool movable_now) {
+  for (const float value : {feature.px.x(), feature.px.y(), feature.image_px.x(), feature.image_px.y(),
+                            feature.angle_rad, feature.depth_m})
+    writer.put(value);
+  writer.put(feature.level);
+  writer.put(static_cast<std::uint8_t>((feature.movable ? kMovable : 0) |
+                                       (feature.matchable ? kMatchable : 0) |
+                                       (movable_now ? kMovableAfterLateBoxes : 0)));
+  writer.put_bytes(feature.descriptor);
+}
+
+Feature get_feature(ByteReader& reader, int levels, std::uint8_t& flags) {
+  Feature feature;
+  for (float* value : {&feature.px.x(), &feature.px.y(), &feature.image_px.x(), &feature.image_px.y(),
+                       &feature.angle_rad, &feature.depth_m})
+    *value = reader.get<float>();
+  feature.level = reader.get<std::uint8_t>();
+  flags = reader.get<std::uint8_t>();
+  feature.movable = (flags & kMovable) != 0;
+  feature.matchable = (flags & kMatchable) != 0;
+  std::ranges::copy(reader.get_bytes(sizeof(Descriptor)), feature.descriptor.begin());
+  if (feature.level >= levels || feature.depth_m < 0 || flags > kAllFlags)
+    reader.refuse("a feature with impossible values");
+  return feature;
+}
+
+void put(ByteWriter& writer, const Keyframe& keyframe) {
+  writer.put(keyframe.id);
+  map_file::put(writer, keyframe.features->camera());
+  writer.put_count(keyframe.features->size());
+  for (std::size_t i = 0; i < keyframe.features->size(); ++i)
+    put(writer, (*keyframe.features)[i], keyframe.movable[i]);
+}
+
+/// Keyframes up to this id that have a pose but were culled.
+void add_culled(std::span<const KeyframePose> poses, KeyframeId end, SlamMap& map) {
+  while (map.next_keyframe_id() < end) {
+    const KeyframePose& culled = poses[map.next_keyframe_id()];
+    map.add_culled_keyframe(culled.stamp_ns, culled.map_from_camera);
+  }
+}
+
+void get_keyframe(ByteReader& reader, std::span<const KeyframePose> poses, int levels, SlamMap& map) {
+  const auto id = reader.get<KeyframeId>();
+  const auto camera = map_file::get_camera(reader);
+  std::vector<Feature> features(reader.get_count(kFeatureBytes));
+  std::vector<std::uint8_t> flags(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) features[i] = get_feature(reader, levels, flags[i]);
+  const bool in_order = id >= map.next_keyframe_id() && id < poses.size() && (id == 0 || map.knows(0));
+  if (!in_order) reader.refuse(fmt::format("keyframe {} where {} was expected", id, map.next_keyframe_id()));
+  if (!reader.ok()) return;
+  add_culled(poses, id, map);
+  Keyframe& keyframe = map.add_keyframe(poses[id].stamp_ns, poses[id].map_from_camera,
+                                        std::make_shared<const FeatureSet>(camera, std::move(features)));
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    keyframe.movable[i] = (flags[i] & kMovableAfterLateBoxes) != 0;
+}
+
+void put(ByteWriter& writer, const MapPoint& point) {
+  map_file::put(writer, point.position);
+  writer.put_count(point.observations.size());
+  for (const Observation& observation : point.observations) {
+    writer.put(observation.keyframe);
+    writer.put(observation.feature);
+  }
+}
+
+void get_point(ByteReader& reader, SlamMap& map) {
+  const Eigen::Vector3d position = map_file::get_vector(reader);
+  const std::size_t observations = reader.get_count(kObservationBytes);
+  if (observations == 0) reader.refuse("a map point that no keyframe sees");
+  MapPoint* point = nullptr;
+  for (std::size_t i = 0; i < observations && reader.ok(); ++i) {
+    const auto keyframe = reader.get<KeyframeId>();
+    const auto feature = reader.get<std::uint32_t>();
+    if (map.keyframe(keyframe) == nullptr) {
+      reader.refuse(fmt::format("a map point in keyframe {}, which is not there", keyframe));
+    } else if (point == nullptr) {
+      point = &map.add_point(position, keyframe, feature);
+      if (point->observations.empty()) reader.refuse("a map point at a feature that cannot have one");
+    } else if (!map.observe(point->id, keyframe, feature)) {
+      reader.refuse("a map point at a feature that cannot have one");
+    }
+  }
+  if (reader.ok()) map.refresh(*point);
+}
+
+}  // namespace
+
+map_file::Bytes to_bytes(const SlamMap& map, const ExtractionConfig& extraction) {
+  ByteWriter writer;
+  writer.put(extraction.levels);
+  writer.put(extraction.scale_factor);
+  writer.put_count(map.keyframes());
+  map.all_keyframes().for_each([&](const Keyframe& keyframe) { put(writer, keyframe); });
+  writer.put_count(map.points());
+  map.all_points().for_each([&](const MapPoint& point) { put(writer, point); });
+  return writer.take();
+}
+
+tl::expected<SlamMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
+                                                  std::span<const KeyframePose> poses,
+                                                  const TrackerConfig& config) {
+  ByteReader reader(bytes);
+  const auto levels = reader.get<int>();
+  const auto factor = reader.get<double>();
+  if (levels != config.extraction.levels || factor != config.extraction.scale_factor)
+    reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
+                              factor, config.extraction.levels, config.extraction.scale_factor));
+  SlamMap map(config.map, ScalePyramid(config.extraction.levels, config.extraction.scale_factor));
+  if (!poses.empty() && poses.back().id != poses.size() - 1) reader.refuse("keyframe poses with gaps");
+  const std::size_t keyframes = reader.get_count(kKeyframeBytes);
+  for (std::size_t i = 0; i < keyframes && reader.ok(); ++i) get_keyframe(reader, poses, levels, map);
+  if (map.keyframes() > 0)
+    add_culled(poses, poses.size(), map);
+  else if (!poses.empty())
+    reader.refuse("poses of keyframes that are not there");
+  const std::size_t points = reader.get_count(kPointBytes);
+  for (std::size_t i = 0; i < points && reader.ok(); ++i) get_point(reader, map);
+  if (const auto read = reader.finish(); !read) return tl::unexpected(read.error());
+  for (KeyframeId id = 0; id < map.next_keyframe_id(); ++id) map.update_covisibility(id);
+  map.hold_keyframes();
+  return map;
+}
+
+}  // namespace rds::tracker

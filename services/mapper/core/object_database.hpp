@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "common/map_file/byte_reader.hpp"
+#include "common/map_file/byte_writer.hpp"
 #include "services/mapper/core/keyframe_record.hpp"
 #include "services/mapper/core/label_table.hpp"
 
@@ -25,6 +27,11 @@ class ObjectDatabase {
 
   /// Objects with enough observations, in order of their ids.
   [[nodiscard]] std::vector<MapObject> objects() const;
+
+  /// All that is known of every object, the one seen once too.
+  void put(map_file::ByteWriter& writer) const;
+  /// Starts from such bytes. Refuses what put() cannot have written.
+  void get(map_file::ByteReader& reader);
 
  private:
   struct Entry {

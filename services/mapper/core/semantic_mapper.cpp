@@ -20,23 +20,20 @@ SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch)
 
 void SemanticMapper::reset(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
-  revision_ = 0;
-  labels_ = LabelTable();
+  revision_ = start_.map ? 1 : 0;  // 0 is the empty map, which a reader needs not be told
+  labels_ = start_.labels;
   keyframes_.clear();
-  base_.reset();
-  map_.reset(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+  base_ = start_.map;
+  map_ = std::make_unique<Map>(base_ ? *base_ : empty_map());
   final_keyframes_ = 0;
   boxes_waiting_ = false;
 }
 
-void SemanticMapper::start_from(octomap::ColorOcTree&& tree, std::uint64_t map_epoch) {
-  if (std::abs(tree.getResolution() - config_.octree.resolution_m) > 1e-9)
-    throw std::invalid_argument(fmt::format("the saved map has voxels of {} m, expected {} m",
-                                            tree.getResolution(), config_.octree.resolution_m));
-  reset(map_epoch);
-  map_->octree.start_from(std::move(tree));
-  base_ = std::make_unique<Map>(*map_);
-  revision_ = 1;
+void SemanticMapper::go_on_from(Start start) {
+  const std::uint64_t revision = revision_;
+  start_ = std::move(start);
+  reset(map_epoch_);
+  revision_ = revision + 1;
 }
 
 MapDelta SemanticMapper::new_delta() const {
@@ -86,7 +83,7 @@ void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, MapD
 
 void SemanticMapper::make_oldest_final() {
   while (keyframes_.size() > static_cast<std::size_t>(config_.correction.max_keyframes)) {
-    if (!base_) base_.reset(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+    if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
     MapDelta unused;
     integrate_into(*base_, keyframes_.begin()->second.record, unused);
     keyframes_.erase(keyframes_.begin());
@@ -129,9 +126,7 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 }
 
 MapDelta SemanticMapper::rebuild() {
-  auto fresh =
-      base_ ? std::make_unique<Map>(*base_)
-            : std::unique_ptr<Map>(new Map{SemanticOctree(config_.octree), ObjectDatabase(config_.objects)});
+  auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
   MapDelta unused;
   for (auto& [id, keyframe] : keyframes_) {
     integrate_into(*fresh, keyframe.record, unused);
@@ -148,6 +143,7 @@ MapDelta SemanticMapper::rebuild() {
 
 Eigen::Vector3d SemanticMapper::up_in_map() const {
   if (config_.grid.up != "auto") return axis_of(config_.grid.up);
+  if (start_.up) return *start_.up;
   std::vector<const KeyframeRecord*> records;
   for (const auto& [id, keyframe] : keyframes_) records.push_back(&keyframe.record);
   return estimate_up(records);

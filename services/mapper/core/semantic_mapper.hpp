@@ -38,12 +38,17 @@ class SemanticMapper {
   /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
   MapDelta settle(std::span<const KeyframePose> poses);
 
-  /// Forgets everything and starts an epoch.
+  /// Starts an epoch: with the saved map if there is one, else empty.
   void reset(std::uint64_t map_epoch);
 
-  /// Starts an epoch from a saved map; later keyframes are integrated into it.
-  /// @param tree  of this resolution. @throws std::invalid_argument for another resolution.
-  void start_from(octomap::ColorOcTree&& tree, std::uint64_t map_epoch);
+  /// Goes on from a saved map in this epoch, and in those that reset() starts. It stays as it is; later keyframes are
+  /// integrated on top. @param tree  without labels and objects, fully expanded.
+  /// @return what does not fit; then nothing has changed.
+  tl::expected<void, std::string> start_from(octomap::ColorOcTree&& tree);
+  /// The same from what to_bytes() gave: with labels, objects and the direction of gravity.
+  tl::expected<void, std::string> start_from(std::span<const std::uint8_t> bytes);
+  /// The map as it stands, with all that further keyframes need of it; not the keyframes.
+  [[nodiscard]] map_file::Bytes to_bytes() const;
 
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return map_->octree.tree(); }
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return map_->octree.label(key); }
@@ -65,6 +70,12 @@ class SemanticMapper {
     SemanticOctree octree;
     ObjectDatabase objects;
   };
+  /// What an epoch starts with.
+  struct Start {
+    std::shared_ptr<Map> map;
+    LabelTable labels;
+    std::optional<Eigen::Vector3d> up;  // in the map, if it is known
+  };
   struct Keyframe {
     KeyframeRecord record;
     geometry::Pose integrated_pose;
@@ -76,6 +87,8 @@ class SemanticMapper {
   MapDelta rebuild();
   void integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta);
   void make_oldest_final();
+  void go_on_from(Start start);
+  [[nodiscard]] Map empty_map() const { return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects)}; }
   [[nodiscard]] MapDelta new_delta() const;
 
   MapperConfig config_;
@@ -83,7 +96,8 @@ class SemanticMapper {
   std::uint64_t revision_ = 0;
   LabelTable labels_;
   std::map<std::uint64_t, Keyframe> keyframes_;
-  std::unique_ptr<Map> base_;  // what is final: a loaded map, keyframes beyond the limit; nullptr if nothing
+  Start start_;                // its map is nullptr unless there is a saved one
+  std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
   std::unique_ptr<Map> map_;
   std::size_t final_keyframes_ = 0;
   bool boxes_waiting_ = false;

@@ -3,6 +3,8 @@
 
 #include <unordered_map>
 
+#include "common/map_file/byte_reader.hpp"
+#include "common/map_file/byte_writer.hpp"
 #include "services/mapper/core/editable_octree.hpp"
 #include "services/mapper/core/label_table.hpp"
 #include "services/mapper/core/scan.hpp"
@@ -18,6 +20,10 @@ class VoxelMemory {
   /// The label with most votes if it has the needed share, else 0; ties go to the lower index.
   [[nodiscard]] std::uint16_t label(double needed_share) const;
   [[nodiscard]] Rgb color() const;
+
+  void put(map_file::ByteWriter& writer) const;
+  /// @param labels  of the label table. Refuses colours and labels that cannot be.
+  static VoxelMemory get(map_file::ByteReader& reader, std::size_t labels);
 
  private:
   struct Votes {
@@ -44,8 +50,13 @@ class SemanticOctree {
   /// the tree.
   void difference(const SemanticOctree& newer, MapDelta& delta) const;
 
-  /// Starts from a saved tree; its voxels have no labels. @param tree  fully expanded.
+  /// Starts from a saved tree; its voxels have no labels. @param tree  fully expanded, of this resolution.
   void start_from(octomap::ColorOcTree&& tree);
+
+  /// Tree and what its voxels remember, in order of their keys.
+  void put(map_file::ByteWriter& writer) const;
+  /// Starts from such bytes. Refuses another resolution, and all that put() cannot have written.
+  void get(map_file::ByteReader& reader, std::size_t labels);
 
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return tree_; }
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const;

@@ -50,14 +50,14 @@ TEST_F(MapFiles, ASavedMapGoesOn) {
   auto read = read_tree(folder_.path() / "map.ot");
   ASSERT_TRUE(read.has_value());
   SemanticMapper continued{MapperConfig{}};
-  continued.start_from(std::move(**read), 9);
+  ASSERT_TRUE(continued.start_from(std::move(**read)));
   EXPECT_EQ(to_bytes(continued.tree()), to_bytes(mapper_.tree()));
   continued.integrate(test::SyntheticKeyframe(1).make());
   mapper_.integrate(test::SyntheticKeyframe(1).make());
   EXPECT_EQ(continued.tree().size(), mapper_.tree().size());
   continued.settle({});
   EXPECT_FLOAT_EQ(test::log_odds_at(continued.tree(), test::point_at(20, 20, 3.0)), 1.7F);
-  EXPECT_THROW(continued.start_from(octomap::ColorOcTree(0.1), 1), std::invalid_argument);
+  EXPECT_FALSE(continued.start_from(octomap::ColorOcTree(0.1)));
 }
 
 TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {

@@ -19,6 +19,15 @@ std::optional<std::size_t> KeyframeGraph::find(std::uint64_t id) const {
   return found == index_of_id_.end() ? std::nullopt : std::optional(found->second);
 }
 
+void KeyframeGraph::hold(std::span<const KeyframePose> poses) {
+  for (const KeyframePose& pose : poses) {
+    index_of_id_[pose.id] = keyframes_.size();
+    keyframes_.push_back(pose);
+    corrected_.push_back(pose.map_from_camera);
+  }
+  held_ = keyframes_.size();
+}
+
 void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> covisible) {
   const std::size_t newest = keyframes_.size();
   index_of_id_[pose.id] = newest;
@@ -34,16 +43,24 @@ void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> cov
   take(snapshot);
 }
 
+/// What the newest keyframe hangs on: the one before it, but at the end of a saved map the one it shares most
+/// with.
+std::size_t KeyframeGraph::predecessor(std::size_t newest, std::span<const Covisible> covisible) const {
+  const auto known = [&](const Covisible& other) { return find(other.id).has_value(); };
+  const auto best = std::ranges::find_if(covisible, known);
+  return newest == held_ && best != covisible.end() ? *find(best->id) : newest - 1;
+}
+
 void KeyframeGraph::add_edges(std::size_t newest, std::span<const Covisible> covisible) {
   if (newest == 0) return;
   const Pose& pose = keyframes_[newest].map_from_camera;
-  const Pose& previous = keyframes_[newest - 1].map_from_camera;
-  edges_.push_back({newest - 1, newest, previous.inverse() * pose, EdgeKind::kOdometry});
+  const std::size_t before = predecessor(newest, covisible);
+  const Pose& previous = keyframes_[before].map_from_camera;
+  edges_.push_back({before, newest, previous.inverse() * pose, EdgeKind::kOdometry});
   int added = 0;
   for (const Covisible& other : covisible) {
     const auto index = find(other.id);
-    if (!index || *index + 1 >= newest || static_cast<int>(other.weight) < config_.min_covisible_weight)
-      continue;
+    if (!index || *index == before || static_cast<int>(other.weight) < config_.min_covisible_weight) continue;
     if (added++ == config_.max_covisible_edges) break;
     edges_.push_back({*index, newest, other.map_from_camera.inverse() * pose, EdgeKind::kCovisible});
   }
@@ -67,6 +84,7 @@ void KeyframeGraph::take(const Snapshot& snapshot) {
   const std::size_t first_recent = keyframes_.size() > kRecent ? keyframes_.size() - kRecent : 0;
   const auto anchor = snapshot.lower_bound(first_recent);
   for (const auto& [index, pose] : snapshot) {
+    if (index < held_) continue;
     keyframes_[index].map_from_camera = pose;
     if (!is_corrected_)
       corrected_[index] = pose;
@@ -79,7 +97,7 @@ bool KeyframeGraph::close(std::span<const PoseGraphEdge> loops) {
   std::vector<Pose> optimized = corrected_;
   std::vector<PoseGraphEdge> edges = edges_;
   edges.insert(edges.end(), loops.begin(), loops.end());
-  if (!optimize_pose_graph(optimized, edges, config_)) return false;
+  if (!optimize_pose_graph(optimized, edges, config_, std::max<std::size_t>(1, held_))) return false;
   const bool satisfied = std::all_of(loops.begin(), loops.end(), [&](const PoseGraphEdge& loop) {
     const EdgeResidual residual = residual_of(loop, optimized);
     return residual.translation_m <= config_.max_loop_residual_m &&
@@ -93,8 +111,9 @@ bool KeyframeGraph::close(std::span<const PoseGraphEdge> loops) {
 }
 
 std::vector<KeyframePose> KeyframeGraph::poses() const {
-  std::vector<KeyframePose> poses = keyframes_;
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].map_from_camera = corrected_[i];
+  std::vector<KeyframePose> poses;
+  for (std::size_t i = held_; i < keyframes_.size(); ++i)
+    poses.push_back({keyframes_[i].id, keyframes_[i].stamp_ns, corrected_[i]});
   return poses;
 }
 

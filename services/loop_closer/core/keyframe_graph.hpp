@@ -23,6 +23,10 @@ class KeyframeGraph {
  public:
   explicit KeyframeGraph(const PoseGraphConfig& config) : config_(config) {}
 
+  /// Starts with keyframes of a saved map, by ascending id: the gauge, which nothing moves. @pre the graph is
+  /// empty.
+  void hold(std::span<const KeyframePose> poses);
+
   /// Adds the newest keyframe. `covisible` and `pose` are one snapshot; most shared map points first.
   /// The previous keyframe should be in it (with any weight): else its last known pose stands in.
   void add(const KeyframePose& pose, std::span<const Covisible> covisible);
@@ -38,6 +42,7 @@ class KeyframeGraph {
   [[nodiscard]] std::optional<std::size_t> find(std::uint64_t id) const;
   [[nodiscard]] std::uint64_t id(std::size_t index) const { return keyframes_[index].id; }
   [[nodiscard]] const geometry::Pose& map_from_camera(std::size_t index) const { return corrected_[index]; }
+  /// Of all keyframes but those held.
   [[nodiscard]] std::vector<KeyframePose> poses() const;
   /// Travelled between two keyframes [m], along the corrected poses.
   [[nodiscard]] double path_length(std::size_t from, std::size_t to) const;
@@ -46,6 +51,7 @@ class KeyframeGraph {
   using Snapshot = std::map<std::size_t, geometry::Pose>;  // by place in keyframes_
 
   void add_edges(std::size_t newest, std::span<const Covisible> covisible);
+  [[nodiscard]] std::size_t predecessor(std::size_t newest, std::span<const Covisible> covisible) const;
   void take(const Snapshot& snapshot);
 
   PoseGraphConfig config_;
@@ -53,6 +59,7 @@ class KeyframeGraph {
   std::vector<geometry::Pose> corrected_;  // map_from_camera after the loops closed so far
   std::map<std::uint64_t, std::size_t> index_of_id_;
   std::vector<PoseGraphEdge> edges_;
+  std::size_t held_ = 0;
   bool is_corrected_ = false;
 };
 

@@ -41,7 +41,13 @@ LoopCloser::LoopCloser(const LoopCloserConfig& config)
     : config_(config), index_(config.place_index), graph_(config.pose_graph), history_(config.consistency) {}
 
 void LoopCloser::reset() {
+  const auto start = std::move(start_);
   *this = LoopCloser(config_);
+  start_ = start;
+  if (!start_) return;
+  graph_.hold(start_->poses);
+  views_ = start_->views;
+  for (std::size_t i = 0; i < views_.size(); ++i) index_.add(start_->poses[i].id, views_[i].descriptors);
 }
 
 std::string LoopCloser::why_impossible(const KeyframeFeatures& f) const {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <tl/expected.hpp>
+
+#include "common/map_file/byte_writer.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/loop_closer/core/keyframe_graph.hpp"
 #include "services/loop_closer/core/loop_closer_config.hpp"
@@ -40,12 +44,28 @@ class LoopCloser {
   /// ignored.
   void update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local);
 
+  /// Forgets what came since the start, or since start_from().
   void reset();
 
+  /// What of the keyframes cannot be told again: their ids, descriptors and points. Not their poses: a saved
+  /// map takes the tracker's, which are final.
+  [[nodiscard]] map_file::Bytes to_bytes() const;
+  /// Goes on from such bytes with the keyframes' final poses, in every epoch from now on. They are not moved
+  /// any more.
+  /// @return what does not fit; then nothing has changed.
+  tl::expected<void, std::string> start_from(std::span<const std::uint8_t> bytes,
+                                             std::span<const KeyframePose> poses);
+
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  /// Of all keyframes but those that it started from.
   [[nodiscard]] std::vector<KeyframePose> poses() const { return graph_.poses(); }
 
  private:
+  /// Keyframes of a saved map, by ascending id.
+  struct Start {
+    std::vector<KeyframePose> poses;
+    std::vector<KeyframeView> views;
+  };
   [[nodiscard]] std::string why_impossible(const KeyframeFeatures& features) const;
   [[nodiscard]] std::vector<std::size_t> candidates_for(std::size_t query,
                                                         const KeyframeFeatures& features) const;
@@ -54,6 +74,7 @@ class LoopCloser {
   bool close_loop(std::size_t query, const KeyframeFeatures& features);
 
   LoopCloserConfig config_;
+  std::shared_ptr<const Start> start_;  // nullptr unless there is a saved map
   std::optional<std::uint64_t> map_epoch_;
   vision::PlaceIndex index_;
   KeyframeGraph graph_;

@@ -116,7 +116,7 @@ EdgeResidual residual_of(const PoseGraphEdge& edge, std::span<const Pose> map_fr
 }
 
 bool optimize_pose_graph(std::vector<Pose>& map_from_camera, std::span<const PoseGraphEdge> edges,
-                         const PoseGraphConfig& config) {
+                         const PoseGraphConfig& config, std::size_t held) {
   const auto known = [&](std::size_t i) { return i < map_from_camera.size(); };
   if (!std::all_of(edges.begin(), edges.end(),
                    [&](const auto& e) { return known(e.from) && known(e.to) && e.from != e.to; }))
@@ -130,16 +130,18 @@ bool optimize_pose_graph(std::vector<Pose>& map_from_camera, std::span<const Pos
     problem.AddParameterBlock(block.translation.data(), 3);
   }
   for (const PoseGraphEdge& edge : edges) add_edge(problem, blocks, edge, config);
-  problem.SetParameterBlockConstant(blocks[0].rotation.data());
-  problem.SetParameterBlockConstant(blocks[0].translation.data());
+  for (Block& block : std::span(blocks).first(held)) {
+    problem.SetParameterBlockConstant(block.rotation.data());
+    problem.SetParameterBlockConstant(block.translation.data());
+  }
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(config), &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
   std::vector<Pose> optimized(blocks.size());
   std::transform(blocks.begin(), blocks.end(), optimized.begin(), to_pose);
   if (!std::all_of(optimized.begin(), optimized.end(), geometry::is_finite)) return false;
-  optimized[0] = map_from_camera[0];
-  map_from_camera = std::move(optimized);
+  std::copy(optimized.begin() + static_cast<std::ptrdiff_t>(held), optimized.end(),
+            map_from_camera.begin() + static_cast<std::ptrdiff_t>(held));
   return true;
 }
 

@@ -28,13 +28,13 @@ struct EdgeResidual {
 [[nodiscard]] EdgeResidual residual_of(const PoseGraphEdge& edge,
                                        std::span<const geometry::Pose> map_from_camera);
 
-/// Moves the poses so that they agree best with the edges; the first stays where it is.
+/// Moves the poses so that they agree best with the edges; the first `held` stay where they are.
 ///
 /// Residual of an edge: translation and rotation vector of measured⁻¹ · estimated, over the edge's sigmas;
 /// Huber for loop edges. One thread, so that the result is the same on every run.
 /// @return false if the solver failed; the poses are then unchanged.
-/// @throws std::invalid_argument if an edge names a pose that is not there.
+/// @param held  at least 1. @throws std::invalid_argument if an edge names a pose that is not there.
 bool optimize_pose_graph(std::vector<geometry::Pose>& map_from_camera, std::span<const PoseGraphEdge> edges,
-                         const PoseGraphConfig& config);
+                         const PoseGraphConfig& config, std::size_t held = 1);
 
 }  // namespace rds::loop_closer

@@ -129,8 +129,9 @@ void ObjectDatabase::get(ByteReader& reader) {
     entry.min = map_file::get_vector(reader);
     entry.max = map_file::get_vector(reader);
     for (double* sum : {&entry.weight, &entry.score_sum, &entry.existence}) *sum = reader.get<double>();
-    const bool possible = entry.object.id > last_id && entry.object.id < next_id_ && entry.object.observations > 0 &&
-                          entry.weight > 0 && (entry.min.array() <= entry.max.array()).all();
+    const bool possible = entry.object.id > last_id && entry.object.id < next_id_ &&
+                          entry.object.observations > 0 && entry.weight > 0 &&
+                          (entry.min.array() <= entry.max.array()).all();
     if (!possible) reader.refuse(fmt::format("object {} with impossible values", entry.object.id));
     if (!reader.ok()) return entries_.clear();
     last_id = entry.object.id;
@@ -150,7 +151,8 @@ map_file::Bytes SemanticMapper::to_bytes() const {
 tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
   Start start{std::make_shared<Map>(empty_map()), get_labels(reader), map_file::get_vector(reader)};
-  if (reader.ok() && std::abs(start.up->norm() - 1) > 1e-6) reader.refuse("an upward direction that is no unit vector");
+  if (reader.ok() && std::abs(start.up->norm() - 1) > 1e-6)
+    reader.refuse("an upward direction that is no unit vector");
   start.map->octree.get(reader, start.labels.names().size());
   start.map->objects.get(reader);
   if (auto read = reader.finish(); !read) return read;

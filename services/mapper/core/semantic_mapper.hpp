@@ -41,8 +41,8 @@ class SemanticMapper {
   /// Starts an epoch: with the saved map if there is one, else empty.
   void reset(std::uint64_t map_epoch);
 
-  /// Goes on from a saved map in this epoch, and in those that reset() starts. It stays as it is; later keyframes are
-  /// integrated on top. @param tree  without labels and objects, fully expanded.
+  /// Goes on from a saved map in this epoch, and in those that reset() starts. It stays as it is; later
+  /// keyframes are integrated on top. @param tree  without labels and objects, fully expanded.
   /// @return what does not fit; then nothing has changed.
   tl::expected<void, std::string> start_from(octomap::ColorOcTree&& tree);
   /// The same from what to_bytes() gave: with labels, objects and the direction of gravity.
@@ -88,7 +88,9 @@ class SemanticMapper {
   void integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta);
   void make_oldest_final();
   void go_on_from(Start start);
-  [[nodiscard]] Map empty_map() const { return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects)}; }
+  [[nodiscard]] Map empty_map() const {
+    return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects)};
+  }
   [[nodiscard]] MapDelta new_delta() const;
 
   MapperConfig config_;

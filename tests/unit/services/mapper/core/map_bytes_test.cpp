@@ -18,7 +18,10 @@ geometry::Pose shifted(double x, double y, double z) {
 }
 
 KeyframeInput keyframe(std::uint64_t id, double x = 0) {
-  return SyntheticKeyframe(id).rectangle(kMonitor, 2.0).box("tvmonitor", kMonitor, false).pose(shifted(x, 0, 0));
+  return SyntheticKeyframe(id)
+      .rectangle(kMonitor, 2.0)
+      .box("tvmonitor", kMonitor, false)
+      .pose(shifted(x, 0, 0));
 }
 
 /// A map with a labelled object.

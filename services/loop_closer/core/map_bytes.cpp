@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keyframes as bytes and back.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/map_file/byte_reader.hpp"
+#include "services/loop_closer/core/loop_closer.hpp"
+
+namespace rds::loop_closer {
+namespace {
+
+using map_file::ByteReader;
+using map_file::ByteWriter;
+
+constexpr std::size_t kDescriptorBytes = 32;
+constexpr std::size_t kFeatureBytes = kDescriptorBytes + 3 * sizeof(float);
+constexpr std::size_t kKeyframeBytes = 2 * sizeof(std::uint64_t);
+
+void put(ByteWriter& writer, const KeyframeView& view) {
+  writer.put_count(view.points.size());
+  for (std::size_t i = 0; i < view.points.size(); ++i) {
+    for (const double element : view.points[i]) writer.put(static_cast<float>(element));  // as they came
+    writer.put_bytes({view.descriptors.ptr<std::uint8_t>(static_cast<int>(i)), kDescriptorBytes});
+  }
+}
+
+KeyframeView get_view(ByteReader& reader) {
+  KeyframeView view;
+  const std::size_t features = reader.get_count(kFeatureBytes);
+  view.points.resize(features);
+  if (features > 0) view.descriptors.create(static_cast<int>(features), kDescriptorBytes, CV_8UC1);
+  for (std::size_t i = 0; i < features; ++i) {
+    for (double& element : view.points[i]) element = static_cast<double>(reader.get<float>());
+    if (view.points[i].z() <= 0) reader.refuse("a point behind its camera");
+    std::ranges::copy(reader.get_bytes(kDescriptorBytes),
+                      view.descriptors.ptr<std::uint8_t>(static_cast<int>(i)));
+  }
+  return view;
+}
+
+}  // namespace
+
+map_file::Bytes LoopCloser::to_bytes() const {
+  ByteWriter writer;
+  writer.put_count(views_.size());
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    writer.put(graph_.id(i));
+    put(writer, views_[i]);
+  }
+  return writer.take();
+}
+
+tl::expected<void, std::string> LoopCloser::start_from(std::span<const std::uint8_t> bytes,
+                                                       std::span<const KeyframePose> poses) {
+  ByteReader reader(bytes);
+  Start start;
+  const std::size_t keyframes = reader.get_count(kKeyframeBytes);
+  for (std::size_t i = 0; i < keyframes && reader.ok(); ++i) {
+    const auto id = reader.get<std::uint64_t>();
+    start.views.push_back(get_view(reader));
+    const auto pose = std::ranges::lower_bound(poses, id, {}, &KeyframePose::id);
+    if (pose == poses.end() || pose->id != id || (i > 0 && id <= start.poses.back().id))
+      reader.refuse(fmt::format("keyframe {}, which has no pose or comes out of order", id));
+    else
+      start.poses.push_back(*pose);
+  }
+  if (auto read = reader.finish(); !read) return read;
+  start_ = std::make_shared<const Start>(std::move(start));
+  reset();
+  return {};
+}
+
+}  // namespace rds::loop_closer

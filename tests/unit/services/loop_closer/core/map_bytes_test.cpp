@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "services/loop_closer/core/loop_closer.hpp"
+#include "tests/unit/services/loop_closer/core/synthetic_places.hpp"
+
+namespace rds::loop_closer {
+namespace {
+
+using geometry::Pose;
+using ::testing::HasSubstr;
+
+constexpr double kStep = 0.2;  // radians between keyframes
+constexpr std::size_t kSaved = 32;
+
+/// Keyframes once around a round room, saved with their true poses; and a camera that later goes around
+/// again.
+class SavedKeyframes : public ::testing::Test {
+ protected:
+  SavedKeyframes() {
+    LoopCloser closer;
+    for (std::size_t i = 0; i < kSaved; ++i) {
+      const auto answer = closer.add(keyframe(i, looking_out(kStep * static_cast<double>(i)), {}, 1));
+      EXPECT_EQ(answer.refused, "");
+    }
+    poses = closer.poses();
+    bytes = closer.to_bytes();
+  }
+
+  KeyframeFeatures keyframe(std::uint64_t id, const Pose& estimate, std::vector<Covisible> covisible,
+                            std::uint64_t epoch) const {
+    const Pose truth = looking_out(kStep * static_cast<double>(id % kSaved));
+    KeyframeFeatures features = world.seen_from(truth, id);
+    features.map_epoch = epoch;
+    features.id = id;
+    features.map_from_camera = estimate;
+    features.covisible = std::move(covisible);
+    return features;
+  }
+
+  SyntheticWorld world = SyntheticWorld::round_room(1500, 1);
+  std::vector<KeyframePose> poses;
+  map_file::Bytes bytes;
+};
+
+TEST_F(SavedKeyframes, TheSameBytesComeOut) {
+  LoopCloser closer;
+  const auto read = closer.start_from(bytes, poses);
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(closer.to_bytes(), bytes);
+  EXPECT_TRUE(closer.poses().empty()) << "they are of no epoch of this closer";
+}
+
+TEST_F(SavedKeyframes, ALoopToASavedPlaceMovesTheNewKeyframesAlone) {
+  LoopCloser closer;
+  ASSERT_TRUE(closer.start_from(bytes, poses));
+  std::vector<Covisible> recent;
+  Pose estimate = poses[0].map_from_camera;
+  double before = 0;
+  double after = 0;
+  for (std::size_t i = 0; i < 30 && closer.revision() == 0; ++i) {
+    const Pose truth = looking_out(kStep * static_cast<double>(i));
+    if (i > 0) {
+      Pose step = looking_out(kStep * static_cast<double>(i - 1)).inverse() * truth;
+      step.translation() += Eigen::Vector3d(0.004, 0.012, 0);
+      estimate = estimate * step;
+    } else {
+      recent.push_back({0, 300, poses[0].map_from_camera});
+    }
+    const auto answer = closer.add(keyframe(kSaved + i, estimate, recent, 2));
+    EXPECT_EQ(answer.refused, "");
+    recent.insert(recent.begin(), {kSaved + i, 200, estimate});
+    if (recent.size() > 3) recent.pop_back();
+    if (answer.poses.empty()) continue;
+    ASSERT_EQ(answer.poses.size(), i + 1);
+    EXPECT_EQ(answer.poses.front().id, kSaved);
+    before = (estimate.translation() - truth.translation()).norm();
+    after = (answer.poses.back().map_from_camera.translation() - truth.translation()).norm();
+  }
+  ASSERT_EQ(closer.revision(), 1U);
+  EXPECT_GT(before, 0.05);
+  EXPECT_LT(after, 0.4 * before);
+}
+
+TEST_F(SavedKeyframes, AnotherEpochStartsWithThemAgain) {
+  LoopCloser closer;
+  ASSERT_TRUE(closer.start_from(bytes, poses));
+  closer.add(keyframe(kSaved, poses[0].map_from_camera, {}, 2));
+  EXPECT_NE(closer.to_bytes(), bytes);
+  closer.add(keyframe(kSaved, poses[0].map_from_camera, {}, 3));
+  EXPECT_EQ(closer.poses().size(), 1U);
+  closer.reset();
+  EXPECT_EQ(closer.to_bytes(), bytes);
+}
+
+TEST_F(SavedKeyframes, TornBytesAreRefusedAndChangeNothing) {
+  LoopCloser closer;
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 40)
+    EXPECT_FALSE(closer.start_from(std::span(bytes).first(size), poses)) << size;
+  EXPECT_EQ(closer.to_bytes(), LoopCloser().to_bytes());
+}
+
+TEST_F(SavedKeyframes, AKeyframeWithoutAPoseIsNamed) {
+  LoopCloser closer;
+  poses.pop_back();
+  EXPECT_THAT(closer.start_from(bytes, poses).error(), HasSubstr("keyframe 31, which has no pose"));
+}
+
+}  // namespace
+}  // namespace rds::loop_closer

@@ -6,6 +6,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/map_file/geometry_bytes.hpp"
+#include "common/map_file/saved_map.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "services/loop_closer/feature_message.hpp"
@@ -20,10 +22,13 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       loop_closer_(config.loop_closer),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
-      poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)),
-      features_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
-          "rds/keyframe/features", bus::kKeyframeFeatures,
-          [this](Features m) { features_.push(std::move(m)); })) {
+      poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
+  if (!config.map_file.empty())
+    if (const auto started = start_from(config.map_file); !started) throw std::runtime_error(started.error());
+  if (!config.localize_only)
+    subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
+        "rds/keyframe/features", bus::kKeyframeFeatures,
+        [this](Features m) { features_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
 }
@@ -66,17 +71,51 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
   poses_.write(corrected_);
 }
 
-service::CommandOutcome LoopCloserService::execute(const std::string& verb, const std::string& /*argument*/) {
+service::CommandOutcome LoopCloserService::execute(const std::string& verb, const std::string& argument) {
+  if (verb == "save") return save(argument);
+  if (verb == "load") return load(argument);
   if (verb == "reset") {
     loop_closer_.reset();
     corrected_ = {};
-    return {true, "forgot all keyframes"};
+    return {true, "forgot all keyframes since the start"};
   }
   if (verb == "pause" || verb == "resume") {
     paused_ = verb == "pause";
     return {true, paused_ ? "paused" : "resumed"};
   }
   return unknown_command(verb);
+}
+
+tl::expected<void, std::string> LoopCloserService::start_from(const std::filesystem::path& saved_map) {
+  const auto refuse = [&](const std::string& why) {
+    return tl::unexpected(fmt::format("{}: loops cannot be closed to it: {}", saved_map.string(), why));
+  };
+  const auto sections = map_file::read_saved_map(saved_map, {map_file::kKeyframePoses});
+  if (!sections) return tl::unexpected(sections.error());
+  const auto own = sections->find(map_file::kLoopCloser);
+  if (own == sections->end()) {
+    spdlog::warn("{}: was saved without a loop closer, so none of its keyframes is known",
+                 saved_map.string());
+    return {};
+  }
+  const auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
+  if (!poses) return refuse(poses.error());
+  if (const auto started = loop_closer_.start_from(own->second, *poses); !started)
+    return refuse(started.error());
+  corrected_ = {};
+  return {};
+}
+
+service::CommandOutcome LoopCloserService::save(const std::string& folder) const {
+  const auto written = map_file::write_map_file(map_file::service_file(folder, map_file::kLoopCloser),
+                                                {{map_file::kLoopCloser, loop_closer_.to_bytes()}});
+  if (!written) return {false, written.error()};
+  return {true, "keyframes written to " + folder};
+}
+
+service::CommandOutcome LoopCloserService::load(const std::string& saved_map) {
+  if (const auto started = start_from(saved_map); !started) return {false, started.error()};
+  return {true, "keyframes of " + saved_map};
 }
 
 }  // namespace rds::loop_closer

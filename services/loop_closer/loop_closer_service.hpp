@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <vector>
+
+#include <tl/expected.hpp>
 
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
@@ -24,6 +28,9 @@ class LoopCloserService : public service::Service {
   using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
   void take(const Features& features);
+  tl::expected<void, std::string> start_from(const std::filesystem::path& saved_map);
+  [[nodiscard]] service::CommandOutcome save(const std::string& folder) const;
+  service::CommandOutcome load(const std::string& saved_map);
   void answer(const Features& features, const LoopAnswer& answer);
 
   LoopCloser loop_closer_;
@@ -31,7 +38,7 @@ class LoopCloserService : public service::Service {
   rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop; repeated in every answer
   concurrency::Inbox<Features> features_;
   bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
-  bus::Subscription features_subscription_;  // last: its callback fills the inbox
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inbox
 };
 
 }  // namespace rds::loop_closer

@@ -5,6 +5,8 @@ namespace rds::loop_closer {
 
 void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
   reader.value("lockstep", config.lockstep);
+  reader.value("map_file", config.map_file);
+  reader.value("localize_only", config.localize_only);
   read(reader, config.loop_closer);
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "common/map_file/saved_map.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "services/mapper/core/map_files.hpp"
@@ -30,14 +31,22 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       images_inbox_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       boxes_inbox_(mailbox_, kMaxMessages),
       poses_inbox_(mailbox_, kMaxMessages) {
-  subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
-      "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
-  subscriptions_.push_back(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-      "rds/boxes", bus::kStream, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
+  if (!config.map_file.empty()) {
+    if (const auto started = start_from(config.map_file); !started) throw std::runtime_error(started.error());
+    outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
+  }
+  if (!config.localize_only) subscribe_to_keyframes();
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatched, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return images_inbox_.dropped(); });
+}
+
+void MapperService::subscribe_to_keyframes() {
+  subscriptions_.push_back(context_.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
+      "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(context_.bus.subscribe<vision_msgs::msg::Detection3DArray>(
+      "rds/boxes", bus::kStream, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }
 
 bool MapperService::something_arrived() const {
@@ -61,7 +70,8 @@ void MapperService::take_arrivals() {
   while (const auto images = images_inbox_.try_pop()) take(*images);
 }
 
-/// A new epoch is a new tracker with an empty map. Messages of an epoch that is over are dropped.
+/// A new epoch is a new tracker, with the saved map or an empty one. Messages of an epoch that is over are
+/// dropped.
 bool MapperService::follow_epoch(std::uint64_t map_epoch, const std::string& topic) {
   if (map_epoch == mapper_.map_epoch()) return true;
   if (earlier_epochs_.contains(map_epoch)) {
@@ -76,6 +86,7 @@ bool MapperService::follow_epoch(std::uint64_t map_epoch, const std::string& top
   integrated_by_stamp_.clear();
   poses_.clear();
   poses_revision_ = loop_revision_ = last_keyframe_id_ = 0;
+  if (mapper_.revision() > 0) outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
   return true;
 }
 
@@ -199,7 +210,7 @@ service::CommandOutcome MapperService::execute(const std::string& verb, const st
     mapper_.reset(epoch);
     waiting_.clear();
     integrated_by_stamp_.clear();
-    return {true, "empty map"};
+    return {true, fmt::format("map of {} nodes", mapper_.tree().size())};
   }
   if (verb == "pause" || verb == "resume") {
     paused_ = verb == "pause";
@@ -246,23 +257,38 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
   }
 }
 
-service::CommandOutcome MapperService::save(const std::string& folder) {
+/// From a saved map, or from OctoMap's tree in a file.
+tl::expected<void, std::string> MapperService::start_from(const std::filesystem::path& saved_map) {
+  const auto refuse = [&](const std::string& why) {
+    return tl::unexpected(fmt::format("{}: cannot be mapped on: {}", saved_map.string(), why));
+  };
+  if (looks_like_tree(saved_map)) {
+    auto tree = read_tree(saved_map);
+    if (!tree) return tl::unexpected(tree.error());
+    const auto started = mapper_.start_from(std::move(**tree));
+    return started ? started : refuse(started.error());
+  }
+  const auto sections = map_file::read_saved_map(saved_map, {map_file::kMapper});
+  if (!sections) return tl::unexpected(sections.error());
+  const auto started = mapper_.start_from(sections->at(map_file::kMapper));
+  return started ? started : refuse(started.error());
+}
+
+service::CommandOutcome MapperService::save(const std::string& folder) const {
+  const std::filesystem::path place(folder);
   for (const WriteResult& result :
-       {write_tree(std::filesystem::path(folder) / "map.ot", mapper_.tree()),
-        write_objects(std::filesystem::path(folder) / "objects.json", mapper_.objects()),
-        write_grid(folder, mapper_.grid())})
+       {write_tree(place / "map.ot", mapper_.tree()),
+        write_objects(place / "objects.json", mapper_.objects()), write_grid(place, mapper_.grid()),
+        map_file::write_map_file(map_file::service_file(place, map_file::kMapper),
+                                 {{map_file::kMapper, mapper_.to_bytes()}})})
     if (!result) return {false, result.error()};
   return {true, fmt::format("map of {} nodes written to {}", mapper_.tree().size(), folder)};
 }
 
-service::CommandOutcome MapperService::load(const std::string& folder) {
-  auto tree = read_tree(std::filesystem::path(folder) / "map.ot");
-  if (!tree) return {false, tree.error()};
-  try {
-    mapper_.start_from(std::move(**tree), mapper_.map_epoch());
-  } catch (const std::invalid_argument& e) {
-    return {false, e.what()};
-  }
+service::CommandOutcome MapperService::load(const std::string& saved_map) {
+  if (const auto started = start_from(saved_map); !started) return {false, started.error()};
+  waiting_.clear();
+  integrated_by_stamp_.clear();
   outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
   return {true, fmt::format("map of {} nodes", mapper_.tree().size())};
 }

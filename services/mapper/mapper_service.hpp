@@ -3,9 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
+
+#include <tl/expected.hpp>
 
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
@@ -51,8 +54,10 @@ class MapperService : public service::Service {
   void publish(const MapDelta& delta);
   [[nodiscard]] MapProgress progress() const;
   service::CommandOutcome finish(const std::string& argument);
-  service::CommandOutcome save(const std::string& folder);
-  service::CommandOutcome load(const std::string& folder);
+  void subscribe_to_keyframes();
+  tl::expected<void, std::string> start_from(const std::filesystem::path& saved_map);
+  service::CommandOutcome save(const std::string& folder) const;
+  service::CommandOutcome load(const std::string& saved_map);
   void wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes);
 
   MapperServiceConfig config_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "common/config/config_reader.hpp"
 #include "services/mapper/core/mapper_config.hpp"
 
@@ -12,6 +14,8 @@ struct MapperServiceConfig {
   double boxes_timeout_s = 1.0;     // … until one newer by this has come; later boxes act at the next rebuild
   int full_map_every = 20;          // keyframes; besides, whenever somebody new subscribes
   int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
+  std::string map_file;        // saved map, or OctoMap tree, that it starts from; empty: none
+  bool localize_only = false;  // neither keyframes nor boxes are listened to
   MapperConfig mapper;
 };
 

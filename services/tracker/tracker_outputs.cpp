@@ -119,6 +119,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.color(messages::to_image_message(report.frame.color, header));
   images.depth(messages::to_image_message(report.frame.depth, header));
   keyframe_images_.write(images);
+  if (!keyframe.in_map) return;
   rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);
   features.header(header);
   features.map_epoch(map_epoch_);

@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "common/map_file/geometry_bytes.hpp"
+#include "common/map_file/saved_map.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "services/tracker/core/map_bytes.hpp"
 #include "services/tracker/pose_file.hpp"
 
 namespace rds::tracker {
@@ -54,6 +57,10 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
           "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
             if (m->source() == kLoop) poses_inbox_.push(std::move(m));
           })) {
+  if (!config.map_file.empty()) {
+    if (const auto read = read_start(config.map_file); !read) throw std::runtime_error(read.error());
+    start_map();
+  }
   spdlog::info("map epoch {:016x}", map_epoch_);
 }
 
@@ -184,7 +191,8 @@ void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometr
     while (keyframes_with_boxes_due_.size() > kMaxAnswers)
       keyframes_with_boxes_due_.erase(keyframes_with_boxes_due_.begin());
   }
-  const bool corrections_wanted = config_.poses_file.empty() && (config_.loop_closer || !lockstep.enabled);
+  const bool corrections_wanted =
+      keyframe.in_map && config_.poses_file.empty() && (config_.loop_closer || !lockstep.enabled);
   if (corrections_wanted) loop_answers_.ask(keyframe.id, frame_index_ + lockstep.loop_latency_frames);
 }
 
@@ -200,11 +208,13 @@ void TrackerService::publish_poses() {
   outputs_.publish_poses(tracker_.keyframe_poses(), loop_revision_, loops_closed_);
 }
 
-service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& /*argument*/) {
+service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& argument) {
   if (verb == "finish") return finish();
+  if (verb == "save") return save(argument);
+  if (verb == "load") return load(argument);
   if (verb == "reset") {
     reset();
-    return {true, fmt::format("empty map, epoch {:016x}", map_epoch_)};
+    return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
   }
   if (verb == "pause" || verb == "resume") {
     paused_ = verb == "pause";
@@ -230,12 +240,53 @@ service::CommandOutcome TrackerService::finish() {
   frame_index_ = last_frame;
   const auto poses = tracker_.keyframe_poses();
   const std::uint64_t revision = outputs_.publish_poses(poses, loop_revision_, loops_closed_);
-  return {true, nlohmann::json{{"poses_revision", revision}, {"keyframes", poses.size()}}.dump()};
+  const std::size_t in_map = config_.tracker.localize_only ? 0 : poses.size();
+  return {true, nlohmann::json{{"poses_revision", revision}, {"keyframes", in_map}}.dump()};
+}
+
+/// Reads what the next epoch begins with; after a fault everything is as before.
+tl::expected<void, std::string> TrackerService::read_start(const std::filesystem::path& saved_map) {
+  const auto refuse = [&](const std::string& why) {
+    return tl::unexpected(fmt::format("{}: cannot be tracked in: {}", saved_map.string(), why));
+  };
+  auto sections = map_file::read_saved_map(saved_map, {map_file::kTracker, map_file::kKeyframePoses});
+  if (!sections) return tl::unexpected(sections.error());
+  auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
+  if (!poses) return refuse(poses.error());
+  auto& map = sections->at(map_file::kTracker);
+  if (const auto fits = map_from_bytes(map, *poses, config_.tracker); !fits) return refuse(fits.error());
+  start_ = Start{std::move(map), std::move(*poses)};
+  return {};
+}
+
+void TrackerService::start_map() {
+  if (!start_) return;
+  tracker_.start_from(map_from_bytes(start_->map, start_->poses, config_.tracker).value());
+  spdlog::info("goes on in a map of {} keyframes and {} points", tracker_.map().keyframes(),
+               tracker_.map().points());
+}
+
+service::CommandOutcome TrackerService::save(const std::string& folder) const {
+  const SlamMap& map = tracker_.map();
+  const auto written =
+      map_file::write_map_file(map_file::service_file(folder, map_file::kTracker),
+                               {{map_file::kTracker, to_bytes(map, config_.tracker.extraction)},
+                                {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}});
+  if (!written) return {false, written.error()};
+  return {true,
+          fmt::format("{} keyframes and {} points written to {}", map.keyframes(), map.points(), folder)};
+}
+
+service::CommandOutcome TrackerService::load(const std::string& saved_map) {
+  if (const auto read = read_start(saved_map); !read) return {false, read.error()};
+  reset();
+  return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
 }
 
 void TrackerService::reset() {
   map_epoch_ = random_epoch();
   tracker_.reset();
+  start_map();
   objects_.reset();
   outputs_.set_epoch(map_epoch_);
   boxes_.clear();

@@ -2,9 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
+#include <tl/expected.hpp>
+
+#include "common/map_file/byte_writer.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/tracker.hpp"
@@ -50,12 +55,23 @@ class TrackerService : public service::Service {
   void start_mapping();
   void publish_poses();
   void reset();
+  void start_map();
+  tl::expected<void, std::string> read_start(const std::filesystem::path& saved_map);
+  service::CommandOutcome save(const std::string& folder) const;
+  service::CommandOutcome load(const std::string& saved_map);
   service::CommandOutcome finish();
+
+  /// The saved map that a new map epoch begins with.
+  struct Start {
+    map_file::Bytes map;
+    std::vector<KeyframePose> poses;
+  };
 
   TrackerServiceConfig config_;
   std::stop_token stop_;
   std::uint64_t map_epoch_;
   Tracker tracker_;
+  std::optional<Start> start_;
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;

@@ -32,7 +32,10 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   reader.value("loop_closer", config.loop_closer);
   reader.value("poses_file", config.poses_file);
   reader.value("poses_max_gap_s", config.poses_max_gap_s, 0.0, 3600.0, "s");
+  reader.value("map_file", config.map_file);
   read(reader, config.tracker);
+  if (config.tracker.localize_only && config.map_file.empty())
+    reader.violation("localize_only", "true", "expected a map_file to localise in");
   read(reader.section("prediction"), config.prediction);
 }
 

@@ -35,6 +35,7 @@ struct TrackerServiceConfig {
   bool loop_closer = true;       // in lockstep: its answers are waited for
   std::string poses_file;        // TUM trajectory that the camera follows; empty: poses are estimated
   double poses_max_gap_s = 0.1;  // between neighbours that a pose is interpolated from
+  std::string map_file;          // saved map that it starts from; empty: none
   TrackerConfig tracker;
   prediction::PredictionConfig prediction;
 };

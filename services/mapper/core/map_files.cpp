@@ -82,6 +82,13 @@ tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const
   return tree;
 }
 
+bool looks_like_tree(const fs::path& file) {
+  std::string start(kMagic.size(), ' ');
+  std::ifstream in(file, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in && start == kMagic;
+}
+
 WriteResult write_objects(const fs::path& file, std::span<const MapObject> objects) {
   return write_whole(file, to_json(objects));
 }

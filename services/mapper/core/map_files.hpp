@@ -26,6 +26,9 @@ WriteResult write_tree(const std::filesystem::path& file, const octomap::ColorOc
 /// @return one sentence naming the file and what was expected.
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const std::filesystem::path& file);
 
+/// True if the file starts as OctoMap's .ot files do.
+bool looks_like_tree(const std::filesystem::path& file);
+
 /// objects.json.
 WriteResult write_objects(const std::filesystem::path& file, std::span<const MapObject> objects);
 

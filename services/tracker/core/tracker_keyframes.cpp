@@ -103,6 +103,7 @@ void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
   result.keyframe->id = map_.next_keyframe_id() + shown_.size();
   result.keyframe->stamp_ns = frame.stamp_ns;
   result.keyframe->map_from_camera = frame.camera_from_map.inverse();
+  result.keyframe->in_map = false;
   shown_.push_back({result.keyframe->id, frame.stamp_ns, result.keyframe->map_from_camera});
   changed_ = false;
 }

@@ -57,6 +57,7 @@ struct KeyframeData {
   Pose map_from_camera = Pose::Identity();
   std::vector<KeyframeFeature> features;
   std::vector<CovisiblePose> covisible;  // most shared points first
+  bool in_map = true;                    // false: for others to look at, the map does not know it
 };
 
 struct FrameResult {

@@ -76,14 +76,17 @@ void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {
   const FrameRecord record = to_record(message);
   {
     const std::lock_guard lock(mutex_);
-    if (message.map_epoch() != epoch_) {  // a tracker that was restarted: its keyframes count from 0 again
+    if (message.map_epoch() != epoch_) {  // a tracker that was restarted: its keyframes count anew
       epoch_ = message.map_epoch();
-      last_keyframe_id_.reset();
+      keyframes_ = 0;
       last_mapped_id_.reset();
     }
     recording_.frames[record.stamp_ns] = record;
     recording_.frames_dropped = message.frames_dropped();
-    if (message.is_keyframe()) last_keyframe_id_ = message.keyframe_id();
+    if (message.is_keyframe()) {
+      if (keyframes_ == 0) first_keyframe_id_ = message.keyframe_id();
+      keyframes_ = message.keyframe_id() + 1 - first_keyframe_id_;
+    }
   }
   changed_.notify_all();
 }
@@ -150,9 +153,8 @@ bool Recorder::wait_acknowledged(std::int64_t stamp_ns, const std::stop_token& s
 bool Recorder::wait_mapper(std::uint64_t backlog, const std::stop_token& stop,
                            std::chrono::milliseconds limit) {
   return wait(stop, limit, [&] {
-    const std::uint64_t made = last_keyframe_id_ ? *last_keyframe_id_ + 1 : 0;
-    const std::uint64_t mapped = last_mapped_id_ ? *last_mapped_id_ + 1 : 0;
-    return made <= mapped + backlog;
+    const std::uint64_t mapped = last_mapped_id_ ? *last_mapped_id_ + 1 - first_keyframe_id_ : 0;
+    return keyframes_ <= mapped + backlog;
   });
 }
 
@@ -179,9 +181,9 @@ std::optional<FrameRecord> Recorder::frame(std::int64_t stamp_ns) const {
   return found->second;
 }
 
-std::optional<std::uint64_t> Recorder::last_keyframe_id() const {
+std::uint64_t Recorder::keyframes() const {
   const std::lock_guard lock(mutex_);
-  return last_keyframe_id_;
+  return keyframes_;
 }
 
 }  // namespace rds::run

@@ -38,8 +38,8 @@ class Recorder {
   [[nodiscard]] std::vector<PredictionRecord> predictions(std::int64_t stamp_ns) const;
   /// The frame's record, if it has been acknowledged.
   [[nodiscard]] std::optional<FrameRecord> frame(std::int64_t stamp_ns) const;
-  /// Id of the newest keyframe; nullopt before the first.
-  [[nodiscard]] std::optional<std::uint64_t> last_keyframe_id() const;
+  /// Keyframes of the tracker's epoch so far.
+  [[nodiscard]] std::uint64_t keyframes() const;
 
  private:
   void on_state(const rds_msgs::msg::TrackingState& message);
@@ -53,7 +53,8 @@ class Recorder {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   Recording recording_;
-  std::optional<std::uint64_t> last_keyframe_id_;
+  std::uint64_t first_keyframe_id_ = 0;  // of the epoch; those of a saved map come before it
+  std::uint64_t keyframes_ = 0;
   std::optional<std::uint64_t> last_mapped_id_;
   std::uint64_t epoch_ = 0;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "common/config/config_reader.hpp"
+#include "common/map_file/saved_map.hpp"
+#include "services/mapper/core/map_files.hpp"
 #include "tools/rds/interrupt.hpp"
 #include "tools/rds/rate_option.hpp"
 #include "tools/rds/run/run_options.hpp"
@@ -66,10 +68,30 @@ void check_poses(const RunOptions& options, const image::TumDataset& dataset) {
                                          options.poses.string(), first.stamp_text, last.stamp_text));
 }
 
+/// A saved map is whole before any service starts; of an octree the mapper says what is wrong with it.
+void check_map(RunOptions& options) {
+  namespace saved = map_file;
+  options.map_is_octree = mapper::looks_like_tree(options.map);
+  if (options.localize_only && (options.map.empty() || options.map_is_octree))
+    throw std::runtime_error("--localize-only: expected --map with a map.rds, or the folder of a run");
+  if (options.map.empty()) return;
+  if (!options.poses.empty())
+    throw std::runtime_error("--poses with --map: expected one of them, given poses know no saved map");
+  if (options.map_is_octree) {
+    fmt::print(stderr, "{}: an octree alone; it is mapped on from where the camera starts\n",
+               options.map.string());
+    return;
+  }
+  const auto sections =
+      saved::read_saved_map(options.map, {saved::kTracker, saved::kKeyframePoses, saved::kMapper});
+  if (!sections) throw std::runtime_error(sections.error());
+}
+
 int run(RunOptions& options, const std::string& vendors) {
   try {
     parse_vendors(vendors, options);
     check_files(options);
+    check_map(options);
     const auto dataset = image::TumDataset::open(options.dataset);
     if (!dataset) throw std::runtime_error(dataset.error());
     play::check_first_frame(*dataset, options.start);
@@ -107,6 +129,10 @@ void add_run_command(CLI::App& rds) {
                       "boxes from a detections.jsonl or a truth file instead of the network");
   command->add_option("--poses", options->poses,
                       "poses from a TUM trajectory instead of estimated ones; no loops are closed");
+  command->add_option("--map", options->map,
+                      "go on from a saved map: map.rds, the folder of a run, or an OctoMap tree (map.ot)");
+  command->add_flag("--localize-only", options->localize_only,
+                    "find the camera in that map and leave the map as it is");
   command
       ->add_option("--domain", options->domain,
                    "DDS domain, to listen from outside (default: one of its own)")

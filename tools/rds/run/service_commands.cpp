@@ -60,6 +60,10 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
   if (process == kTracker && !options.poses.empty())
     node["poses_file"] = fs::absolute(options.poses).string();
   if (process == kMapper) node["expect_boxes"] = options.dynamics;
+  const bool keeps_map = process == kTracker || process == kMapper || process == kLoopCloser;
+  if (keeps_map && !options.map.empty() && (process == kMapper || !options.map_is_octree))
+    node["map_file"] = fs::absolute(options.map).string();
+  if (keeps_map) node["localize_only"] = options.localize_only;
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
   if (!options.model_dir.empty()) node["model_dir"] = fs::absolute(options.model_dir).string();

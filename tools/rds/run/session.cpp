@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/map_file/saved_map.hpp"
 #include "tools/rds/run/results.hpp"
 #include "tools/rds/run/service_commands.hpp"
 #include "tools/rds/run/topology.hpp"
@@ -90,7 +91,7 @@ void Session::wait_until_connected(const std::stop_token& stop) {
       if (status.is_object() && status.contains("endpoints"))
         endpoints[name] = endpoints_of(status["endpoints"]);
     }
-    missing = missing_links(running, endpoints);
+    missing = missing_links(running, endpoints, options_.localize_only);
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
@@ -114,7 +115,8 @@ bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, cons
   if (options_.lockstep()) {
     complete_ &=
         recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit) || stop.stop_requested();
-    if (fleet_->alive(kMapper)) recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
+    if (fleet_->alive(kMapper) && !options_.localize_only)
+      recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
   fleet_->watch();
   show_progress(++played_);
@@ -127,7 +129,7 @@ void Session::show_progress(std::size_t played) {
   last_progress_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - started_).count();
   fmt::print(stderr, "\rframe {}/{}  {:.1f} frames/s  {} keyframes ", played, player_.frame_count(),
-             static_cast<double>(played) / elapsed_s, recorder_.last_keyframe_id().value_or(0) + 1);
+             static_cast<double>(played) / elapsed_s, recorder_.keyframes());
   if (played == player_.frame_count()) fmt::print(stderr, "\n");
 }
 
@@ -143,8 +145,19 @@ void Session::drain(const std::stop_token& stop) {
     complete_ &=
         recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
   map_description_ = ask(kMapper, "finish", final_poses, stop);
-  ask(kMapper, "save", folder_.path().string(), stop);
+  save_map(stop);
   status_ = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
+}
+
+/// Every service that has a part of the map writes it; together they are map.rds.
+void Session::save_map(const std::stop_token& stop) {
+  for (const std::string& service : {kTracker, kMapper, kLoopCloser})
+    if (fleet_->alive(service)) ask(service, "save", folder_.path().string(), stop);
+  if (stop.stop_requested()) return;
+  const auto merged = map_file::merge_service_files(folder_.path(), folder_.path() / map_file::kMapFile);
+  if (merged) return;
+  complete_ = false;
+  fmt::print(stderr, "{}\n", merged.error());
 }
 
 /// @return the answer; empty, and the run is not complete, if the command failed.

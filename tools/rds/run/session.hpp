@@ -34,6 +34,7 @@ class Session {
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
   void show_progress(std::size_t played);
   void drain(const std::stop_token& stop);
+  void save_map(const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
   void write_results();

@@ -42,7 +42,8 @@ std::size_t count_running(const std::set<std::string>& processes, const std::set
 }  // namespace
 
 std::vector<std::string> missing_links(const std::set<std::string>& running,
-                                       const std::map<std::string, std::vector<Endpoint>>& endpoints) {
+                                       const std::map<std::string, std::vector<Endpoint>>& endpoints,
+                                       bool localize_only) {
   std::vector<std::string> missing;
   const auto check = [&](const std::string& process, const Topic& topic, bool publisher) {
     const auto reported = endpoints.find(process);
@@ -61,7 +62,10 @@ std::vector<std::string> missing_links(const std::set<std::string>& running,
       missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads",
                                     topic.name, matched, expected, publisher ? "readers" : "writers"));
   };
-  for (const Topic& topic : topics()) {
+  static const std::set<std::string> kMapped{"rds/keyframe/images", "rds/keyframe/features", "rds/boxes"};
+  for (Topic topic : topics()) {
+    if (localize_only && kMapped.contains(topic.name))
+      std::erase_if(topic.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
     for (const std::string& writer : topic.writers) check(writer, topic, true);
     for (const std::string& reader : topic.readers) check(reader, topic, false);
   }

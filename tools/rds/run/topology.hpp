@@ -28,7 +28,9 @@ struct Endpoint {
 /// A volatile sample written before both ends know each other is lost, so a run starts when this is empty.
 /// @param endpoints  by process name, as each process reported; a process that has not reported is a missing
 /// link.
+/// @param localize_only  the mapper and the loop closer do not listen to keyframes.
 std::vector<std::string> missing_links(const std::set<std::string>& running,
-                                       const std::map<std::string, std::vector<Endpoint>>& endpoints);
+                                       const std::map<std::string, std::vector<Endpoint>>& endpoints,
+                                       bool localize_only = false);
 
 }  // namespace rds::run

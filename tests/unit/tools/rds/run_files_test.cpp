@@ -50,6 +50,14 @@ TEST_F(RunFilesTest, OptimizedTrajectoryFollowsTheReferenceKeyframe) {
   EXPECT_THAT(text("keyframes.txt"), HasSubstr("0.900000 10.000000000 "));
 }
 
+TEST_F(RunFilesTest, AFrameAtAKeyframeOfASavedMapKeepsItsPose) {
+  Recording recording = two_frames();
+  recording.frames.begin()->second.reference_keyframe_id = 3;  // the run's own begin at 4
+  EXPECT_EQ(optimized_trajectory(recording).at(0).map_from_camera.translation().x(), 1);
+  recording.frames.begin()->second.reference_keyframe_id = 5;
+  EXPECT_TRUE(optimized_trajectory(recording).empty()) << "of a keyframe that nobody knows";
+}
+
 TEST_F(RunFilesTest, TablesHaveALinePerFrame) {
   EXPECT_THAT(text("frames.csv"), HasSubstr("1.000000,TRACKING,0,0,0,0.000,0.000,0.000,0.000,1\n"));
   EXPECT_THAT(text("frames.csv"), HasSubstr("1.033000,LOST,"));

@@ -9,6 +9,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Endpoints of a detector, a tracker and the player as they report them when all links are up.
 std::map<std::string, std::vector<Endpoint>> connected() {
@@ -40,6 +41,18 @@ TEST(MissingLinks, NameTheEndAndTheTopicThatLacksPartners) {
   endpoints[kDetector][0].matched = 0;
   EXPECT_THAT(missing_links(kRunning, endpoints),
               Contains(HasSubstr("rds-detector reads rds/keyframe/images: 0 of 1 writers")));
+}
+
+TEST(MissingLinks, AMapperThatLocalizesOnlyNeedsNoKeyframes) {
+  auto endpoints = connected();
+  endpoints[kMapper] = {{"rds/keyframe/poses", false, 1}, {"rds/map/info", true, 1}, {"rds/command", false, 1},
+                        {"rds/command_result", true, 1}};
+  for (auto& [process, its] : endpoints)
+    for (Endpoint& e : its) e.matched = 9;  // enough partners
+  const std::set<std::string> running{kPlayer, kTracker, kDetector, kMapper};
+  const auto names_mapper = Contains(HasSubstr("rds-mapper reads rds/keyframe/images"));
+  EXPECT_THAT(missing_links(running, endpoints), names_mapper);
+  EXPECT_THAT(missing_links(running, endpoints, true), Not(names_mapper));
 }
 
 TEST(MissingLinks, NameAProcessThatDoesNotAnswerOnce) {

@@ -35,6 +35,8 @@ TEST_F(MapFiles, ATreeReadsBackAndOctoMapReadsItToo) {
   ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
   auto read = read_tree(folder_.path() / "map.ot");
   ASSERT_TRUE(read.has_value()) << read.error();
+  EXPECT_TRUE(looks_like_tree(folder_.path() / "map.ot"));
+  EXPECT_FALSE(looks_like_tree(folder_.path()));
   EXPECT_EQ((*read)->getResolution(), 0.05);
   EXPECT_EQ(to_bytes(**read), to_bytes(mapper_.tree()));
   const std::unique_ptr<octomap::AbstractOcTree> octomaps(

@@ -18,9 +18,13 @@ TEST(LoopCloserServiceConfig, ShippedFileSaysTheDefaults) {
   LoopCloserServiceConfig changed;
   // Values that differ from the defaults, so that a key missing from the file would show.
   changed.lockstep = true;
+  changed.map_file = "x";
+  changed.localize_only = true;
   const LoopCloserServiceConfig shipped = read_shipped(changed);
   const LoopCloserServiceConfig defaults;
   EXPECT_EQ(shipped.lockstep, defaults.lockstep);
+  EXPECT_EQ(shipped.map_file, defaults.map_file);
+  EXPECT_EQ(shipped.localize_only, defaults.localize_only);
 }
 
 }  // namespace

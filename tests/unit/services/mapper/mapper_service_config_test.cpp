@@ -22,6 +22,8 @@ TEST(MapperServiceConfig, ShippedFileSaysTheDefaults) {
   changed.boxes_timeout_s = 9;
   changed.full_map_every = 9;
   changed.local_correction_every = 9;
+  changed.map_file = "x";
+  changed.localize_only = true;
   const MapperServiceConfig shipped = read_shipped(changed);
   const MapperServiceConfig defaults;
   EXPECT_EQ(shipped.lockstep, defaults.lockstep);
@@ -29,6 +31,8 @@ TEST(MapperServiceConfig, ShippedFileSaysTheDefaults) {
   EXPECT_EQ(shipped.boxes_timeout_s, defaults.boxes_timeout_s);
   EXPECT_EQ(shipped.full_map_every, defaults.full_map_every);
   EXPECT_EQ(shipped.local_correction_every, defaults.local_correction_every);
+  EXPECT_EQ(shipped.map_file, defaults.map_file);
+  EXPECT_EQ(shipped.localize_only, defaults.localize_only);
 }
 
 TEST(MapperServiceConfig, ShippedFileSaysTheCoresDefaults) {

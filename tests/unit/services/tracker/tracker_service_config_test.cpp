@@ -29,6 +29,7 @@ TEST(TrackerServiceConfig, ShippedFileSaysTheServicesDefaults) {
   changed.lockstep.timeout_s = 9;
   changed.dynamics = false;
   changed.loop_closer = false;
+  changed.map_file = "x";
   const TrackerServiceConfig shipped = read_shipped(changed);
   const TrackerServiceConfig defaults;
   EXPECT_EQ(shipped.camera.color, defaults.camera.color);
@@ -43,6 +44,7 @@ TEST(TrackerServiceConfig, ShippedFileSaysTheServicesDefaults) {
   EXPECT_EQ(shipped.lockstep.timeout_s, defaults.lockstep.timeout_s);
   EXPECT_EQ(shipped.dynamics, defaults.dynamics);
   EXPECT_EQ(shipped.loop_closer, defaults.loop_closer);
+  EXPECT_EQ(shipped.map_file, defaults.map_file);
 }
 
 TEST(TrackerServiceConfig, ShippedFileSaysTheCoresDefaults) {
@@ -99,6 +101,7 @@ TEST(TrackerServiceConfig, ShippedFileSaysTheCoresDefaults) {
   core.quality.min_inliers = 9;
   core.quality.min_inliers_weak = 9;
   core.quality.weak_s = 9;
+  core.localize_only = true;
   EXPECT_EQ(read_shipped(changed).tracker, TrackerConfig());
 }
 
@@ -159,6 +162,13 @@ TEST(TrackerServiceConfig, ShippedFileSaysThePredictionsDefaults) {
   EXPECT_EQ(shipped.kalman3d.max_growth_m, defaults.kalman3d.max_growth_m);
   EXPECT_EQ(shipped.region.margin_px, defaults.region.margin_px);
   EXPECT_EQ(shipped.region.margin_depth_m, defaults.region.margin_depth_m);
+}
+
+TEST(TrackerServiceConfig, LocalizingNeedsAMap) {
+  config::ConfigReader reader(YAML::Load("localize_only: true"), "tracker.yaml");
+  TrackerServiceConfig config;
+  read(reader, config);
+  EXPECT_THROW(reader.finish(), config::ConfigError);
 }
 
 TEST(TrackerServiceConfig, NamesEveryViolation) {

@@ -8,11 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "common/map_file/saved_map.hpp"
 #include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/semantic_mapper.hpp"
 #include "tools/rds/bus_options.hpp"
 #include "tools/rds/exit.hpp"
 #include "tools/rds/interrupt.hpp"
 #include "tools/rds/live_map.hpp"
+#include "tools/rds/live_map_save.hpp"
 #include "tools/rds/map_export.hpp"
 
 namespace rds::tools {
@@ -43,7 +46,27 @@ LiveMap map_from_bus(const MapOptions& options) {
 
 LiveMap load(const MapOptions& options) {
   if (options.map.empty()) return map_from_bus(options);
-  return {value_or_exit(mapper::read_tree(options.map)), 0, 0, {}};
+  if (mapper::looks_like_tree(options.map)) return {value_or_exit(mapper::read_tree(options.map)), 0, 0, {}};
+  const auto sections = value_or_exit(map_file::read_saved_map(options.map, {map_file::kMapper}));
+  auto saved = value_or_exit(mapper::tree_from_map_bytes(sections.at(map_file::kMapper)));
+  return {std::move(saved.tree), 0, 0, std::move(saved.labels)};
+}
+
+/// All that running services know, for them to go on from.
+void save_all(const MapOptions& options) {
+  if (!options.map.empty())
+    exit_with(kExitBadInput,
+              fmt::format("{}: expected no --map, an .rds is written by running services", options.output));
+  const Interrupt interrupt;
+  try {
+    const auto participant = bus::Participant::create(options.bus.participant("rds_map"));
+    const auto saved = save_live_map(*participant, options.output,
+                                     std::chrono::duration<double>(options.timeout_s), interrupt.token());
+    if (!saved) exit_with(kExitFault, saved.error());
+  } catch (const bus::BusError& e) {
+    exit_with(kExitFault, e.what());
+  }
+  fmt::print("{}\n", options.output);
 }
 
 void info(const MapOptions& options) {
@@ -66,6 +89,10 @@ void write(const MapOptions& options, const std::string& format) {
   fmt::print("{}\n", options.output);
 }
 
+bool is_rds(const std::filesystem::path& file) {
+  return file.extension() == ".rds";
+}
+
 void query(const MapOptions& options) {
   const LiveMap map = load(options);
   const Eigen::Vector3d point(options.point[0], options.point[1], options.point[2]);
@@ -76,7 +103,7 @@ void query(const MapOptions& options) {
 CLI::App* add_subcommand(CLI::App& map, const std::string& name, const std::string& description,
                          const std::shared_ptr<MapOptions>& options, void (*action)(const MapOptions&)) {
   auto* command = map.add_subcommand(name, description);
-  command->add_option("--map", options->map, "A saved map.ot (default: the live map)");
+  command->add_option("--map", options->map, "A saved map.ot or map.rds (default: the live map)");
   command->add_option("--timeout", options->timeout_s, "Wait so long for the live map [s]")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
@@ -93,9 +120,11 @@ void add_map_command(CLI::App& rds) {
   add_subcommand(*map, "info", "Size, bounds and contents", std::make_shared<MapOptions>(), info);
 
   const auto saved = std::make_shared<MapOptions>();
-  auto* save = add_subcommand(*map, "save", "Write the map as OctoMap .ot", saved,
-                              [](const MapOptions& options) { write(options, "ot"); });
-  save->add_option("file", saved->output, "File to write")->required();
+  auto* save = add_subcommand(
+      *map, "save", "Write the map as OctoMap .ot, or as .rds for the services to go on from", saved,
+      [](const MapOptions& options) { is_rds(options.output) ? save_all(options) : write(options, "ot"); });
+  save->add_option("file", saved->output, "File to write; .rds: the services share this file system")
+      ->required();
 
   const auto exported = std::make_shared<MapOptions>();
   auto* exporting =

@@ -160,6 +160,20 @@ tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::
   return {};
 }
 
+tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes) {
+  ByteReader reader(bytes);
+  SavedTree saved;
+  saved.labels = get_labels(reader).names();
+  map_file::get_vector(reader);
+  const auto resolution = reader.get<double>();
+  const auto nodes = reader.get_bytes(reader.get_count(1));
+  if (!reader.ok()) return tl::unexpected(reader.finish().error());
+  auto tree = tree_from_bytes(nodes, resolution);
+  if (!tree) return tl::unexpected(tree.error());
+  saved.tree = std::move(*tree);
+  return saved;
+}
+
 tl::expected<void, std::string> SemanticMapper::start_from(octomap::ColorOcTree&& tree) {
   if (std::abs(tree.getResolution() - config_.octree.resolution_m) > kSameResolution)
     return tl::unexpected(other_resolution(tree.getResolution(), config_.octree.resolution_m));

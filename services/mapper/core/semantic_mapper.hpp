@@ -108,4 +108,11 @@ class SemanticMapper {
   std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
 };
 
+/// What SemanticMapper::to_bytes() gave, as far as one looks into a map with it: of any resolution.
+struct SavedTree {
+  std::unique_ptr<octomap::ColorOcTree> tree;
+  std::vector<std::string> labels;
+};
+tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes);
+
 }  // namespace rds::mapper

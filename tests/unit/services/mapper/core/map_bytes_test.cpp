@@ -57,6 +57,14 @@ TEST_F(SavedMapper, TheWholeMapComesBack) {
   EXPECT_EQ(mapper.revision(), 1U);
 }
 
+TEST_F(SavedMapper, ItsTreeCanBeLookedInto) {
+  const auto saved = tree_from_map_bytes(bytes);
+  ASSERT_TRUE(saved) << saved.error();
+  EXPECT_EQ(to_bytes(*saved->tree), tree);
+  EXPECT_THAT(saved->labels, testing::ElementsAre("", "tvmonitor"));
+  EXPECT_FALSE(tree_from_map_bytes(std::span(bytes).first(100)));
+}
+
 TEST_F(SavedMapper, GoesOnAsIfItHadNeverStopped) {
   SemanticMapper whole(MapperConfig{});
   for (std::uint64_t id = 0; id < 6; ++id) whole.integrate(keyframe(id, 0.01 * static_cast<double>(id)));

@@ -17,18 +17,23 @@ struct Cell {
   Iterator begin;
   Iterator end;
   float x0, y0, x1, y1;
+  int depth;          // in the tree
   std::size_t order;  // of making, so that equally full cells have a fixed sequence
 
   [[nodiscard]] auto count() const { return end - begin; }
 };
 
-struct LessFull {
+/// The cell with the largest product of corners and area is split next. By corners alone a crowd would be
+/// split until it has all cells there are; by area alone, the strong corners of rich texture would give way
+/// to any weak one.
+struct SplitLater {
+  static double urgency(const Cell& c) { return std::ldexp(static_cast<double>(c.count()), -2 * c.depth); }
   bool operator()(const Cell& a, const Cell& b) const {
-    return a.count() != b.count() ? a.count() < b.count() : a.order > b.order;
+    return std::tuple(urgency(a), b.order) < std::tuple(urgency(b), a.order);
   }
 };
 
-using CellQueue = std::priority_queue<Cell, std::vector<Cell>, LessFull>;
+using CellQueue = std::priority_queue<Cell, std::vector<Cell>, SplitLater>;
 
 constexpr float kSmallestCell = 2;  // px; corners nearer than this are one
 
@@ -39,9 +44,11 @@ void split(const Cell& cell, CellQueue& queue, std::size_t& made) {
   const auto is_left = [x](const Corner& c) { return c.x < x; };
   const auto top = std::partition(cell.begin, middle, is_left);
   const auto bottom = std::partition(middle, cell.end, is_left);
-  const std::array quarters{
-      Cell{cell.begin, top, cell.x0, cell.y0, x, y, 0}, Cell{top, middle, x, cell.y0, cell.x1, y, 0},
-      Cell{middle, bottom, cell.x0, y, x, cell.y1, 0}, Cell{bottom, cell.end, x, y, cell.x1, cell.y1, 0}};
+  const int depth = cell.depth + 1;
+  const std::array quarters{Cell{cell.begin, top, cell.x0, cell.y0, x, y, depth, 0},
+                            Cell{top, middle, x, cell.y0, cell.x1, y, depth, 0},
+                            Cell{middle, bottom, cell.x0, y, x, cell.y1, depth, 0},
+                            Cell{bottom, cell.end, x, y, cell.x1, cell.y1, depth, 0}};
   for (Cell quarter : quarters) {
     if (quarter.count() == 0) continue;
     quarter.order = made++;
@@ -60,7 +67,7 @@ CellQueue first_cells(std::vector<Corner>& corners, float width, float height, s
     const auto end = c + 1 == columns ? corners.end()
                                       : std::partition(begin, corners.end(),
                                                        [x1](const Corner& corner) { return corner.x < x1; });
-    if (end != begin) queue.push({begin, end, x0, 0, x1, height, made++});
+    if (end != begin) queue.push({begin, end, x0, 0, x1, height, 0, made++});
     begin = end;
   }
   return queue;

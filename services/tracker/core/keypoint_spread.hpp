@@ -13,8 +13,9 @@ struct Corner {
   float score = 0;
 };
 
-/// Chooses at most `wanted` corners so that they cover the picture evenly: a quadtree splits its fullest cell
-/// until there are `wanted` cells, then every cell keeps its strongest corner.
+/// Chooses at most `wanted` corners so that they cover the picture evenly: a quadtree splits the cell with
+/// the largest product of corners and area until there are `wanted` cells, then every cell keeps its
+/// strongest corner.
 ///
 /// @param corners  inside [0, width) × [0, height); reordered.
 /// @return the chosen ones in a fixed order; all of them if there are no more than `wanted`.

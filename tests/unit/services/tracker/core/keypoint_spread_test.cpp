@@ -31,6 +31,16 @@ TEST(KeypointSpread, GivesAsManyAsWanted) {
   EXPECT_EQ(spread_evenly(corners, 600, 440, 300).size(), 300U);
 }
 
+TEST(KeypointSpread, CrowdedCornersLeaveRoomForTheRest) {
+  auto corners = crowded();
+  std::array<int, 12> in_block{};
+  for (const Corner& c : spread_evenly(corners, 600, 440, 300))
+    ++in_block[static_cast<std::size_t>(4 * static_cast<int>(c.y / 147) + static_cast<int>(c.x / 150))];
+  const auto [fewest, most] = std::ranges::minmax(in_block);
+  EXPECT_GE(fewest, 5);
+  EXPECT_LE(most, 120);
+}
+
 TEST(KeypointSpread, KeepsTheStrongestOfNeighbours) {
   std::vector<Corner> corners{{10, 10, 1}, {11, 10, 5}, {12, 10, 2}, {90, 90, 1}};
   const auto chosen = spread_evenly(corners, 100, 100, 2);

@@ -278,6 +278,7 @@ service::CommandOutcome TrackerService::save(const std::string& folder) const {
 }
 
 service::CommandOutcome TrackerService::load(const std::string& saved_map) {
+  if (!config_.poses_file.empty()) return {false, "poses are given by poses_file, which know no saved map"};
   if (const auto read = read_start(saved_map); !read) return {false, read.error()};
   reset();
   return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};

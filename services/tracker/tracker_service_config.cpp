@@ -33,6 +33,9 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   reader.value("poses_file", config.poses_file);
   reader.value("poses_max_gap_s", config.poses_max_gap_s, 0.0, 3600.0, "s");
   reader.value("map_file", config.map_file);
+  if (!config.poses_file.empty() && !config.map_file.empty())
+    reader.violation("poses_file", config.poses_file,
+                     "expected no map_file beside it, given poses know no saved map");
   read(reader, config.tracker);
   if (config.tracker.localize_only && config.map_file.empty())
     reader.violation("localize_only", "true", "expected a map_file to localise in");

@@ -171,6 +171,13 @@ TEST(TrackerServiceConfig, LocalizingNeedsAMap) {
   EXPECT_THROW(reader.finish(), config::ConfigError);
 }
 
+TEST(TrackerServiceConfig, GivenPosesKnowNoSavedMap) {
+  config::ConfigReader reader(YAML::Load("{poses_file: poses.txt, map_file: map.rds}"), "tracker.yaml");
+  TrackerServiceConfig config;
+  read(reader, config);
+  EXPECT_THROW(reader.finish(), config::ConfigError);
+}
+
 TEST(TrackerServiceConfig, NamesEveryViolation) {
   config::ConfigReader reader(
       YAML::Load("{lockstep_timeout_s: 0, camera: {pairing_tolerance_s: 3, colour: x}}"), "tracker.yaml");

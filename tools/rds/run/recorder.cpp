@@ -36,7 +36,8 @@ FrameRecord to_record(const rds_msgs::msg::TrackingState& m) {
           .reference_keyframe_id = m.reference_keyframe_id(),
           .map_from_camera = messages::to_pose(m.map_from_camera()).value_or(geometry::Pose::Identity()),
           .reference_from_camera =
-              messages::to_pose(m.reference_from_camera()).value_or(geometry::Pose::Identity())};
+              messages::to_pose(m.reference_from_camera()).value_or(geometry::Pose::Identity()),
+          .map_epoch = m.map_epoch()};
 }
 
 Eigen::Vector3d vector_at(const std::vector<double>& flat, std::size_t i) {
@@ -114,6 +115,7 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
       recording_.keyframes[message.keyframe_ids()[i]] = {message.stamps()[i],
                                                          messages::pose_at(message.poses(), i)};
     recording_.keyframes_revision = message.revision();
+    recording_.map_epoch = message.map_epoch();
     recording_.loops_closed = message.loops_closed();
   }
   changed_.notify_all();

@@ -28,6 +28,7 @@ struct FrameRecord {
   std::uint64_t reference_keyframe_id = 0;
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   geometry::Pose reference_from_camera = geometry::Pose::Identity();
+  std::uint64_t map_epoch = 0;
 };
 
 struct PredictionRecord {
@@ -57,7 +58,8 @@ struct Recording {
   std::map<std::int64_t, FrameRecord> frames;
   std::map<std::int64_t, std::vector<PredictionRecord>> predictions;
   std::map<std::int64_t, std::vector<DetectionRecord>> detections;
-  std::map<std::uint64_t, KeyframeRecord> keyframes;
+  std::map<std::uint64_t, KeyframeRecord> keyframes;  // of the last map epoch
+  std::uint64_t map_epoch = 0;                        // that one
   std::uint64_t keyframes_revision = 0;
   std::uint32_t loops_closed = 0;
   std::uint64_t frames_dropped = 0;

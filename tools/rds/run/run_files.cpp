@@ -101,16 +101,16 @@ std::vector<StampedPose> live_trajectory(const Recording& recording) {
 std::vector<StampedPose> optimized_trajectory(const Recording& recording) {
   std::vector<StampedPose> poses;
   // Keyframes of a saved map come before those of the run. They do not move, so a pose relative to one is
-  // final.
+  // final. So is a pose of an earlier epoch: its keyframes have gone with their tracker.
   const std::uint64_t first = recording.keyframes.empty() ? std::numeric_limits<std::uint64_t>::max()
                                                           : recording.keyframes.begin()->first;
   for (const auto& [stamp, frame] : recording.frames) {
-    const auto reference = recording.keyframes.find(frame.reference_keyframe_id);
     if (!frame.has_pose) continue;
-    if (reference != recording.keyframes.end())
-      poses.push_back({stamp, reference->second.map_from_camera * frame.reference_from_camera, {}});
-    else if (frame.reference_keyframe_id < first)
+    const auto reference = recording.keyframes.find(frame.reference_keyframe_id);
+    if (frame.map_epoch != recording.map_epoch || frame.reference_keyframe_id < first)
       poses.push_back({stamp, frame.map_from_camera, {}});
+    else if (reference != recording.keyframes.end())
+      poses.push_back({stamp, reference->second.map_from_camera * frame.reference_from_camera, {}});
   }
   return poses;
 }

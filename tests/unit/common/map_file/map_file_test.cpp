@@ -64,7 +64,7 @@ TEST(MapFile, SaysWhichFileAndWhatWasExpected) {
   write_bytes(file, bytes);
   EXPECT_THAT(fault(), HasSubstr("has format version 2, expected 1"));
   bytes = to_bytes(kSections);
-  bytes.resize(bytes.size() - 1);
+  bytes.pop_back();
   write_bytes(file, bytes);
   EXPECT_THAT(fault(), HasSubstr("is torn"));
   bytes = to_bytes(kSections);

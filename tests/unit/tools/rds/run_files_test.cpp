@@ -27,7 +27,8 @@ Recording two_frames() {
                              .reference_from_camera = at(0.5)};
   r.frames[1'033'000'000] = {.stamp_ns = 1'033'000'000, .state = "LOST", .has_pose = false};
   r.keyframes[4] = {900'000'000, at(10)};
-  r.predictions[1'000'000'000] = {{.id = 7, .label = "person", .box = {1, 2, 3.456, 4}, .volume = {}, .age_s = 0.1}};
+  r.predictions[1'000'000'000] = {
+      {.id = 7, .label = "person", .box = {1, 2, 3.456, 4}, .volume = {}, .age_s = 0.1}};
   r.predictions[1'033'000'000] = {};
   r.detections[900'000'000] = {{"person", 0.9, {1, 2, 3, 4}, 1.5}};
   return r;
@@ -58,11 +59,18 @@ TEST_F(RunFilesTest, AFrameAtAKeyframeOfASavedMapKeepsItsPose) {
   EXPECT_TRUE(optimized_trajectory(recording).empty()) << "of a keyframe that nobody knows";
 }
 
+TEST_F(RunFilesTest, AFrameOfATrackerThatDiedKeepsItsPose) {
+  Recording recording = two_frames();
+  recording.map_epoch = 8;  // in which another keyframe has the same id
+  EXPECT_EQ(optimized_trajectory(recording).at(0).map_from_camera.translation().x(), 1);
+}
+
 TEST_F(RunFilesTest, TablesHaveALinePerFrame) {
   EXPECT_THAT(text("frames.csv"), HasSubstr("1.000000,TRACKING,0,0,0,0.000,0.000,0.000,0.000,1\n"));
   EXPECT_THAT(text("frames.csv"), HasSubstr("1.033000,LOST,"));
-  EXPECT_THAT(text("predictions.jsonl"),
-              HasSubstr(R"({"stamp": 1.000000, "boxes": [{"id":7,"label":"person","box":[1.0,2.0,3.46,4.0])"));
+  EXPECT_THAT(
+      text("predictions.jsonl"),
+      HasSubstr(R"({"stamp": 1.000000, "boxes": [{"id":7,"label":"person","box":[1.0,2.0,3.46,4.0])"));
   EXPECT_THAT(text("predictions.jsonl"), HasSubstr(R"({"stamp": 1.033000, "boxes": []})"));
   EXPECT_THAT(text("detections.jsonl"), HasSubstr(R"("score":0.9,"box":[1.0,2.0,3.0,4.0],"depth_m":1.5)"));
 }

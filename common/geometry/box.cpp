@@ -8,7 +8,9 @@ namespace {
 constexpr double kNearPlaneM = 0.05;
 }
 
-double Box2::area() const { return std::max(0.0, width()) * std::max(0.0, height()); }
+double Box2::area() const {
+  return std::max(0.0, width()) * std::max(0.0, height());
+}
 
 Box2 Box2::clipped(int image_width, int image_height) const {
   const double w = image_width;
@@ -34,7 +36,8 @@ std::optional<Box2> project(const Box3& box_in_map, const Pose& camera_from_map,
     p = camera_from_map * p;
     any_in_front |= p.z() > kNearPlaneM;
     p.z() = std::max(p.z(), kNearPlaneM);
-    // A corner far outside the image would fold back under a distortion polynomial: the ideal camera bounds it.
+    // A corner far outside the image would fold back under a distortion polynomial: the ideal camera bounds
+    // it.
     const Eigen::Vector2d pixel = camera.project_undistorted(p);
     hull = {std::min(hull.x0, pixel.x()), std::min(hull.y0, pixel.y()), std::max(hull.x1, pixel.x()),
             std::max(hull.y1, pixel.y())};

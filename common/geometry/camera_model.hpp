@@ -9,7 +9,8 @@ namespace rds::geometry {
 
 /// Pinhole camera with radial-tangential distortion (k1 k2 p1 p2 k3), depth registered to colour.
 ///
-/// Pixels: centre of the top-left pixel is (0, 0). Camera frame: x right, y down, z forward (REP-103 optical).
+/// Pixels: centre of the top-left pixel is (0, 0). Camera frame: x right, y down, z forward (REP-103
+/// optical).
 struct CameraModel {
   int width = 0;
   int height = 0;

@@ -53,9 +53,8 @@ bool is_valid(const OrientedBox& box) {
   return is_finite(box.map_from_box) && box.size.allFinite() && (box.size.array() > 0).all();
 }
 
-std::optional<Box2> whole_image_box(const OrientedBox& box,
-                                              const Pose& camera_from_map,
-                                              const CameraModel& camera) {
+std::optional<Box2> whole_image_box(const OrientedBox& box, const Pose& camera_from_map,
+                                    const CameraModel& camera) {
   const Pose camera_from_box = camera_from_map * box.map_from_box;
   const Eigen::Vector3d center = camera_from_box.translation();
   if (!is_finite(camera_from_box) || !(center.z() > kNearestCenterM)) return std::nullopt;
@@ -66,9 +65,8 @@ std::optional<Box2> whole_image_box(const OrientedBox& box,
   return Box2{top_left.x(), top_left.y(), bottom_right.x(), bottom_right.y()};
 }
 
-std::optional<Box2> image_box(const OrientedBox& box,
-                                        const Pose& camera_from_map,
-                                        const CameraModel& camera) {
+std::optional<Box2> image_box(const OrientedBox& box, const Pose& camera_from_map,
+                              const CameraModel& camera) {
   const auto whole = whole_image_box(box, camera_from_map, camera);
   if (!whole) return std::nullopt;
   const Box2 visible = whole->clipped(camera.width, camera.height);

@@ -41,13 +41,10 @@ bool is_valid(const OrientedBox& box);
 ///
 /// @return with the parts outside the picture; nullopt if the centre is not in front of the camera.
 /// Source: paper §IV-B, eq. (1), P_c = T_cw · P_wp.
-std::optional<Box2> whole_image_box(const OrientedBox& box,
-                                              const Pose& camera_from_map,
-                                              const CameraModel& camera);
+std::optional<Box2> whole_image_box(const OrientedBox& box, const Pose& camera_from_map,
+                                    const CameraModel& camera);
 
 /// whole_image_box() clipped to the picture; nullopt if nothing of it is there.
-std::optional<Box2> image_box(const OrientedBox& box,
-                                        const Pose& camera_from_map,
-                                        const CameraModel& camera);
+std::optional<Box2> image_box(const OrientedBox& box, const Pose& camera_from_map, const CameraModel& camera);
 
 }  // namespace rds::geometry

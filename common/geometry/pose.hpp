@@ -16,7 +16,9 @@ inline Pose make_pose(const Eigen::Vector3d& translation, const Eigen::Quaternio
   return pose;
 }
 
-inline bool is_finite(const Pose& pose) { return pose.matrix().allFinite(); }
+inline bool is_finite(const Pose& pose) {
+  return pose.matrix().allFinite();
+}
 
 /// Rotation angle [rad], 0 … π.
 inline double rotation_angle_rad(const Eigen::Matrix3d& rotation) {

@@ -12,7 +12,8 @@ namespace rds::image {
 
 enum class ChannelOrder { kBgr, kRgb };
 
-/// 8-bit three-channel picture; `pixels` may point into memory that `owner` keeps alive (no copy of a message).
+/// 8-bit three-channel picture; `pixels` may point into memory that `owner` keeps alive (no copy of a
+/// message).
 struct ColorImage {
   cv::Mat pixels;  // CV_8UC3
   ChannelOrder order = ChannelOrder::kBgr;
@@ -24,7 +25,8 @@ struct ColorImage {
   [[nodiscard]] cv::Mat bgr() const;
 };
 
-/// Depth along the optical axis, registered to the colour picture: CV_16UC1 or CV_32FC1 times `metres_per_unit`.
+/// Depth along the optical axis, registered to the colour picture: CV_16UC1 or CV_32FC1 times
+/// `metres_per_unit`.
 struct DepthImage {
   cv::Mat values;
   float metres_per_unit = 0.001F;

@@ -66,8 +66,7 @@ tl::expected<void, std::string> TumDataset::read_camera() {
 tl::expected<void, std::string> TumDataset::pair_frames(const TumDatasetOptions& options) {
   const auto color_stamps = stamps_of(color_);
   const auto depth_stamps = stamps_of(depth_);
-  const auto pairs =
-      geometry::pair_in_order(color_stamps, depth_stamps, options.pairing_tolerance_ns);
+  const auto pairs = geometry::pair_in_order(color_stamps, depth_stamps, options.pairing_tolerance_ns);
   for (const auto& [i, j] : pairs) {
     const auto& color = color_.entries[i];
     const auto& depth = depth_.entries[j];

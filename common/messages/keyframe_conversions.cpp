@@ -32,7 +32,8 @@ tl::expected<image::RgbdFrame, std::string> to_rgbd_frame(
   if (color->pixels.size() != size || depth->values.size() != size)
     return tl::unexpected<std::string>("colour, depth and intrinsics are of different sizes");
   if (const auto pose = to_pose(message->map_from_camera()); !pose) return tl::unexpected(pose.error());
-  return image::RgbdFrame{to_nanoseconds(message->header().stamp()), std::move(*color), std::move(*depth), *camera};
+  return image::RgbdFrame{to_nanoseconds(message->header().stamp()), std::move(*color), std::move(*depth),
+                          *camera};
 }
 
 void append_pose(const geometry::Pose& pose, std::vector<double>& flat) {
@@ -50,7 +51,8 @@ std::string fault_of(const rds_msgs::msg::KeyFramePoses& message) {
   const std::size_t count = message.keyframe_ids().size();
   if (message.stamps().size() != count || message.poses().size() != kPoseNumbers * count)
     return "arrays of lengths that do not fit";
-  if (!std::ranges::all_of(message.poses(), [](double x) { return std::isfinite(x); })) return "a pose that is not finite";
+  if (!std::ranges::all_of(message.poses(), [](double x) { return std::isfinite(x); }))
+    return "a pose that is not finite";
   for (std::size_t i = 0; i < count; ++i)
     if (const auto* q = &message.poses()[kPoseNumbers * i + 3];
         std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) > 0.01)

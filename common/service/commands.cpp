@@ -19,7 +19,8 @@ void CommandServer::receive(const rds_msgs::msg::Command& command) {
   const std::uint64_t id = command.request_id();
   if (command.verb() == "status") return answer(id, {true, status()});
   spdlog::info("command {} {}", command.verb(), command.argument());
-  service_.post({command.verb(), command.argument(), [this, id](const auto& outcome) { answer(id, outcome); }});
+  service_.post(
+      {command.verb(), command.argument(), [this, id](const auto& outcome) { answer(id, outcome); }});
 }
 
 void CommandServer::answer(std::uint64_t request_id, const CommandOutcome& outcome) {

@@ -66,7 +66,8 @@ std::vector<std::pair<std::string, std::string>> Diagnostics::figures() const {
     all.emplace_back(name + " p99 [ms]", fmt::format("{:.3f}", window.quantile_ms(0.99)));
   }
   for (const auto& [name, read] : gauges_) all.emplace_back(name, fmt::format("{}", read()));
-  for (const auto& [what, count] : rejections_) all.emplace_back("rejected " + what, fmt::format("{}", count));
+  for (const auto& [what, count] : rejections_)
+    all.emplace_back("rejected " + what, fmt::format("{}", count));
   return all;
 }
 

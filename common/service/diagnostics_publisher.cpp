@@ -49,7 +49,8 @@ void DiagnosticsPublisher::publish() {
     troubles += endpoint.dropped;
   }
   status.level(troubles > troubles_before_ ? kWarn : kOk);
-  status.message(troubles > troubles_before_ ? fmt::format("{} messages dropped", troubles - troubles_before_) : "");
+  status.message(troubles > troubles_before_ ? fmt::format("{} messages dropped", troubles - troubles_before_)
+                                             : "");
   troubles_before_ = troubles;
   diagnostic_msgs::msg::DiagnosticArray report;
   const auto now = std::chrono::system_clock::now().time_since_epoch();

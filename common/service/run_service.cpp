@@ -40,7 +40,8 @@ sigset_t stop_signals() {
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", RDS_VERSION);
-  app.add_option("--bus", options.vendor, "fastdds or cyclonedds")->check(CLI::IsMember({"fastdds", "cyclonedds"}));
+  app.add_option("--bus", options.vendor, "fastdds or cyclonedds")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   app.add_option("--domain", options.domain, "DDS domain (default: ROS_DOMAIN_ID or 0)")
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
@@ -71,8 +72,8 @@ int run_until_signal(Service& service) {
 }
 
 int start(const std::string& name, const Options& options, const ServiceFactory& factory) {
-  auto reader =
-      options.config_path.empty() ? config::ConfigReader() : config::ConfigReader::from_file(options.config_path);
+  auto reader = options.config_path.empty() ? config::ConfigReader()
+                                            : config::ConfigReader::from_file(options.config_path);
   auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
                                                .domain = options.domain,
                                                .node_name = name,
@@ -90,7 +91,8 @@ int start(const std::string& name, const Options& options, const ServiceFactory&
 }  // namespace
 
 int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory) {
-  const sigset_t signals = stop_signals();  // blocked before any thread starts, so that only sigwait sees them
+  const sigset_t signals =
+      stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{name + ", a service of RDS-SLAM"};

@@ -31,10 +31,11 @@ class NetworkSource : public DetectionSource {
   Detector detector_;
 };
 
-/// A recorded detections.jsonl, or a truth file people.json ("frames" with timestamp, people, box and distance).
+/// A recorded detections.jsonl, or a truth file people.json ("frames" with timestamp, people, box and
+/// distance).
 ///
-/// A keyframe gets the boxes of the record with the nearest stamp within 5 ms, or none. Boxes without a depth get it
-/// from the keyframe's depth picture.
+/// A keyframe gets the boxes of the record with the nearest stamp within 5 ms, or none. Boxes without a depth
+/// get it from the keyframe's depth picture.
 class RecordedSource : public DetectionSource {
  public:
   /// @throws DetectorError naming the file and line that is not understood.

@@ -27,7 +27,8 @@ Detection detection_of(const json& value, const std::string& label, const char* 
   const auto& box = value.at("box");
   return {.label = label,
           .score = value.value("score", 1.0F),
-          .box = {box.at(0).get<double>(), box.at(1).get<double>(), box.at(2).get<double>(), box.at(3).get<double>()},
+          .box = {box.at(0).get<double>(), box.at(1).get<double>(), box.at(2).get<double>(),
+                  box.at(3).get<double>()},
           .depth_m = value.value(depth_key, 0.0F)};
 }
 
@@ -63,8 +64,8 @@ RecordedSource::RecordedSource(const std::filesystem::path& file, BoxDepthConfig
     }
   } catch (const std::exception& e) {
     throw DetectorError(fmt::format(
-        "{}:{}: {}, expected detections as in detections.jsonl, or people.json with frames and people", file.string(),
-        number, e.what()));
+        "{}:{}: {}, expected detections as in detections.jsonl, or people.json with frames and people",
+        file.string(), number, e.what()));
   }
 }
 
@@ -72,7 +73,8 @@ std::vector<Detection> RecordedSource::detections(const image::RgbdFrame& frame)
   auto record = by_stamp_.lower_bound(frame.stamp_ns - kStampToleranceNs);
   if (record == by_stamp_.end() || record->first > frame.stamp_ns + kStampToleranceNs) return {};
   const auto next = std::next(record);
-  if (next != by_stamp_.end() && std::abs(next->first - frame.stamp_ns) < std::abs(record->first - frame.stamp_ns))
+  if (next != by_stamp_.end() &&
+      std::abs(next->first - frame.stamp_ns) < std::abs(record->first - frame.stamp_ns))
     record = next;
   std::vector<Detection> detections = record->second;
   for (Detection& d : detections)

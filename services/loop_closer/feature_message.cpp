@@ -21,10 +21,12 @@ bool lengths_fit(const rds_msgs::msg::KeyFrameFeatures& m, std::size_t features,
 
 }  // namespace
 
-tl::expected<KeyframeFeatures, std::string> to_keyframe_features(const rds_msgs::msg::KeyFrameFeatures& message) {
+tl::expected<KeyframeFeatures, std::string> to_keyframe_features(
+    const rds_msgs::msg::KeyFrameFeatures& message) {
   const std::size_t count = message.points().size() / 3;
   const std::size_t covisible = message.covisible_keyframes().size();
-  if (!lengths_fit(message, count, covisible)) return tl::unexpected<std::string>("arrays of lengths that do not fit");
+  if (!lengths_fit(message, count, covisible))
+    return tl::unexpected<std::string>("arrays of lengths that do not fit");
   KeyframeFeatures keyframe;
   keyframe.map_epoch = message.map_epoch();
   keyframe.id = message.keyframe_id();
@@ -37,7 +39,8 @@ tl::expected<KeyframeFeatures, std::string> to_keyframe_features(const rds_msgs:
                              .clone();
   keyframe.points.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
-    keyframe.points.emplace_back(message.points()[3 * i], message.points()[3 * i + 1], message.points()[3 * i + 2]);
+    keyframe.points.emplace_back(message.points()[3 * i], message.points()[3 * i + 1],
+                                 message.points()[3 * i + 2]);
   keyframe.movable = message.movable();
   for (std::size_t i = 0; i < covisible; ++i)
     keyframe.covisible.push_back({message.covisible_keyframes()[i], message.covisible_weights()[i],

@@ -12,6 +12,7 @@ namespace rds::loop_closer {
 
 /// A keyframe from the bus.
 /// @return or one sentence: arrays whose lengths do not fit together, a pose that is not finite.
-tl::expected<KeyframeFeatures, std::string> to_keyframe_features(const rds_msgs::msg::KeyFrameFeatures& message);
+tl::expected<KeyframeFeatures, std::string> to_keyframe_features(
+    const rds_msgs::msg::KeyFrameFeatures& message);
 
 }  // namespace rds::loop_closer

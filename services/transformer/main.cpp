@@ -3,5 +3,6 @@
 
 int main(int argc, char** argv) {
   using namespace rds::transformer;
-  return rds::service::run_service<TransformerService, TransformerServiceConfig>("rds-transformer", argc, argv);
+  return rds::service::run_service<TransformerService, TransformerServiceConfig>("rds-transformer", argc,
+                                                                                 argv);
 }

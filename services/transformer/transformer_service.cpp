@@ -12,7 +12,8 @@ constexpr std::size_t kMaxPoses = 2000;
 constexpr std::uint8_t kLocal = 0;
 }  // namespace
 
-TransformerService::TransformerService(service::ServiceContext& context, const TransformerServiceConfig& config)
+TransformerService::TransformerService(service::ServiceContext& context,
+                                       const TransformerServiceConfig& config)
     : Service(context),
       config_(config),
       detections_inbox_(mailbox_, kMaxWaiting),
@@ -31,8 +32,8 @@ TransformerService::TransformerService(service::ServiceContext& context, const T
 
 void TransformerService::run(const std::stop_token& stop) {
   while (mailbox_.wait(stop, [this] {
-    return !detections_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !camera_inbox_.locked_empty() ||
-           !commands_.locked_empty();
+    return !detections_inbox_.locked_empty() || !poses_inbox_.locked_empty() ||
+           !camera_inbox_.locked_empty() || !commands_.locked_empty();
   })) {
     handle_commands();
     take_camera();
@@ -61,7 +62,8 @@ void TransformerService::take_pose_messages() {
     }
     if ((*message)->map_epoch() != map_epoch_) map_from_camera_by_stamp_.clear();
     map_epoch_ = (*message)->map_epoch();
-    for (const auto& pose : *poses) map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
+    for (const auto& pose : *poses)
+      map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
   }
   while (map_from_camera_by_stamp_.size() > kMaxPoses)
     map_from_camera_by_stamp_.erase(map_from_camera_by_stamp_.begin());
@@ -90,8 +92,8 @@ void TransformerService::lift(const Detections& detections, const geometry::Pose
   if (!found) return context_.diagnostics.reject("rds/detections", found.error());
   std::vector<messages::SpatialDetection> boxes;
   for (const auto& detection : *found) {
-    const auto volume = box_in_map(detection.box, detection.depth_m, detection.label, map_from_camera, *camera_,
-                                   config_.transformer);
+    const auto volume = box_in_map(detection.box, detection.depth_m, detection.label, map_from_camera,
+                                   *camera_, config_.transformer);
     if (volume)
       boxes.push_back({detection.label, detection.score, *volume, {}});
     else
@@ -101,7 +103,8 @@ void TransformerService::lift(const Detections& detections, const geometry::Pose
   boxes_.write(messages::to_detection_message(boxes, header));
 }
 
-service::CommandOutcome TransformerService::execute(const std::string& verb, const std::string& /*argument*/) {
+service::CommandOutcome TransformerService::execute(const std::string& verb,
+                                                    const std::string& /*argument*/) {
   if (verb == "reset") {
     map_from_camera_by_stamp_.clear();
     waiting_.clear();

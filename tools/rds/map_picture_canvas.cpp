@@ -103,7 +103,9 @@ void Canvas::triangle(const std::array<ScreenPoint, 3>& p, const std::array<floa
 void Canvas::line(const ScreenPoint& from, const ScreenPoint& to, const cv::Vec3f& bgr, int thickness_px,
                   float alpha, float hidden_alpha) {
   if (!(from.z() > kNearest) || !(to.z() > kNearest)) return;
-  if (!(from.head<2>().cwiseAbs().maxCoeff() < kFarOutside && to.head<2>().cwiseAbs().maxCoeff() < kFarOutside)) return;
+  if (!(from.head<2>().cwiseAbs().maxCoeff() < kFarOutside &&
+        to.head<2>().cwiseAbs().maxCoeff() < kFarOutside))
+    return;
   const float length = (to - from).head<2>().norm();
   const int steps = static_cast<int>(std::min(length, 20000.0F)) + 1;
   const int reach = thickness_px / 2;

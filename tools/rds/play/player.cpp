@@ -47,7 +47,8 @@ Player::Player(bus::Participant& bus, const image::TumDataset& dataset, const Pl
       options_(options),
       color_(bus.advertise<sensor_msgs::msg::Image>("camera/color/image_raw", bus::kSensor)),
       camera_info_(bus.advertise<sensor_msgs::msg::CameraInfo>("camera/color/camera_info", bus::kSensor)),
-      depth_(bus.advertise<sensor_msgs::msg::Image>("camera/aligned_depth_to_color/image_raw", bus::kSensor)) {}
+      depth_(
+          bus.advertise<sensor_msgs::msg::Image>("camera/aligned_depth_to_color/image_raw", bus::kSensor)) {}
 
 std::size_t Player::frame_count() const {
   const std::size_t all = dataset_.frames().size();

@@ -33,7 +33,8 @@ void check_first_frame(const image::TumDataset& dataset, std::size_t start);
 
 /// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour.
 ///
-/// Pictures are decoded ahead of time by a thread of its own. A frame that cannot be read is skipped and counted.
+/// Pictures are decoded ahead of time by a thread of its own. A frame that cannot be read is skipped and
+/// counted.
 class Player {
  public:
   /// Called after each frame was sent. At rate 0 the player goes on when it returns. @return false to end.

@@ -9,7 +9,9 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-ConfigReader reader(const std::string& yaml) { return {YAML::Load(yaml), "test.yaml"}; }
+ConfigReader reader(const std::string& yaml) {
+  return {YAML::Load(yaml), "test.yaml"};
+}
 
 TEST(ConfigReader, KeepsDefaultsOfAbsentKeysAndTakesPresentOnes) {
   int size = 3;

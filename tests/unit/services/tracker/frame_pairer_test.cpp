@@ -8,8 +8,12 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-image::ColorImage color(int width = 8) { return {cv::Mat(6, width, CV_8UC3), image::ChannelOrder::kBgr, nullptr}; }
-image::DepthImage depth() { return {cv::Mat(6, 8, CV_16UC1), 0.001F, nullptr}; }
+image::ColorImage color(int width = 8) {
+  return {cv::Mat(6, width, CV_8UC3), image::ChannelOrder::kBgr, nullptr};
+}
+image::DepthImage depth() {
+  return {cv::Mat(6, 8, CV_16UC1), 0.001F, nullptr};
+}
 
 FramePairer pairer_with_camera() {
   FramePairer pairer(20 * kMs);

@@ -54,7 +54,8 @@ TEST_F(FleetTest, StartsADeadServiceAgainAndIsNotHealthyThen) {
 
 TEST_F(FleetTest, GivesUpAServiceThatKeepsDying) {
   Fleet fleet({shell("exit 1")});
-  EXPECT_TRUE(watch_until(fleet, [&] { return !fleet.alive("service") && fleet.usage().at("service").failures.size() > 5; }));
+  EXPECT_TRUE(watch_until(
+      fleet, [&] { return !fleet.alive("service") && fleet.usage().at("service").failures.size() > 5; }));
 }
 
 TEST_F(FleetTest, ReportsWhatAServiceSaidThatRefusedToStart) {

@@ -14,19 +14,34 @@ using ::testing::Not;
 /// Endpoints of a detector, a tracker and the player as they report them when all links are up.
 std::map<std::string, std::vector<Endpoint>> connected() {
   return {{kDetector,
-           {{"rds/keyframe/images", false, 1}, {"rds/detections", true, 1}, {"rds/command", false, 1},
+           {{"rds/keyframe/images", false, 1},
+            {"rds/detections", true, 1},
+            {"rds/command", false, 1},
             {"rds/command_result", true, 1}}},
           {kTracker,
-           {{"camera/color/image_raw", false, 1}, {"camera/color/camera_info", false, 1},
-            {"camera/aligned_depth_to_color/image_raw", false, 1}, {"rds/odometry", true, 1},
-            {"rds/tracking_state", true, 1}, {"rds/predicted_boxes", true, 1}, {"rds/features", true, 1},
-            {"rds/keyframe/images", true, 1}, {"rds/keyframe/poses", true, 2}, {"rds/keyframe/poses", false, 1},
-            {"rds/command", false, 1}, {"rds/command_result", true, 1}}},
+           {{"camera/color/image_raw", false, 1},
+            {"camera/color/camera_info", false, 1},
+            {"camera/aligned_depth_to_color/image_raw", false, 1},
+            {"rds/odometry", true, 1},
+            {"rds/tracking_state", true, 1},
+            {"rds/predicted_boxes", true, 1},
+            {"rds/features", true, 1},
+            {"rds/keyframe/images", true, 1},
+            {"rds/keyframe/poses", true, 2},
+            {"rds/keyframe/poses", false, 1},
+            {"rds/command", false, 1},
+            {"rds/command_result", true, 1}}},
           {kPlayer,
-           {{"camera/color/image_raw", true, 1}, {"camera/color/camera_info", true, 1},
-            {"camera/aligned_depth_to_color/image_raw", true, 1}, {"rds/odometry", false, 1},
-            {"rds/tracking_state", false, 1}, {"rds/predicted_boxes", false, 1}, {"rds/features", false, 1},
-            {"rds/keyframe/poses", false, 1}, {"rds/detections", false, 1}, {"rds/command", true, 2},
+           {{"camera/color/image_raw", true, 1},
+            {"camera/color/camera_info", true, 1},
+            {"camera/aligned_depth_to_color/image_raw", true, 1},
+            {"rds/odometry", false, 1},
+            {"rds/tracking_state", false, 1},
+            {"rds/predicted_boxes", false, 1},
+            {"rds/features", false, 1},
+            {"rds/keyframe/poses", false, 1},
+            {"rds/detections", false, 1},
+            {"rds/command", true, 2},
             {"rds/command_result", false, 2}}}};
 }
 
@@ -45,7 +60,9 @@ TEST(MissingLinks, NameTheEndAndTheTopicThatLacksPartners) {
 
 TEST(MissingLinks, AMapperThatLocalizesOnlyNeedsNoKeyframes) {
   auto endpoints = connected();
-  endpoints[kMapper] = {{"rds/keyframe/poses", false, 1}, {"rds/map/info", true, 1}, {"rds/command", false, 1},
+  endpoints[kMapper] = {{"rds/keyframe/poses", false, 1},
+                        {"rds/map/info", true, 1},
+                        {"rds/command", false, 1},
                         {"rds/command_result", true, 1}};
   for (auto& [process, its] : endpoints)
     for (Endpoint& e : its) e.matched = 9;  // enough partners

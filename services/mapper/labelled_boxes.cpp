@@ -6,9 +6,9 @@
 
 namespace rds::mapper {
 
-messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(const vision_msgs::msg::Detection3DArray& message,
-                                           const geometry::Pose& camera_from_map, const geometry::CameraModel& camera,
-                                           const MapperConfig& config) {
+messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(
+    const vision_msgs::msg::Detection3DArray& message, const geometry::Pose& camera_from_map,
+    const geometry::CameraModel& camera, const MapperConfig& config) {
   const auto detections = messages::to_detections(message);
   if (!detections) return tl::unexpected(detections.error());
   std::vector<LabelledBox> labelled;

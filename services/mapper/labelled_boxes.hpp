@@ -14,9 +14,10 @@ namespace rds::mapper {
 /// picture are left out.
 ///
 /// @return an error naming the detection with a value that is not finite or a negative size.
-/// @param camera_from_map  of the keyframe when it was made: with this pose the boxes were lifted into the map.
-messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(const vision_msgs::msg::Detection3DArray& message,
-                                           const geometry::Pose& camera_from_map, const geometry::CameraModel& camera,
-                                           const MapperConfig& config);
+/// @param camera_from_map  of the keyframe when it was made: with this pose the boxes were lifted into the
+/// map.
+messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(
+    const vision_msgs::msg::Detection3DArray& message, const geometry::Pose& camera_from_map,
+    const geometry::CameraModel& camera, const MapperConfig& config);
 
 }  // namespace rds::mapper

@@ -9,13 +9,13 @@
 namespace rds::mapper {
 
 struct MapperServiceConfig {
-  bool lockstep = false;            // no keyframe is ever dropped, and none integrated without its boxes
-  bool expect_boxes = true;         // a keyframe waits for its boxes …
-  double boxes_timeout_s = 1.0;     // … until one newer by this has come; later boxes act at the next rebuild
-  int full_map_every = 20;          // keyframes; besides, whenever somebody new subscribes
+  bool lockstep = false;         // no keyframe is ever dropped, and none integrated without its boxes
+  bool expect_boxes = true;      // a keyframe waits for its boxes …
+  double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next rebuild
+  int full_map_every = 20;       // keyframes; besides, whenever somebody new subscribes
   int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
-  std::string map_file;        // saved map, or OctoMap tree, that it starts from; empty: none
-  bool localize_only = false;  // neither keyframes nor boxes are listened to
+  std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
+  bool localize_only = false;       // neither keyframes nor boxes are listened to
   MapperConfig mapper;
 };
 

@@ -13,8 +13,8 @@ namespace rds::tracker {
 
 /// Answers of other threads and processes that were asked for at one frame and take effect at a later one.
 ///
-/// In lockstep (`take_due`) an answer takes effect at the frame agreed on when it was asked for, and only there the
-/// tracker waits for it (`complete`); in real time (`take_arrived`) it takes effect at once.
+/// In lockstep (`take_due`) an answer takes effect at the frame agreed on when it was asked for, and only
+/// there the tracker waits for it (`complete`); in real time (`take_arrived`) it takes effect at once.
 template <class T>
 class DelayedValues {
  public:
@@ -22,7 +22,8 @@ class DelayedValues {
 
   /// @return false if nobody asked for the key (any more).
   bool arrive(std::uint64_t key, T value) {
-    const auto entry = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& e) { return e.key == key; });
+    const auto entry =
+        std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& e) { return e.key == key; });
     if (entry == waiting_.end()) return false;
     entry->value = std::move(value);
     return true;
@@ -40,17 +41,20 @@ class DelayedValues {
                         [&](const Entry& e) { return e.due_frame <= frame && !e.value; });
   }
 
-  /// Takes what is due at `frame`, in the order it was asked for; what has not arrived is given up and counted.
+  /// Takes what is due at `frame`, in the order it was asked for; what has not arrived is given up and
+  /// counted.
   std::vector<T> take_due(std::uint64_t frame) {
     std::vector<T> due;
     while (!waiting_.empty() && waiting_.front().due_frame <= frame) take_front(due);
     return due;
   }
 
-  /// Takes everything that has arrived, in the order it was asked for; older questions without an answer are given up.
+  /// Takes everything that has arrived, in the order it was asked for; older questions without an answer are
+  /// given up.
   std::vector<T> take_arrived() {
     std::vector<T> arrived;
-    const auto newest = std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Entry& e) { return !!e.value; });
+    const auto newest =
+        std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Entry& e) { return !!e.value; });
     for (auto left = waiting_.rend() - newest; left > 0; --left) take_front(arrived);
     return arrived;
   }

@@ -62,7 +62,8 @@ std::optional<image::RgbdFrame> FramePairer::add_depth(std::int64_t stamp_ns, im
   return pair(std::move(color), {stamp_ns, std::move(depth)});
 }
 
-std::optional<image::RgbdFrame> FramePairer::pair(Stamped<image::ColorImage> color, Stamped<image::DepthImage> depth) {
+std::optional<image::RgbdFrame> FramePairer::pair(Stamped<image::ColorImage> color,
+                                                  Stamped<image::DepthImage> depth) {
   drop_until(colors_, color.stamp_ns);
   drop_until(depths_, depth.stamp_ns);
   const cv::Size size = color.picture.pixels.size();

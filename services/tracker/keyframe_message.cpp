@@ -18,8 +18,9 @@ rds_msgs::msg::KeyFrameFeatures to_message(const KeyframeData& keyframe) {
   message.descriptors().reserve(32 * count);
   for (const KeyframeFeature& f : keyframe.features) {
     const Feature& feature = f.feature;
-    message.keypoints().insert(message.keypoints().end(), {feature.px.x(), feature.px.y(),
-                                                           static_cast<float>(feature.level), feature.angle_rad});
+    message.keypoints().insert(
+        message.keypoints().end(),
+        {feature.px.x(), feature.px.y(), static_cast<float>(feature.level), feature.angle_rad});
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(feature.descriptor.data());
     message.descriptors().insert(message.descriptors().end(), bytes, bytes + 32);
     message.points().insert(message.points().end(), f.point_in_camera.data(), f.point_in_camera.data() + 3);

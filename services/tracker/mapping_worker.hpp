@@ -14,7 +14,10 @@ class MappingWorker {
  public:
   /// @param results  gets the result of every job.
   MappingWorker(const LocalMappingConfig& config, concurrency::Inbox<LocalMappingResult>& results)
-      : config_(config), results_(results), jobs_(mailbox_, 1), thread_([this](const std::stop_token& s) { run(s); }) {}
+      : config_(config),
+        results_(results),
+        jobs_(mailbox_, 1),
+        thread_([this](const std::stop_token& s) { run(s); }) {}
 
   void start(LocalMappingJob job) { jobs_.push(std::move(job)); }
 

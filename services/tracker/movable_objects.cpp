@@ -3,7 +3,8 @@
 
 namespace rds::tracker {
 
-std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns,
+                                                  const geometry::Pose& camera_from_map,
                                                   const geometry::CameraModel& camera) const {
   std::vector<ImageObject> objects;
   for (prediction::PredictedObject& object : predictor_.predict(stamp_ns))
@@ -12,7 +13,8 @@ std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns, const g
   return objects;
 }
 
-std::vector<MovableRegion> MovableObjects::regions(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+std::vector<MovableRegion> MovableObjects::regions(std::int64_t stamp_ns,
+                                                   const geometry::Pose& camera_from_map,
                                                    const geometry::CameraModel& camera) const {
   std::vector<MovableRegion> regions;
   for (const prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
@@ -29,7 +31,8 @@ std::vector<MovableRegion> MovableObjects::regions_of(Observations observations,
   std::vector<MovableRegion> regions;
   for (const prediction::ObjectObservation& observation : observations) {
     if (!prediction::is_movable(predictor_.config(), observation.label)) continue;
-    if (const auto box = prediction::to_image(observation.box, camera_from_map, camera, predictor_.config().region))
+    if (const auto box =
+            prediction::to_image(observation.box, camera_from_map, camera, predictor_.config().region))
       regions.push_back(box->region);
   }
   return regions;

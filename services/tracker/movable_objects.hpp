@@ -34,11 +34,13 @@ class MovableObjects {
   void reset() { predictor_.reset(); }
 
   /// Where the objects are expected in a frame; without those outside the picture.
-  [[nodiscard]] std::vector<ImageObject> in_image(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+  [[nodiscard]] std::vector<ImageObject> in_image(std::int64_t stamp_ns,
+                                                  const geometry::Pose& camera_from_map,
                                                   const geometry::CameraModel& camera) const;
 
   /// Regions whose features are not to be trusted in a frame: of the movable ones among the objects.
-  [[nodiscard]] std::vector<MovableRegion> regions(std::int64_t stamp_ns, const geometry::Pose& camera_from_map,
+  [[nodiscard]] std::vector<MovableRegion> regions(std::int64_t stamp_ns,
+                                                   const geometry::Pose& camera_from_map,
                                                    const geometry::CameraModel& camera) const;
 
   /// The same for the boxes of a keyframe at its own pose.

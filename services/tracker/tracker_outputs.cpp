@@ -14,7 +14,8 @@ const std::string kOdom = "odom";
 const std::string kCamera = "camera_color_optical_frame";
 
 geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std::string& parent,
-                                               const std::string& child, const geometry::Pose& parent_from_child) {
+                                               const std::string& child,
+                                               const geometry::Pose& parent_from_child) {
   geometry_msgs::msg::TransformStamped message;
   message.header(messages::make_header(stamp_ns, parent));
   message.child_frame_id(child);
@@ -22,7 +23,9 @@ geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std:
   return message;
 }
 
-void append(std::vector<double>& flat, const Eigen::Vector3d& v) { flat.insert(flat.end(), v.data(), v.data() + 3); }
+void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
+  flat.insert(flat.end(), v.data(), v.data() + 3);
+}
 
 }  // namespace
 
@@ -35,9 +38,10 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
       features_(context.bus.advertise<rds_msgs::msg::FrameFeatures>("rds/features", bus::kStream)),
       keyframe_images_(
           context.bus.advertise<rds_msgs::msg::KeyFrameImages>("rds/keyframe/images", bus::kKeyframeImages)),
-      keyframe_features_(
-          context.bus.advertise<rds_msgs::msg::KeyFrameFeatures>("rds/keyframe/features", bus::kKeyframeFeatures)),
-      keyframe_poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {}
+      keyframe_features_(context.bus.advertise<rds_msgs::msg::KeyFrameFeatures>("rds/keyframe/features",
+                                                                                bus::kKeyframeFeatures)),
+      keyframe_poses_(
+          context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {}
 
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
@@ -81,7 +85,8 @@ void TrackerOutputs::publish_boxes(const FrameReport& report) {
     message.ids().push_back(object.id);
     message.labels().push_back(object.label);
     message.scores().push_back(object.score);
-    for (const double edge : {box.x0, box.y0, box.x1, box.y1}) message.boxes().push_back(static_cast<float>(edge));
+    for (const double edge : {box.x0, box.y0, box.x1, box.y1})
+      message.boxes().push_back(static_cast<float>(edge));
     append(message.minimums(), volume.min);
     append(message.maximums(), volume.max);
     append(message.velocities(), object.velocity);

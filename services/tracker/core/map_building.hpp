@@ -28,8 +28,9 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
                                                  const MapConfig& config);
 
 /// Late boxes: erases the points that this keyframe made of features in the regions, lets it forget older
-/// points there, and never makes points of these features again. In their place it makes points of its other features,
-/// as insert_keyframe() does: the nearest ones may all have been on people. Unknown keyframes are ignored.
+/// points there, and never makes points of these features again. In their place it makes points of its other
+/// features, as insert_keyframe() does: the nearest ones may all have been on people. Unknown keyframes are
+/// ignored.
 void retract_movable(SlamMap& map, KeyframeId keyframe, std::span<const MovableRegion> regions,
                      const DepthConfig& depth, const MapConfig& config);
 

@@ -60,6 +60,14 @@ void ConfigReader::collect(std::vector<std::string>& all) const {
   for (const auto& [key, child] : sections_) child.collect(all);
 }
 
+std::vector<std::string> ConfigReader::absent() const {
+  std::vector<std::string> keys;
+  for (const std::string& key : known_)
+    if (!has(key)) keys.push_back(prefix_ + key);
+  for (const auto& [key, child] : sections_) std::ranges::copy(child.absent(), std::back_inserter(keys));
+  return keys;
+}
+
 void ConfigReader::finish() {
   std::vector<std::string> all;
   collect(all);

@@ -58,6 +58,9 @@ class ConfigReader {
   /// Reader of the map below `key` (empty if absent); its violations are added to this reader's by finish().
   ConfigReader& section(const std::string& key);
 
+  /// Every key that was asked for and that the configuration does not give, in full.
+  [[nodiscard]] std::vector<std::string> absent() const;
+
   void violation(const std::string& key, const std::string& value, const std::string& expected);
 
   /// @throws ConfigError listing all violations, unknown keys included.

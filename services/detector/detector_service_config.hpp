@@ -13,6 +13,8 @@ struct DetectorServiceConfig {
   std::string model_dir;        // looked through before $RDS_SHARED/models and the user's cache
   std::string detections_file;  // boxes from a recording instead of the network
   DetectorConfig detector;
+
+  bool operator==(const DetectorServiceConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, DetectorServiceConfig& config);

@@ -11,6 +11,8 @@ struct LoopCloserServiceConfig {
   std::string map_file;        // saved map whose keyframes it starts from; empty: none
   bool localize_only = false;  // keyframes are not listened to
   LoopCloserConfig loop_closer;
+
+  bool operator==(const LoopCloserServiceConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, LoopCloserServiceConfig& config);

@@ -17,6 +17,8 @@ struct MapperServiceConfig {
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to
   MapperConfig mapper;
+
+  bool operator==(const MapperServiceConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, MapperServiceConfig& config);

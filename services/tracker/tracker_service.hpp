@@ -9,7 +9,6 @@
 
 #include <tl/expected.hpp>
 
-#include "common/map_file/byte_writer.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/tracker.hpp"
@@ -61,17 +60,11 @@ class TrackerService : public service::Service {
   service::CommandOutcome load(const std::string& saved_map);
   service::CommandOutcome finish();
 
-  /// The saved map that a new map epoch begins with.
-  struct Start {
-    map_file::Bytes map;
-    std::vector<KeyframePose> poses;
-  };
-
   TrackerServiceConfig config_;
   std::stop_token stop_;
   std::uint64_t map_epoch_;
   Tracker tracker_;
-  std::optional<Start> start_;
+  std::optional<SlamMap> start_;  // the saved map that every map epoch begins with
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;

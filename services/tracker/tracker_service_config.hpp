@@ -17,6 +17,8 @@ struct CameraTopics {
   std::string depth = "camera/aligned_depth_to_color/image_raw";
   bool best_effort = false;  // read a driver that publishes best effort
   double pairing_tolerance_s = 0.02;
+
+  bool operator==(const CameraTopics&) const = default;
 };
 
 /// When answers of other threads and processes take effect (architecture, "Lockstep, not luck").
@@ -26,6 +28,8 @@ struct LockstepConfig {
   std::uint64_t mapping_latency_frames = 3;    // local mapping of keyframe k likewise
   std::uint64_t loop_latency_frames = 10;      // the loop closer's answer to keyframe k likewise
   double timeout_s = 10;                       // then a frame goes on without the answer
+
+  bool operator==(const LockstepConfig&) const = default;
 };
 
 struct TrackerServiceConfig {
@@ -38,6 +42,8 @@ struct TrackerServiceConfig {
   std::string map_file;          // saved map that it starts from; empty: none
   TrackerConfig tracker;
   prediction::PredictionConfig prediction;
+
+  bool operator==(const TrackerServiceConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, TrackerServiceConfig& config);

@@ -14,19 +14,19 @@ tl::expected<void, std::string> TrackerService::read_start(const std::filesystem
   const auto refuse = [&](const std::string& why) {
     return tl::unexpected(fmt::format("{}: cannot be tracked in: {}", saved_map.string(), why));
   };
-  auto sections = map_file::read_saved_map(saved_map, {map_file::kTracker, map_file::kKeyframePoses});
+  const auto sections = map_file::read_saved_map(saved_map, {map_file::kTracker, map_file::kKeyframePoses});
   if (!sections) return tl::unexpected(sections.error());
-  auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
+  const auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
   if (!poses) return refuse(poses.error());
-  auto& map = sections->at(map_file::kTracker);
-  if (const auto fits = map_from_bytes(map, *poses, config_.tracker); !fits) return refuse(fits.error());
-  start_ = Start{std::move(map), std::move(*poses)};
+  auto map = map_from_bytes(sections->at(map_file::kTracker), *poses, config_.tracker);
+  if (!map) return refuse(map.error());
+  start_ = std::move(*map);
   return {};
 }
 
 void TrackerService::start_map() {
   if (!start_) return;
-  tracker_.start_from(map_from_bytes(start_->map, start_->poses, config_.tracker).value());
+  tracker_.start_from(SlamMap(*start_));
   spdlog::info("goes on in a map of {} keyframes and {} points", tracker_.map().keyframes(),
                tracker_.map().points());
 }

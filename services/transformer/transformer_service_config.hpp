@@ -11,6 +11,8 @@ namespace rds::transformer {
 struct TransformerServiceConfig {
   std::string camera_info_topic = "camera/color/camera_info";
   TransformerConfig transformer;
+
+  bool operator==(const TransformerServiceConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, TransformerServiceConfig& config);

@@ -13,6 +13,8 @@ struct BoxDepthConfig {
   double nearer_surface = 0.4;   // a nearer surface wins if it has this share of the largest surface's pixels
   double min_valid = 0.05;       // share of the pixels that must have a depth
   double max_depth_m = 20.0;     // what is further away counts as no measurement
+
+  bool operator==(const BoxDepthConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, BoxDepthConfig& config);

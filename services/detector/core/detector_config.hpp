@@ -17,6 +17,8 @@ struct DetectorConfig {
       0.85;  // of two boxes with different labels that overlap by more, the worse is dropped; 1: never
   int max_boxes = 100;  // per picture, the best
   BoxDepthConfig depth;
+
+  bool operator==(const DetectorConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, DetectorConfig& config);

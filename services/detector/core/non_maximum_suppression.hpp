@@ -12,6 +12,8 @@ struct SuppressionConfig {
   double other_label_iou = 1.0;      // the same across labels; 1 keeps both
   std::size_t max_candidates = 400;  // only the best are looked at
   std::size_t max_boxes = 100;       // and so many kept
+
+  bool operator==(const SuppressionConfig&) const = default;
 };
 
 /// Greedy non-maximum suppression. Boxes of equal score keep the order of their input.

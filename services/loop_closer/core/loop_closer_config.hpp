@@ -69,6 +69,8 @@ struct LoopCloserConfig {
   ConsistencyConfig consistency;
   PoseGraphConfig pose_graph;
   int max_features = 1500;  // kept per keyframe
+
+  bool operator==(const LoopCloserConfig&) const = default;
 };
 
 void read(config::ConfigReader& reader, LoopCloserConfig& config);

@@ -16,6 +16,8 @@ struct SamplingConfig {
   double max_range_m = 4.0;    // farther points are not inserted; their rays carve up to here
   double edge_depth_m = 0.03;  // neighbours nearer in depth than this × max(1, depth / 1 m) support a pixel
   int edge_support = 3;        // of 8 neighbours; fewer: a flying pixel at a depth edge, rejected
+
+  bool operator==(const SamplingConfig&) const = default;
 };
 
 /// Depth cut of an object inside its box (NGD-SLAM's trick, know-how of the field).
@@ -25,6 +27,8 @@ struct RegionConfig {
   int rim_px = 8;              // around a movable object: neither inserted nor lowered
   double min_component = 0.0;  // connected parts smaller than this share of the largest are dropped
   double min_inside = 0.05;    // a part must lie inside the unwidened box by this share
+
+  bool operator==(const RegionConfig&) const = default;
 };
 
 struct SegmentationConfig {
@@ -36,6 +40,8 @@ struct SegmentationConfig {
   double min_cluster_share = 0.0033;
   double cluster_distance = 0.015;  // between neighbours, × depth
   double min_overlap = 0.25;        // IoU of cluster and box in the picture
+
+  bool operator==(const SegmentationConfig&) const = default;
 };
 
 struct ObjectConfig {
@@ -48,6 +54,8 @@ struct ObjectConfig {
   double seen_through = 0.6;  // the camera measured something behind it
   double max_existence = 3.5;
   double border_weight = 0.25;  // of an observation cut by the picture's border
+
+  bool operator==(const ObjectConfig&) const = default;
 };
 
 struct OctreeConfig {
@@ -59,6 +67,8 @@ struct OctreeConfig {
   bool carve_rays = true;      // free space along rays of static pixels
   bool color_by_label = true;  // a labelled voxel shows its label's colour
   double label_share = 0.3;    // of a voxel's votes that a label needs
+
+  bool operator==(const OctreeConfig&) const = default;
 };
 
 struct CorrectionConfig {
@@ -66,6 +76,8 @@ struct CorrectionConfig {
   double min_rotation_deg = 0.5;
   int max_keyframes =
       1000;  // kept for re-integration (0.46 MB each at 640×480, stride 2); older ones are final
+
+  bool operator==(const CorrectionConfig&) const = default;
 };
 
 struct GridConfig {
@@ -74,6 +86,8 @@ struct GridConfig {
   double min_height_m = 0.10;  // above the floor
   double max_height_m = 1.80;
   int min_occupied = 1;  // occupied voxels in the band that make a cell an obstacle
+
+  bool operator==(const GridConfig&) const = default;
 };
 
 struct MapperConfig {
@@ -87,6 +101,8 @@ struct MapperConfig {
   GridConfig grid;
 
   [[nodiscard]] bool is_movable(const std::string& label) const;
+
+  bool operator==(const MapperConfig&) const = default;
 };
 
 /// Reads the sections of mapper.yaml; every violation is collected by the reader.

@@ -19,6 +19,14 @@ class IdTable {
  public:
   using Id = std::uint64_t;
 
+  IdTable() = default;
+  IdTable(const IdTable& other) : next_(other.next_), size_(other.size_) {
+    for (const auto& block : other.blocks_)
+      blocks_.push_back(block ? std::make_unique<Block>(*block) : nullptr);
+  }
+  IdTable(IdTable&&) noexcept = default;
+  IdTable& operator=(IdTable&&) noexcept = default;
+
   /// The id that the next emplace() will give.
   [[nodiscard]] Id next_id() const { return next_; }
   [[nodiscard]] std::size_t size() const { return size_; }

@@ -14,6 +14,8 @@ struct TransformerConfig {
   double max_depth_m = 10.0;
   double default_thickness_m = 0.4;  // of objects along the viewing direction
   std::map<std::string, double, std::less<>> thickness_m = {{"person", 0.6}, {"bottle", 0.1}};  // by label
+
+  bool operator==(const TransformerConfig&) const = default;
 };
 
 /// Reads the settings; a thickness must be in (0, 10] m.

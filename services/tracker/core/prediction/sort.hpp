@@ -14,6 +14,8 @@ struct SortConfig {
   double min_iou = 0.3;  // pairs that overlap less are no match
   int min_hits = 3;      // consecutive updates before a track is reported (after the first min_hits updates)
   double max_age = 1;    // frame periods that a track lives without a match
+
+  bool operator==(const SortConfig&) const = default;
 };
 
 /// Tracks boxes in a plane: SORT (Bewley et al. 2016), Kalman filter and assignment on IoU.

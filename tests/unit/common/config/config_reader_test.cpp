@@ -43,6 +43,15 @@ TEST(ConfigReader, ListsAllViolationsAtOnce) {
   EXPECT_EQ(size, 3);
 }
 
+TEST(ConfigReader, KnowsWhichKeysAreAbsent) {
+  ConfigReader reader(YAML::Load("{a: 1, s: {b: 1}}"), "test.yaml");
+  int value = 0;
+  for (const char* key : {"a", "c"}) reader.value(key, value, 0, 9);
+  for (const char* key : {"b", "d"}) reader.section("s").value(key, value, 0, 9);
+  reader.section("t").value("e", value, 0, 9);
+  EXPECT_THAT(reader.absent(), ::testing::UnorderedElementsAre("c", "s.d", "t", "t.e"));
+}
+
 TEST(ConfigReader, NamesTheMissingFile) {
   EXPECT_THROW(ConfigReader::from_file("/nonexistent/x.yaml"), ConfigError);
 }

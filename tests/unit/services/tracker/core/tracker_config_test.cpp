@@ -6,16 +6,6 @@
 namespace rds::tracker {
 namespace {
 
-TEST(TrackerConfig, ShippedYamlEqualsTheDefaults) {
-  const YAML::Node shipped = YAML::LoadFile(RDS_SOURCE_DIR "/services/tracker/tracker.yaml");
-  TrackerConfig config;
-  config.extraction.features = 123;  // reading must bring the defaults back
-  config.quality.weak_s = 5;
-  config::ConfigReader reader(shipped, "tracker.yaml");
-  read(reader, config);
-  EXPECT_EQ(config, TrackerConfig{});
-}
-
 TEST(TrackerConfig, NamesWhatIsOutOfRange) {
   config::ConfigReader reader(YAML::Load("extraction: {features: 5}\nkeyframe: {typo: 1}"), "test.yaml");
   TrackerConfig config;

@@ -9,19 +9,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(TransformerConfig, ShippedFileEqualsTheDefaults) {
-  auto reader = config::ConfigReader::from_file(RDS_SOURCE_DIR "/services/transformer/transformer.yaml");
-  TransformerConfig config;
-  config.min_depth_m = config.max_depth_m = config.default_thickness_m = -1;
-  config.thickness_m = {};
-  read(reader, config);
-  const TransformerConfig defaults;
-  EXPECT_EQ(config.min_depth_m, defaults.min_depth_m);
-  EXPECT_EQ(config.max_depth_m, defaults.max_depth_m);
-  EXPECT_EQ(config.default_thickness_m, defaults.default_thickness_m);
-  EXPECT_EQ(config.thickness_m, defaults.thickness_m);
-}
-
 TEST(TransformerConfig, KeepsTheDefaultsWithoutAFile) {
   config::ConfigReader reader;
   TransformerConfig config;

@@ -9,21 +9,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(PredictionConfig, ShippedSettingsEqualTheDefaults) {
-  const YAML::Node shipped = YAML::LoadFile(RDS_SOURCE_DIR "/services/tracker/tracker.yaml");
-  config::ConfigReader reader(shipped["prediction"], "tracker.yaml");
-  PredictionConfig config;
-  config.algorithm = "paper";  // reading must bring every default back
-  config.movable_labels = {};
-  config.min_score = config.duplicate_overlap = config.border_px = -1;
-  config.paper = {-1, -1, -1, -1};
-  config.kalman3d = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-  config.region = {-1, -1};
-  read(reader, config);
-  reader.finish();
-  EXPECT_EQ(config, PredictionConfig{});
-}
-
 TEST(PredictionConfig, ReadsWhatIsGivenAndKeepsTheOtherDefaults) {
   config::ConfigReader reader(
       YAML::Load("{algorithm: paper, movable_labels: [dog, robot], paper: {max_age_s: 2.0}}"), "test.yaml");

@@ -96,8 +96,8 @@ Finding check_processor() {
 }
 
 Finding check_memory() {
-  const auto text = field_of("/proc/meminfo", "MemAvailable");
-  const auto words = geometry::split_words(text ? *text : "");
+  const std::string text = field_of("/proc/meminfo", "MemAvailable").value_or("");
+  const auto words = geometry::split_words(text);
   const auto kib = words.empty() ? std::nullopt : geometry::parse_number(words.front());
   if (!kib) return {Verdict::kHint, "memory", "/proc/meminfo does not tell what is free"};
   const double gib = *kib * 1024 / kGiB;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/tracker_service.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <random>
@@ -146,6 +147,8 @@ void TrackerService::apply_answers() {
 
 void TrackerService::apply(const LocalMappingResult& result) {
   tracker_.apply(result);
+  context_.diagnostics.counter("readout us") =
+      static_cast<std::uint64_t>(std::max(0.0, tracker_.readout_s()) * 1e6);
   publish_poses();
 }
 

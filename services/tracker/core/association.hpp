@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/tracker/core/observation_model.hpp"
+#include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker {
@@ -18,6 +19,7 @@ struct TrackedFrame {
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();
+  ShutterMotion motion;        // that px and depth of the features are compensated for
   bool pose_is_given = false;  // and not to be estimated
 
   [[nodiscard]] int matches() const;

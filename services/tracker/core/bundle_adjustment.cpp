@@ -54,17 +54,24 @@ class PoseManifold final : public ceres::Manifold {
   }
 };
 
-class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
+/// An observation's derivative by the readout time, and the readout time that it is compensated for already.
+struct ReadoutEffect {
+  Eigen::Vector3d by_readout = Eigen::Vector3d::Zero();  // of the weighted residual, 1/s
+  double readout_s = 0;
+};
+
+class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3, 1> {
  public:
-  ReprojectionCost(const ObservationModel& model, const Measurement& measurement)
-      : model_(model), measurement_(measurement) {}
+  ReprojectionCost(const ObservationModel& model, const Measurement& measurement,
+                   const ReadoutEffect& readout)
+      : model_(model), measurement_(measurement), readout_(readout) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Pose camera_from_map = to_pose(parameters[0]);
     const Eigen::Vector3d p = camera_from_map * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
     if (p.z() < kMinDepth) return false;
     Eigen::Map<Eigen::Vector3d> r(residuals);
-    r = model_.residual(p, measurement_);
+    r = model_.residual(p, measurement_) + (*parameters[2] - readout_.readout_s) * readout_.by_readout;
     if (jacobians == nullptr) return true;
     const Eigen::Matrix3d by_point = model_.jacobian(p, measurement_);
     if (jacobians[0] != nullptr) {
@@ -77,17 +84,19 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
       Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> j(jacobians[1]);
       j = by_point * camera_from_map.linear();
     }
+    if (jacobians[2] != nullptr) std::copy_n(readout_.by_readout.data(), 3, jacobians[2]);
     return true;
   }
 
  private:
   ObservationModel model_;
   Measurement measurement_;
+  ReadoutEffect readout_;
 };
 
 class LocalBundle {
  public:
-  explicit LocalBundle(MappingScene& scene) : scene_(scene) {
+  explicit LocalBundle(MappingScene& scene) : scene_(scene), readout_s_(scene.job().readout_s) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
       models_.emplace_back(k.features->camera(), scene.job().depth);
@@ -105,8 +114,8 @@ class LocalBundle {
       for (const auto& o : point.observations) {
         const Measurement m = measurement(o);
         ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
-        problem.AddResidualBlock(new ReprojectionCost(models_[o.keyframe], m), loss,
-                                 poses_[o.keyframe].data(), point.position.data());
+        problem.AddResidualBlock(new ReprojectionCost(models_[o.keyframe], m, readout_effect(o)), loss,
+                                 poses_[o.keyframe].data(), point.position.data(), &readout_s_);
       }
       ordering->AddElementToGroup(point.position.data(), 0);
     }
@@ -115,6 +124,10 @@ class LocalBundle {
       problem.SetManifold(poses_[k].data(), &manifold_);
       if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
       ordering->AddElementToGroup(poses_[k].data(), 1);
+    }
+    if (problem.HasParameterBlock(&readout_s_)) {
+      if (!scene_.job().calibrate_readout) problem.SetParameterBlockConstant(&readout_s_);
+      ordering->AddElementToGroup(&readout_s_, 1);
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -142,6 +155,7 @@ class LocalBundle {
   }
 
   void report(LocalMappingResult& result) const {
+    report_readout(result);
     const auto& keyframes = scene_.job().keyframes;
     for (std::size_t k = 0; k < poses_.size(); ++k)
       if (!keyframes[k].fixed)
@@ -171,7 +185,28 @@ class LocalBundle {
                                            scene_.job().pyramid);
   }
 
+  /// The residual is predicted − measured, and measured − readout·effect is what the pose predicts.
+  [[nodiscard]] ReadoutEffect readout_effect(const MappingScene::SceneObservation& o) const {
+    const MappingKeyframe& k = scene_.job().keyframes[o.keyframe];
+    const Feature& feature = (*k.features)[o.feature];
+    const geometry::CameraModel& camera = k.features->camera();
+    const Eigen::Vector3d effect = shutter_effect(camera, k.motion.velocity, feature);
+    if (effect.isZero(0)) return {Eigen::Vector3d::Zero(), k.motion.readout_s};
+    return {models_[o.keyframe].jacobian(k.features->point_in_camera(o.feature), measurement(o)) * effect,
+            k.motion.readout_s};
+  }
+
+  void report_readout(LocalMappingResult& result) const {
+    result.readout_s = readout_s_;
+    if (!scene_.job().calibrate_readout) return;
+    for (const auto& point : scene_.points())
+      if (is_adjusted(point))
+        for (const auto& o : point.observations)
+          result.readout_information += readout_effect(o).by_readout.squaredNorm();
+  }
+
   MappingScene& scene_;
+  double readout_s_;
   std::vector<PoseBlock> poses_;  // per keyframe
   std::vector<ObservationModel> models_;
   PoseManifold manifold_;

@@ -14,6 +14,7 @@ struct MappingKeyframe {
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;  // per feature; kNoId
   std::vector<bool> movable;    // per feature
+  ShutterMotion motion;         // that px and depth of the features are compensated for
   bool fixed = false;           // holds the points, is not moved
 };
 
@@ -23,6 +24,8 @@ struct LocalMappingJob {
   std::uint64_t revision = 0;              // of the map's geometry
   std::vector<MappingKeyframe> keyframes;  // by ascending id
   std::vector<MapPoint> points;            // by ascending id
+  double readout_s = 0;                    // of the camera, as far as known
+  bool calibrate_readout = false;          // it may be refined
   ScalePyramid pyramid{1, 1};
   DepthConfig depth;
   PoseOptimizationConfig robust;  // χ² bounds
@@ -51,6 +54,8 @@ struct LocalMappingResult {
 
   KeyframeId keyframe = kNoId;
   std::uint64_t revision = 0;
+  double readout_s = 0;            // refined
+  double readout_information = 0;  // 1/s²; 0 if it was not
   std::vector<MovedKeyframe> keyframes;
   std::vector<MovedPoint> points;
   std::vector<PointInKeyframe> added;

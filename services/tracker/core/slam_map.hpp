@@ -12,6 +12,7 @@
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/feature_set.hpp"
 #include "services/tracker/core/id_table.hpp"
+#include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/scale_pyramid.hpp"
 #include "services/tracker/core/tracker_config.hpp"
 
@@ -50,6 +51,7 @@ struct Keyframe {
   KeyframeId id = kNoId;
   std::int64_t stamp_ns = 0;
   Pose map_from_camera = Pose::Identity();
+  ShutterMotion motion;        // that px and depth of the features are compensated for
   bool pose_is_given = false;  // and held by bundle adjustment
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;               // per feature; kNoId

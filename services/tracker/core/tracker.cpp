@@ -52,6 +52,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction),
       map_(config.map, pyramid_),
+      readout_(config.rolling_shutter),
       change_(config.keyframe.changed_share) {}
 
 void Tracker::reset() {
@@ -80,6 +81,8 @@ void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const Movabl
     };
   extractor_.extract(gray_, is_movable, features);
   complete_features(picture.camera, picture.depth, config_.depth.max_depth_m, features);
+  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
+  remove_rolling_shutter(picture.camera, frame.motion, features);
   frame.stamp_ns = picture.stamp_ns;
   frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
   frame.clear_matches();

@@ -13,6 +13,7 @@
 #include "services/tracker/core/keyframe_policy.hpp"
 #include "services/tracker/core/local_mapping.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
+#include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/se3.hpp"
 #include "services/tracker/core/slam_map.hpp"
 #include "services/tracker/core/tracker_config.hpp"
@@ -63,6 +64,8 @@ class Tracker {
   /// from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
+  /// Time [s] from the first row of a picture to the last, as far as known.
+  [[nodiscard]] double readout_s() const { return readout_.readout_s(); }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
@@ -103,6 +106,7 @@ class Tracker {
   ScalePyramid pyramid_;
   OrbExtractor extractor_;
   SlamMap map_;
+  ReadoutCalibration readout_;
   vision::PlaceIndex places_;
   ChangeDetector change_;
   cv::Mat gray_;

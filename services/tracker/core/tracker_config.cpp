@@ -21,6 +21,12 @@ void read(config::ConfigReader& r, DepthConfig& c) {
   r.value("disparity_sigma_px", c.disparity_sigma_px, 0.05, 10.0, "px");
 }
 
+void read(config::ConfigReader& r, RollingShutterConfig& c) {
+  r.value("readout_s", c.readout_s, -0.05, 0.05, "s");
+  r.value("calibrate", c.calibrate);
+  r.value("memory", c.memory, 0.0, 1.0);
+}
+
 void read(config::ConfigReader& r, PoseOptimizationConfig& c) {
   r.value("rounds", c.rounds, 1, 10);
   r.value("iterations", c.iterations, 1, 100);
@@ -87,6 +93,7 @@ void read(config::ConfigReader& r, QualityConfig& c) {
 void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("extraction"), config.extraction);
   read(reader.section("depth"), config.depth);
+  read(reader.section("rolling_shutter"), config.rolling_shutter);
   read(reader.section("pose"), config.pose);
   read(reader.section("matching"), config.matching);
   read(reader.section("keyframe"), config.keyframe);

@@ -27,6 +27,14 @@ struct DepthConfig {
   bool operator==(const DepthConfig&) const = default;
 };
 
+/// Rows of a picture that are read one after the other.
+struct RollingShutterConfig {
+  double readout_s = 0;   // from the first row to the last; where calibration starts
+  bool calibrate = true;  // every bundle adjustment refines it
+  double memory = 0.9;    // share of what was known that still counts after the next bundle adjustment
+  bool operator==(const RollingShutterConfig&) const = default;
+};
+
 /// Motion-only optimisation of the camera pose.
 struct PoseOptimizationConfig {
   int rounds = 4;          // each ends with a new classification into inliers and outliers
@@ -105,6 +113,7 @@ struct QualityConfig {
 struct TrackerConfig {
   ExtractionConfig extraction;
   DepthConfig depth;
+  RollingShutterConfig rolling_shutter;
   PoseOptimizationConfig pose;
   MatchingConfig matching;
   KeyframeConfig keyframe;

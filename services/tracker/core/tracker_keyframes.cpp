@@ -126,6 +126,8 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   job_due_ = false;
   LocalMappingJob job = make_mapping_job(map_, newest_keyframe_, config_.local_mapping);
   job.revision = revision_;
+  job.readout_s = readout_.readout_s();
+  job.calibrate_readout = config_.rolling_shutter.calibrate;
   job.pyramid = pyramid_;
   job.depth = config_.depth;
   job.robust = config_.pose;
@@ -136,6 +138,7 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
 void Tracker::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return;
   apply_mapping_result(map_, result);
+  readout_.update(result.readout_s, result.readout_information);
   for (const KeyframeId culled : cull_redundant_keyframes(map_, result.keyframe, config_.depth, config_.map))
     places_.remove(culled);
 }

@@ -27,6 +27,15 @@ const cv::Mat& texture() {
   return made;
 }
 
+/// Where a camera-frame point is when its row is read. The row depends on the place: a few steps find both.
+Eigen::Vector3d when_its_row_is_read(const geometry::CameraModel& camera, const ShutterMotion& motion,
+                                     const Eigen::Vector3d& p) {
+  Eigen::Vector3d read = p;
+  for (int i = 0; i < 10 && read.z() > 0; ++i)
+    read = se3_exp(row_share(camera, camera.project(read).y()) * motion.readout_s * motion.velocity) * p;
+  return read;
+}
+
 }  // namespace
 
 geometry::CameraModel small_camera() {
@@ -84,13 +93,13 @@ std::vector<Eigen::Vector3d> random_points(std::size_t count, std::mt19937& rand
 }
 
 SyntheticView view_of(const std::vector<Eigen::Vector3d>& points, const Pose& map_from_camera,
-                      double noise_px, std::mt19937& random) {
+                      double noise_px, std::mt19937& random, const ShutterMotion& motion) {
   std::normal_distribution<double> noise(0, noise_px > 0 ? noise_px : 1e-9);
   const geometry::CameraModel camera = small_camera();
   std::vector<Feature> features;
   SyntheticView view;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d p = map_from_camera.inverse() * points[i];
+    const Eigen::Vector3d p = when_its_row_is_read(camera, motion, map_from_camera.inverse() * points[i]);
     if (p.z() < 0.3) continue;
     const Eigen::Vector2d px = camera.project(p) + Eigen::Vector2d(noise(random), noise(random));
     if (px.x() < 0 || px.y() < 0 || px.x() > camera.width - 1 || px.y() > camera.height - 1) continue;

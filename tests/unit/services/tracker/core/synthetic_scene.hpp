@@ -26,11 +26,12 @@ std::vector<Eigen::Vector3d> random_points(std::size_t count, std::mt19937& rand
 
 /// Features where a camera sees the points (those in the picture), with random descriptors made from the
 /// point's index, so that the same point looks the same to every camera.
+/// @param motion  of the camera while its rows are read; the features are as measured, not compensated.
 struct SyntheticView {
   std::shared_ptr<const FeatureSet> features;
   std::vector<std::size_t> point;  // per feature: index into the points
 };
 SyntheticView view_of(const std::vector<Eigen::Vector3d>& points, const Pose& map_from_camera,
-                      double noise_px, std::mt19937& random);
+                      double noise_px, std::mt19937& random, const ShutterMotion& motion = {});
 
 }  // namespace rds::tracker::test

@@ -41,6 +41,13 @@ Eigen::Vector2d CameraModel::project_undistorted(const Eigen::Vector3d& point_in
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
+Eigen::Matrix<double, 2, 3> CameraModel::undistorted_by_point(const Eigen::Vector3d& p) const {
+  const double inverse_z = 1 / p.z();
+  Eigen::Matrix<double, 2, 3> derivative;
+  derivative << fx, 0, -fx * p.x() * inverse_z, 0, fy, -fy * p.y() * inverse_z;
+  return inverse_z * derivative;
+}
+
 Eigen::Vector2d CameraModel::undistort(const Eigen::Vector2d& pixel) const {
   if (!has_distortion()) return pixel;
   const Eigen::Vector2d observed((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);

@@ -31,6 +31,10 @@ struct CameraModel {
   /// Camera-frame point [m] with z > 0 to the pixel an ideal camera without distortion would see it at.
   [[nodiscard]] Eigen::Vector2d project_undistorted(const Eigen::Vector3d& point_in_camera) const;
 
+  /// Derivative of project_undistorted() by the point [px/m].
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> undistorted_by_point(
+      const Eigen::Vector3d& point_in_camera) const;
+
   /// Image pixel (distorted) to the pixel of the ideal camera with the same fx fy cx cy.
   [[nodiscard]] Eigen::Vector2d undistort(const Eigen::Vector2d& pixel) const;
 

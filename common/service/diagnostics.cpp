@@ -2,6 +2,7 @@
 #include "common/service/diagnostics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ double LatencyWindow::quantile_ms(double share) const {
     sorted = ring_;
   }
   if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1) + 0.5);
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(sorted.size() - 1)));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
   return sorted[static_cast<std::size_t>(rank)];
 }

@@ -69,8 +69,10 @@ class NanodetDecoder final : public Decoder {
   }
 
   [[nodiscard]] geometry::Box2 decode_box(const float* logits, int cell, int stride) const {
-    const double x = (cell % columns(stride) + 0.5) * stride - 0.5;
-    const double y = (cell / columns(stride) + 0.5) * stride - 0.5;
+    const int row = cell / columns(stride);
+    const int column = cell % columns(stride);
+    const double x = (column + 0.5) * stride - 0.5;
+    const double y = (row + 0.5) * stride - 0.5;
     const auto distance = [&](int side) {
       return stride * expected_bin(logits + side * decoder_.bins, decoder_.bins);
     };

@@ -77,6 +77,7 @@ NetworkDescription find_description(const std::string& name, const ModelFolders&
     }
   }
   std::vector<std::string> names;
+  names.reserve(shipped.size());
   for (const NetworkDescription& network : shipped) names.push_back(network.name);
   throw DetectorError(fmt::format("network '{}': expected one of {} or a YAML file that describes it", name,
                                   fmt::join(names, ", ")));

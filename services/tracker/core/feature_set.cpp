@@ -50,10 +50,28 @@ bool FeatureSet::sees(const Eigen::Vector2d& px) const {
   return p.x() >= lowest_.x() && p.x() <= highest_.x() && p.y() >= lowest_.y() && p.y() <= highest_.y();
 }
 
+namespace {
+
+/// Depth at a pixel; at an edge, where surfaces meet, of the one in front: it is its outline that shows.
+float nearer_surface(const image::DepthImage& depth, int x, int y) {
+  constexpr float kEdge = 0.03F;  // of the depth
+  float least = std::numeric_limits<float>::max();
+  float largest = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(depth.values.rows - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(depth.values.cols - 1, x + 1); ++u)
+      if (const float z = depth.at(u, v); z > 0) {
+        least = std::min(least, z);
+        largest = std::max(largest, z);
+      }
+  return largest > (1 + kEdge) * least ? least : depth.at(x, y);
+}
+
+}  // namespace
+
 float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, double max_depth_m) {
   const int x = std::clamp(static_cast<int>(std::lround(image_px.x())), 0, depth.values.cols - 1);
   const int y = std::clamp(static_cast<int>(std::lround(image_px.y())), 0, depth.values.rows - 1);
-  const float z = depth.at(x, y);
+  const float z = nearer_surface(depth, x, y);
   return z > static_cast<float>(max_depth_m) ? 0 : z;
 }
 

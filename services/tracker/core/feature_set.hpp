@@ -72,7 +72,8 @@ class FeatureSet {
   std::vector<std::uint32_t> cell_items_;
 };
 
-/// Depth [m] at a place in the picture; 0 without measurement or beyond max_depth_m.
+/// Depth [m] at a place in the picture, of the nearer surface at an edge; 0 without measurement or beyond
+/// max_depth_m.
 float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, double max_depth_m);
 
 /// Undistorts features and gives them depth.

@@ -29,6 +29,15 @@ void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMo
   }
 }
 
+Eigen::Vector2d project_rolling(const geometry::CameraModel& camera, const ShutterMotion& motion,
+                                const Eigen::Vector3d& p) {
+  const Eigen::Vector2d px = camera.project(p);
+  if (motion.readout_s == 0) return px;
+  const double time = row_share(camera, px.y()) * motion.readout_s;
+  const Eigen::Vector3d moved = p + time * point_velocity(motion.velocity, p);
+  return moved.z() > 0 ? camera.project(moved) : px;
+}
+
 Eigen::Vector3d shutter_effect(const geometry::CameraModel& camera, const Twist& velocity,
                                const Feature& feature) {
   if (feature.depth_m <= 0) return Eigen::Vector3d::Zero();

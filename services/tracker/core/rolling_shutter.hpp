@@ -33,6 +33,11 @@ struct ShutterMotion {
 void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMotion& motion,
                             std::vector<Feature>& features);
 
+/// Pixel of the picture at which a camera-frame point of the middle row's time [m, z > 0] shows when its own
+/// row is read. First order in time.
+[[nodiscard]] Eigen::Vector2d project_rolling(const geometry::CameraModel& camera,
+                                              const ShutterMotion& motion, const Eigen::Vector3d& p);
+
 /// Velocity [m/s] at which the point that a feature sees moves through the camera's frame, times the share of
 /// the readout time at which its row was read: by how much, per second of readout, the feature is off.
 /// Zero for a feature without depth.

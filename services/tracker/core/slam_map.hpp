@@ -12,6 +12,7 @@
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/feature_set.hpp"
 #include "services/tracker/core/id_table.hpp"
+#include "services/tracker/core/image_pyramid.hpp"
 #include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/scale_pyramid.hpp"
 #include "services/tracker/core/tracker_config.hpp"
@@ -54,10 +55,11 @@ struct Keyframe {
   ShutterMotion motion;        // that px and depth of the features are compensated for
   bool pose_is_given = false;  // and held by bundle adjustment
   std::shared_ptr<const FeatureSet> features;
-  std::vector<PointId> points;               // per feature; kNoId
-  std::vector<bool> movable;                 // per feature; more than the set knows after late boxes
-  std::vector<CovisibleKeyframe> covisible;  // most shared points first, then by id
-  int tracked_points = 0;                    // map points that its frame saw when it became a keyframe
+  std::shared_ptr<const ImagePyramid> images;  // null in a map that was saved
+  std::vector<PointId> points;                 // per feature; kNoId
+  std::vector<bool> movable;                   // per feature; more than the set knows after late boxes
+  std::vector<CovisibleKeyframe> covisible;    // most shared points first, then by id
+  int tracked_points = 0;                      // map points that its frame saw when it became a keyframe
 };
 
 /// Identity and pose of a keyframe; what outlives its culling.

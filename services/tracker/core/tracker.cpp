@@ -17,6 +17,7 @@ constexpr double kNsPerSecond = 1e9;
 constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
 constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;        // after it
+constexpr int kHalvings = 5;              // levels of the picture that points are followed in
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 
 std::int64_t microseconds_since(Clock::time_point start) {
@@ -53,7 +54,8 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
       extractor_(config.extraction),
       map_(config.map, pyramid_),
       readout_(config.rolling_shutter),
-      change_(config.keyframe.changed_share) {}
+      change_(config.keyframe.changed_share),
+      change_while_following_(config.keyframe.changed_share) {}
 
 void Tracker::reset() {
   *this = Tracker(config_, std::move(given_poses_));
@@ -68,9 +70,9 @@ void Tracker::start_from(SlamMap&& map) {
   state_ = State::kLost;
 }
 
-void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                         TrackedFrame& frame) {
-  picture.color.to_gray(gray_);
+void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                      TrackedFrame& frame, FrameResult& result) {
+  const auto start = Clock::now();
   std::vector<Feature> features;
   features.reserve(static_cast<std::size_t>(config_.extraction.features));
   OrbExtractor::MovableTest is_movable;
@@ -79,13 +81,20 @@ void Tracker::make_frame(const image::RgbdFrame& picture, std::span<const Movabl
       const float depth = depth_at(picture.depth, px, config_.depth.max_depth_m);
       return std::ranges::any_of(movable, [&](const MovableRegion& r) { return covers(r, px, depth); });
     };
-  extractor_.extract(gray_, is_movable, features);
-  complete_features(picture.camera, picture.depth, config_.depth.max_depth_m, features);
-  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
-  remove_rolling_shutter(picture.camera, frame.motion, features);
+  extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
-  frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
+  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
+  set_features(picture, std::move(features), frame);
   frame.clear_matches();
+  result.times.extract_us = microseconds_since(start);
+}
+
+/// Gives features what the camera model and the depth picture know of them.
+void Tracker::set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
+                           TrackedFrame& frame) const {
+  complete_features(picture.camera, picture.depth, config_.depth.max_depth_m, features);
+  remove_rolling_shutter(picture.camera, frame.motion, features);
+  frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
 }
 
 FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const MovableRegion> movable) {
@@ -93,31 +102,45 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
   if (!is_usable(picture)) return result;
   const auto start = Clock::now();
+  look_at(picture);
   TrackedFrame frame;
-  make_frame(picture, movable, frame);
-  result.times.extract_us = microseconds_since(start);
-  const auto extracted = Clock::now();
+  const bool keyframe_due = follow_map(picture, movable, frame)
+                                ? follow_with_keyframe(picture, movable, frame, result)
+                                : track_features(picture, movable, frame, result);
+  result.state = state_;
   result.features = static_cast<unsigned>(frame.features->size());
   result.dynamic_features =
       static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
-  if (given_poses_)
-    follow(frame, result);
-  else if (state_ == State::kNotInitialized)
-    initialize(frame, result);
-  else
-    state_ = track_motion(frame);
-  result.state = state_;
   if (has_pose(state_)) {
     result.inliers = static_cast<unsigned>(frame.matches());
-    if (!result.keyframe) decide_keyframe(frame, !movable.empty(), result);
+    if (keyframe_due) add_keyframe(frame, result);
     result.map_from_camera = frame.camera_from_map.inverse();
     result.reference_keyframe_id = reference_;
     result.reference_from_camera = map_.pose_of(reference_).inverse() * result.map_from_camera;
   }
   result.verdicts = verdicts(frame);
   remember(std::move(frame), state_);
-  result.times.track_us = microseconds_since(extracted);
+  result.times.track_us = microseconds_since(start) - result.times.extract_us;
   return result;
+}
+
+void Tracker::look_at(const image::RgbdFrame& picture) {
+  cv::Mat gray;
+  picture.color.to_gray(gray);
+  images_ = std::make_shared<const ImagePyramid>(gray, kHalvings);
+}
+
+/// Extracts features and finds the pose from them. @return true if the frame is to become a keyframe.
+bool Tracker::track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                             TrackedFrame& frame, FrameResult& result) {
+  extract(picture, movable, frame, result);
+  if (given_poses_)
+    follow(frame, result);
+  else if (state_ == State::kNotInitialized)
+    initialize(frame, result);
+  else
+    state_ = track_motion(frame);
+  return has_pose(state_) && !result.keyframe && needs_keyframe(frame, !movable.empty());
 }
 
 void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
@@ -245,7 +268,7 @@ void Tracker::remember(TrackedFrame&& frame, State state) {
     velocity_.reset();
   }
   const Pose reference_from_camera = map_.pose_of(reference_).inverse() * map_from_camera;
-  last_ = LastFrame{std::move(frame), reference_, reference_from_camera};
+  last_ = LastFrame{std::move(frame), images_, reference_, reference_from_camera};
 }
 
 }  // namespace rds::tracker

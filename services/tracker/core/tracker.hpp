@@ -11,8 +11,10 @@
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/association.hpp"
 #include "services/tracker/core/keyframe_policy.hpp"
+#include "services/tracker/core/local_map.hpp"
 #include "services/tracker/core/local_mapping.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
+#include "services/tracker/core/point_following.hpp"
 #include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/se3.hpp"
 #include "services/tracker/core/slam_map.hpp"
@@ -77,12 +79,26 @@ class Tracker {
  private:
   struct LastFrame {
     TrackedFrame frame;
+    std::shared_ptr<const ImagePyramid> images;
     KeyframeId reference = kNoId;
     Pose reference_from_camera = Pose::Identity();
   };
 
-  void make_frame(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+  void look_at(const image::RgbdFrame& picture);
+  bool track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                      TrackedFrame& frame, FrameResult& result);
+  void extract(const image::RgbdFrame& picture, std::span<const MovableRegion> movable, TrackedFrame& frame,
+               FrameResult& result);
+  void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
+                    TrackedFrame& frame) const;
+  [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture,
+                                     std::span<const MovableRegion> movable) const;
+  [[nodiscard]] std::vector<PointId> points_to_follow(const LocalMap& local) const;
+  bool follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                   TrackedFrame& frame);
+  bool follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                            TrackedFrame& frame, FrameResult& result);
+  void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
   void initialize(TrackedFrame& frame, FrameResult& result);
   void follow(TrackedFrame& frame, FrameResult& result);
   void associate(TrackedFrame& frame);
@@ -93,7 +109,8 @@ class Tracker {
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
-  void decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result);
+  [[nodiscard]] bool needs_keyframe(const TrackedFrame& frame, bool movable_there) const;
+  void add_keyframe(TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] std::optional<KeyframePose> newest_keyframe() const;
@@ -109,14 +126,16 @@ class Tracker {
   ReadoutCalibration readout_;
   vision::PlaceIndex places_;
   ChangeDetector change_;
-  cv::Mat gray_;
-  std::optional<LastFrame> last_;  // the last frame with a pose
+  ChangeDetector change_while_following_;
+  std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
+  std::optional<LastFrame> last_;               // the last frame with a pose
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
   State state_ = State::kNotInitialized;
   KeyframeId reference_ = kNoId;
   KeyframeId newest_keyframe_ = kNoId;  // of those made here
   std::vector<KeyframePose> shown_;     // keyframes that did not enter the map, by id
   std::uint64_t revision_ = 0;          // of the map's geometry, counts corrections
+  int covered_at_keyframe_ = 0;         // cells of the picture with followed points, in the frame after it
   bool job_due_ = false;
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;

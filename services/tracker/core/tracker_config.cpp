@@ -34,6 +34,19 @@ void read(config::ConfigReader& r, PoseOptimizationConfig& c) {
   r.value("chi2_3d", c.chi2_3d, 1.0, 50.0);
 }
 
+void read(config::ConfigReader& r, FollowingConfig& c) {
+  r.value("enabled", c.enabled);
+  r.value("while_movable", c.while_movable);
+  r.value("points", c.points, 50, 5000);
+  r.value("min_points", c.min_points, 10, 5000);
+  r.value("min_inlier_share", c.min_inlier_share, 0.0, 1.0);
+  r.value("min_correlation", c.min_correlation, 0.0, 1.0);
+  r.value("max_shift_px", c.max_shift_px, 0.5, 10.0, "px");
+  r.value("coarsest_level", c.coarsest_level, 0, 6);
+  r.value("finest_level", c.finest_level, 0, 6);
+  r.value("iterations", c.iterations, 1, 100);
+}
+
 void read(config::ConfigReader& r, MatchingConfig& c) {
   r.value("max_distance_frame", c.max_distance_frame, 10, 256, "bits");
   r.value("max_distance_strict", c.max_distance_strict, 10, 256, "bits");
@@ -95,6 +108,7 @@ void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("depth"), config.depth);
   read(reader.section("rolling_shutter"), config.rolling_shutter);
   read(reader.section("pose"), config.pose);
+  read(reader.section("following"), config.following);
   read(reader.section("matching"), config.matching);
   read(reader.section("keyframe"), config.keyframe);
   read(reader.section("map"), config.map);

@@ -44,6 +44,21 @@ struct PoseOptimizationConfig {
   bool operator==(const PoseOptimizationConfig&) const = default;
 };
 
+/// Following map points from picture to picture by how they look.
+struct FollowingConfig {
+  bool enabled = true;            // false: features are extracted and matched in every frame
+  bool while_movable = false;     // also while movable objects are in view
+  int points = 400;               // followed
+  int min_points = 50;            // that must agree on a pose; with fewer, features are extracted and matched
+  double min_inlier_share = 0.5;  // of the followed points, that must agree
+  double min_correlation = 0.8;   // of a point's patches
+  double max_shift_px = 3;        // between expected and found place, in pixels of the patch
+  int coarsest_level = 4;         // of the halvings of the picture, where its motion is looked for first
+  int finest_level = 2;           // … and last; points are then found one by one
+  int iterations = 10;            // per level, at most
+  bool operator==(const FollowingConfig&) const = default;
+};
+
 /// Data association.
 struct MatchingConfig {
   int max_distance_frame = 100;   // bits, frame to frame and local map
@@ -115,6 +130,7 @@ struct TrackerConfig {
   DepthConfig depth;
   RollingShutterConfig rolling_shutter;
   PoseOptimizationConfig pose;
+  FollowingConfig following;
   MatchingConfig matching;
   KeyframeConfig keyframe;
   MapConfig map;

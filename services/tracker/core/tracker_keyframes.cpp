@@ -84,13 +84,15 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, const KeyframeP
   return facts;
 }
 
-void Tracker::decide_keyframe(TrackedFrame& frame, bool movable_there, FrameResult& result) {
+bool Tracker::needs_keyframe(const TrackedFrame& frame, bool movable_there) const {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
-  if (!well_localized && !frame.pose_is_given) return;
+  if (!well_localized && !frame.pose_is_given) return false;
   const auto newest = newest_keyframe();
-  const int inliers = static_cast<int>(result.inliers);
-  if (newest && !is_keyframe(keyframe_facts(frame, *newest, movable_there, inliers), config_.keyframe))
-    return;
+  return !newest ||
+         is_keyframe(keyframe_facts(frame, *newest, movable_there, frame.matches()), config_.keyframe);
+}
+
+void Tracker::add_keyframe(TrackedFrame& frame, FrameResult& result) {
   if (config_.localize_only)
     show_keyframe(frame, result);
   else
@@ -112,7 +114,9 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   const PointId first_new = map_.next_point_id();
   const Keyframe& keyframe = insert_keyframe(map_, frame, config_.depth, config_.map);
   frame.points = keyframe.points;  // the next frame looks for the new points too
+  map_.keyframe(keyframe.id)->images = images_;
   newest_keyframe_ = reference_ = keyframe.id;
+  covered_at_keyframe_ = 0;
   changed_ = false;
   result.keyframe = keyframe_data(map_, keyframe);
   places_.add(keyframe.id, static_descriptors(*frame.features));

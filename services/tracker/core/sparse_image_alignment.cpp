@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/sparse_image_alignment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "services/tracker/core/se3.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+
+constexpr int kSide = 4;  // of a patch, px
+constexpr int kArea = kSide * kSide;
+constexpr int kMinPatches = 20;
+constexpr float kHuber = 12;         // grey levels
+constexpr double kConverged = 2e-5;  // m and rad
+constexpr double kMinDepth = 0.05;   // m
+
+/// What a patch of the reference picture says at one level.
+struct ReferencePatch {
+  Eigen::Vector3d point;
+  Eigen::Vector2d seen_from_projected;  // px of the picture
+  std::array<float, kArea> value;
+  Eigen::Matrix<float, 6, kArea> by_motion;  // derivative of the value
+};
+
+/// Pixel i of a patch around a place.
+Eigen::Vector2f pixel(const Eigen::Vector2f& place, int i) {
+  return {place.x() + static_cast<float>(i % kSide - kSide / 2),
+          place.y() + static_cast<float>(i / kSide - kSide / 2)};
+}
+
+bool cut(const ImagePyramid& reference, const SeenPoint& seen, int level, const geometry::CameraModel& camera,
+         ReferencePatch& patch) {
+  const Eigen::Vector2f place = ImagePyramid::at_level(seen.image_px, level);
+  if (!reference.contains(place, kSide / 2 + 1, level)) return false;
+  const cv::Mat& image = reference.level(level);
+  const Eigen::Vector3d& p = seen.in_reference;
+  Eigen::Matrix<double, 3, 6> point_by_motion;
+  point_by_motion << Eigen::Matrix3d::Identity(), -skew(p);
+  const Eigen::Matrix<float, 2, 6> place_by_motion =
+      (std::ldexp(1.0, -level) * camera.undistorted_by_point(p) * point_by_motion).cast<float>();
+  patch.point = p;
+  patch.seen_from_projected = seen.image_px.cast<double>() - camera.project(p);
+  for (int i = 0; i < kArea; ++i) {
+    const Eigen::Vector2f at = pixel(place, i);
+    patch.value[static_cast<std::size_t>(i)] = interpolate(image, at.x(), at.y());
+    const float gx = 0.5F * (interpolate(image, at.x() + 1, at.y()) - interpolate(image, at.x() - 1, at.y()));
+    const float gy = 0.5F * (interpolate(image, at.x(), at.y() + 1) - interpolate(image, at.x(), at.y() - 1));
+    patch.by_motion.col(i) =
+        gx * place_by_motion.row(0).transpose() + gy * place_by_motion.row(1).transpose();
+  }
+  return true;
+}
+
+/// Normal equations of all patches at one pose.
+struct Equations {
+  Matrix6f hessian = Matrix6f::Zero();
+  Vector6f gradient = Vector6f::Zero();
+  float cost = 0;
+  float differences = 0;
+  int pixels = 0;
+
+  [[nodiscard]] float mean_cost() const { return cost / static_cast<float>(pixels); }
+  [[nodiscard]] float mean_difference() const { return differences / static_cast<float>(pixels); }
+};
+
+void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Mat& image, float offset,
+         Equations& sum) {
+  for (int i = 0; i < kArea; ++i) {
+    const Eigen::Vector2f at = pixel(place, i);
+    const float difference = interpolate(image, at.x(), at.y()) - patch.value[static_cast<std::size_t>(i)];
+    const float residual = difference - offset;
+    const float size = std::abs(residual);
+    const Vector6f weighted = (size <= kHuber ? 1 : kHuber / size) * patch.by_motion.col(i);
+    sum.hessian.noalias() += weighted * patch.by_motion.col(i).transpose();
+    sum.gradient.noalias() += residual * weighted;
+    sum.cost += size <= kHuber ? residual * residual : kHuber * (2 * size - kHuber);
+    sum.differences += difference;
+  }
+  sum.pixels += kArea;
+}
+
+class LevelAlignment {
+ public:
+  LevelAlignment(std::span<const ReferencePatch> patches, const ImagePyramid& picture, int level,
+                 const geometry::CameraModel& camera)
+      : patches_(patches), picture_(picture), level_(level), camera_(camera) {}
+
+  /// Improves pose and brightness offset while that lowers the cost.
+  void run(int iterations, geometry::Pose& pose, float& offset) const {
+    geometry::Pose best = pose;
+    float least = std::numeric_limits<float>::max();
+    for (int i = 0; i < iterations; ++i) {
+      const Equations sum = linearize(pose, offset);
+      if (sum.pixels < kMinPatches * kArea || sum.mean_cost() > least) break;
+      least = sum.mean_cost();
+      best = pose;
+      offset = sum.mean_difference();
+      const Twist step = sum.hessian.cast<double>().ldlt().solve(sum.gradient.cast<double>());
+      if (!step.allFinite()) break;
+      pose = pose * se3_exp(-step);
+      if (step.norm() < kConverged) return;
+    }
+    pose = best;
+  }
+
+ private:
+  [[nodiscard]] Equations linearize(const geometry::Pose& pose, float offset) const {
+    Equations sum;
+    for (const ReferencePatch& patch : patches_) {
+      const Eigen::Vector3d p = pose * patch.point;
+      if (p.z() < kMinDepth) continue;
+      const Eigen::Vector2d px = camera_.project(p) + patch.seen_from_projected;
+      const Eigen::Vector2f place = ImagePyramid::at_level(px.cast<float>(), level_);
+      if (picture_.contains(place, kSide / 2, level_)) add(patch, place, picture_.level(level_), offset, sum);
+    }
+    return sum;
+  }
+
+  std::span<const ReferencePatch> patches_;
+  const ImagePyramid& picture_;
+  int level_;
+  const geometry::CameraModel& camera_;
+};
+
+}  // namespace
+
+geometry::Pose align_sparsely(const ImagePyramid& reference, std::span<const SeenPoint> points,
+                              const ImagePyramid& picture, const geometry::CameraModel& camera,
+                              const geometry::Pose& camera_from_reference, const FollowingConfig& config) {
+  geometry::Pose pose = camera_from_reference;
+  float offset = 0;
+  std::vector<ReferencePatch> patches;
+  patches.reserve(points.size());
+  const int coarsest = std::min({config.coarsest_level, reference.levels() - 1, picture.levels() - 1});
+  for (int level = coarsest; level >= config.finest_level; --level) {
+    patches.clear();
+    for (const SeenPoint& seen : points)
+      if (ReferencePatch patch; cut(reference, seen, level, camera, patch)) patches.push_back(patch);
+    LevelAlignment(patches, picture, level, camera).run(config.iterations, pose, offset);
+  }
+  return pose;
+}
+
+}  // namespace rds::tracker

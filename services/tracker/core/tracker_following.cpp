@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of Tracker that follows map points from picture to picture, without extracting features.
+#include <algorithm>
+#include <bitset>
+
+#include "services/tracker/core/local_map.hpp"
+#include "services/tracker/core/sparse_image_alignment.hpp"
+#include "services/tracker/core/tracker.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr double kMinDepth = 0.05;          // m
+constexpr std::size_t kEnoughToAlign = 40;  // points of the last frame
+constexpr double kTakeOverWindowPx = 2;     // between a followed point and the corner that is taken for it
+constexpr int kCells = 20;                  // of the picture's width and height, for its covered part
+
+/// Cells of the picture in which the frame sees map points.
+int covered_cells(const TrackedFrame& frame) {
+  const geometry::CameraModel& camera = frame.features->camera();
+  std::bitset<kCells * kCells> covered;
+  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+    if (frame.points[i] == kNoId) continue;
+    const Eigen::Vector2f& px = (*frame.features)[i].image_px;
+    const auto column = static_cast<std::size_t>(px.x() / static_cast<float>(camera.width) * kCells);
+    const auto row = static_cast<std::size_t>(px.y() / static_cast<float>(camera.height) * kCells);
+    if (column < kCells && row < kCells) covered.set(row * kCells + column);
+  }
+  return static_cast<int>(covered.count());
+}
+
+}  // namespace
+
+/// Pose from how the last frame's points look now.
+Pose Tracker::align_with_last(const image::RgbdFrame& picture, std::span<const MovableRegion> movable) const {
+  const Pose last_map_from_camera = this->last_map_from_camera();
+  const Pose last_camera_from_map = last_map_from_camera.inverse();
+  std::vector<SeenPoint> seen;
+  for (std::size_t i = 0; i < last_->frame.points.size(); ++i) {
+    const MapPoint* point = map_.point(last_->frame.points[i]);
+    if (point == nullptr) continue;
+    const Feature& f = (*last_->frame.features)[i];
+    const Eigen::Vector3d p = last_camera_from_map * point->position;
+    const auto hides = [&](const MovableRegion& r) { return covers(r, f.image_px, f.depth_m); };
+    if (p.z() > kMinDepth && std::ranges::none_of(movable, hides)) seen.push_back({f.image_px, p});
+  }
+  const Pose expected = expected_camera_from_map(picture.stamp_ns);
+  if (seen.size() < kEnoughToAlign) return expected;
+  return align_sparsely(*last_->images, seen, *images_, picture.camera, expected * last_map_from_camera,
+                        config_.following) *
+         last_camera_from_map;
+}
+
+/// Points of the last frame and of the local map around it.
+std::vector<PointId> Tracker::points_to_follow(const LocalMap& local) const {
+  std::vector<PointId> ids;
+  std::ranges::copy_if(last_->frame.points, std::back_inserter(ids),
+                       [&](PointId id) { return map_.point(id) != nullptr; });
+  ids.insert(ids.end(), local.points.begin(), local.points.end());
+  return ids;
+}
+
+bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                         TrackedFrame& frame) {
+  const FollowingConfig& config = config_.following;
+  const bool allowed = config.enabled && (movable.empty() || config.while_movable);
+  if (!allowed || given_poses_ || state_ != State::kTracking || !last_) return false;
+  const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
+  if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
+  frame.stamp_ns = picture.stamp_ns;
+  frame.camera_from_map = align_with_last(picture, movable);
+  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
+  const ObservationModel model(picture.camera, config_.depth);
+  FollowedPoints followed = follow_points(map_, points_to_follow(local),
+                                          {picture, *images_, movable, frame.camera_from_map, frame.motion},
+                                          model, pyramid_, config);
+  set_features(picture, std::move(followed.features), frame);
+  frame.points = std::move(followed.points);
+  const int found = frame.matches();
+  const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
+  if (inliers < config.min_points || inliers < config.min_inlier_share * found) return false;
+  for (const PointId id : frame.points)
+    if (MapPoint* point = map_.point(id)) {
+      ++point->visible;
+      ++point->found;
+    }
+  changed_ |= change_while_following_.update(followed.expected, inliers);
+  reference_ = local.reference;
+  return true;
+}
+
+/// If the view has changed enough since the last keyframe, extracts features where the pose is known.
+/// @return true if the frame is to become a keyframe.
+bool Tracker::follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                                   TrackedFrame& frame, FrameResult& result) {
+  const auto newest = newest_keyframe();
+  if (!newest) return false;
+  const int covered = covered_cells(frame);
+  if (covered_at_keyframe_ == 0) covered_at_keyframe_ = covered;
+  KeyframeFacts facts = keyframe_facts(frame, *newest, !movable.empty(), covered);
+  facts.reference_points = covered_at_keyframe_;
+  if (!is_keyframe(facts, config_.keyframe)) return false;
+  TrackedFrame extracted;
+  extracted.camera_from_map = frame.camera_from_map;
+  extract(picture, movable, extracted, result);
+  take_over(frame, picture, extracted);
+  refine_with_local_map(extracted, 1);
+  if (extracted.static_matches() < config_.quality.min_inliers) return false;
+  frame = std::move(extracted);
+  return true;
+}
+
+/// A corner near a followed point is taken for it, and for standing where the point was found.
+void Tracker::take_over(const TrackedFrame& followed, const image::RgbdFrame& picture,
+                        TrackedFrame& frame) const {
+  const ObservationModel model(picture.camera, config_.depth);
+  std::vector<Feature> features = frame.features->all();
+  for (std::size_t i = 0; i < followed.points.size(); ++i) {
+    if (followed.points[i] == kNoId) continue;
+    const Feature& f = (*followed.features)[i];
+    const SearchWindow window{f.px, static_cast<float>(kTakeOverWindowPx * pyramid_.scale(f.level)),
+                              f.level - 1, f.level + 1, 0};
+    const auto corner = best_in_window(*frame.features, frame.points, model, f.descriptor, window,
+                                       config_.matching.max_distance_frame, 1);
+    if (!corner) continue;
+    frame.points[*corner] = followed.points[i];
+    features[*corner].px = f.px;
+    features[*corner].image_px = f.image_px;
+    features[*corner].depth_m = f.depth_m;
+  }
+  frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
+}
+
+}  // namespace rds::tracker

@@ -120,10 +120,10 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 }
 
 bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
-  const auto x = static_cast<double>(static_cast<int>(pixel) % record.width * record.stride);
-  const auto y = static_cast<double>(static_cast<int>(pixel) / record.width * record.stride);
+  const int column = static_cast<int>(pixel) % record.width;
+  const int row = static_cast<int>(pixel) / record.width;
   const float depth = record.depth_m(pixel);
-  return box_px.contains(x, y) && depth >= min_depth_m && depth <= max_depth_m;
+  return box_px.contains(column * record.stride, row * record.stride) && depth >= min_depth_m && depth <= max_depth_m;
 }
 
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,

@@ -15,6 +15,7 @@ std::vector<CovisibleKeyframe> keyframes_that_share_points(const SlamMap& map, c
     if (const MapPoint* point = map.point(id))
       for (const Observation& o : point->observations) ++votes[o.keyframe];
   std::vector<CovisibleKeyframe> sharing;
+  sharing.reserve(votes.size());
   for (const auto& [id, weight] : votes) sharing.push_back({id, weight});
   std::ranges::stable_sort(sharing, std::ranges::greater{}, &CovisibleKeyframe::weight);
   return sharing;
@@ -33,8 +34,8 @@ LocalMap select_local_map(SlamMap& map, const TrackedFrame& frame, const MapConf
   for (const CovisibleKeyframe& k : keyframes_that_share_points(map, frame)) add(k.id);
   if (local.keyframes.empty()) return local;
   local.reference = local.keyframes.front();
-  for (std::size_t i = 0, direct = local.keyframes.size(); i < direct; ++i) {
-    const auto& neighbours = map.keyframe(local.keyframes[i])->covisible;
+  for (const KeyframeId direct : std::vector(local.keyframes)) {
+    const auto& neighbours = map.keyframe(direct)->covisible;
     for (std::size_t n = 0; n < std::min(neighbours.size(), kNeighboursEach); ++n) add(neighbours[n].id);
   }
   for (const PointId id : frame.points)

@@ -66,8 +66,7 @@ std::vector<PointId> points_around(const SlamMap& map, const Keyframe& keyframe)
   for (std::size_t i = 0; i < std::min(kNeighbours, keyframe.covisible.size()); ++i)
     add(*map.keyframe(keyframe.covisible[i].id));
   std::ranges::sort(points);
-  const auto repeated = std::ranges::unique(points);
-  points.erase(repeated.begin(), repeated.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
 }
 

@@ -31,7 +31,7 @@ void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMo
 
 Eigen::Vector2d project_rolling(const geometry::CameraModel& camera, const ShutterMotion& motion,
                                 const Eigen::Vector3d& p) {
-  const Eigen::Vector2d px = camera.project(p);
+  Eigen::Vector2d px = camera.project(p);
   if (motion.readout_s == 0) return px;
   const double time = row_share(camera, px.y()) * motion.readout_s;
   const Eigen::Vector3d moved = p + time * point_velocity(motion.velocity, p);

@@ -17,7 +17,8 @@ namespace {
 using Vector6f = Eigen::Matrix<float, 6, 1>;
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
 
-constexpr int kSide = 4;  // of a patch, px
+constexpr int kHalf = 2;  // of a patch's side, px
+constexpr int kSide = 2 * kHalf;
 constexpr int kArea = kSide * kSide;
 constexpr int kMinPatches = 20;
 constexpr float kHuber = 12;         // grey levels
@@ -34,14 +35,15 @@ struct ReferencePatch {
 
 /// Pixel i of a patch around a place.
 Eigen::Vector2f pixel(const Eigen::Vector2f& place, int i) {
-  return {place.x() + static_cast<float>(i % kSide - kSide / 2),
-          place.y() + static_cast<float>(i / kSide - kSide / 2)};
+  const int row = i / kSide;
+  const int column = i % kSide;
+  return place + Eigen::Vector2i(column - kHalf, row - kHalf).cast<float>();
 }
 
 bool cut(const ImagePyramid& reference, const SeenPoint& seen, int level, const geometry::CameraModel& camera,
          ReferencePatch& patch) {
   const Eigen::Vector2f place = ImagePyramid::at_level(seen.image_px, level);
-  if (!reference.contains(place, kSide / 2 + 1, level)) return false;
+  if (!reference.contains(place, kHalf + 1, level)) return false;
   const cv::Mat& image = reference.level(level);
   const Eigen::Vector3d& p = seen.in_reference;
   Eigen::Matrix<double, 3, 6> point_by_motion;
@@ -121,7 +123,7 @@ class LevelAlignment {
       if (p.z() < kMinDepth) continue;
       const Eigen::Vector2d px = camera_.project(p) + patch.seen_from_projected;
       const Eigen::Vector2f place = ImagePyramid::at_level(px.cast<float>(), level_);
-      if (picture_.contains(place, kSide / 2, level_)) add(patch, place, picture_.level(level_), offset, sum);
+      if (picture_.contains(place, kHalf, level_)) add(patch, place, picture_.level(level_), offset, sum);
     }
     return sum;
   }

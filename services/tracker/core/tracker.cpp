@@ -159,7 +159,7 @@ Pose Tracker::last_map_from_camera() const {
 Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
   if (given_poses_)
     if (const auto given = given_poses_(stamp_ns)) return given->inverse();
-  const Pose last = last_map_from_camera().inverse();
+  Pose last = last_map_from_camera().inverse();
   if (!velocity_) return last;
   const double gap = static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
   if (gap <= 0 || gap > kMaxPredictedGap) return last;

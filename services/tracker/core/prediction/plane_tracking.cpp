@@ -123,6 +123,7 @@ std::vector<PredictedObject> PlaneTracking::predict(std::int64_t stamp_ns) const
     if (!added && object.age_s < known->second.age_s) known->second = object;
   }
   std::vector<PredictedObject> result;
+  result.reserve(objects.size());
   for (auto& [id, object] : objects) result.push_back(std::move(object));
   return result;
 }

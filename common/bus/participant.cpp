@@ -8,6 +8,8 @@
 #include <set>
 #include <thread>
 
+#include <malloc.h>
+
 #include "common/bus/backend.hpp"
 #include "common/bus/message_pool.hpp"
 #include "common/bus/node_announcer.hpp"
@@ -225,11 +227,25 @@ std::string name_of(Vendor vendor) {
   return vendor == Vendor::kFastDds ? "fastdds" : "cyclonedds";
 }
 
+namespace {
+
+/// Lets freed memory stay with the process. Else the C library may give the memory of every picture back to
+/// the kernel, which clears it anew for the next one: with some luck it notices and stops, without it a
+/// picture's way takes three times as long.
+void keep_freed_memory() {
+  constexpr int kMiB = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMiB);
+  mallopt(M_TRIM_THRESHOLD, 64 * kMiB);
+}
+
+}  // namespace
+
 std::unique_ptr<Participant> Participant::create(const ParticipantOptions& options) {
   if (options.domain < 0 || options.domain > kHighestDomain) {
     throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
                    std::to_string(kHighestDomain));
   }
+  keep_freed_memory();
   return std::make_unique<DdsParticipant>(options);
 }
 

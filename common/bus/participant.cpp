@@ -229,9 +229,9 @@ std::string name_of(Vendor vendor) {
 
 namespace {
 
-/// Lets freed memory stay with the process. Else the C library may give the memory of every picture back to
-/// the kernel, which clears it anew for the next one: with some luck it notices and stops, without it a
-/// picture's way takes three times as long.
+/// Lets freed memory stay with the process. By itself the C library adapts to large messages only by chance:
+/// in some runs it gives every picture's memory back to the kernel, which has to clear it for the next one,
+/// and a picture's way takes more than twice as long.
 void keep_freed_memory() {
   constexpr int kMiB = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * kMiB);

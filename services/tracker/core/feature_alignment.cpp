@@ -14,7 +14,7 @@ constexpr int kSide = 2 * kHalf;
 constexpr int kBordered = kSide + 2;
 constexpr int kIterations = 10;
 constexpr float kConverged = 0.02F;    // px
-constexpr float kMinStructure = 50;    // grey levels², harmonic mean of the gradients' two directions
+constexpr float kMinStructure = 50;    // grey levels²: determinant by trace of the gradients' 2×2 matrix
 constexpr float kLargestGain = 3;      // of contrast between the two pictures
 constexpr double kLargestScaling = 4;  // between the two pictures
 

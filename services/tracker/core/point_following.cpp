@@ -147,7 +147,7 @@ FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points
       followed.points.push_back(kNoId);
       continue;
     }
-    ++followed.expected;
+    followed.looked_for.push_back(expected[i].point->id);
     if (const auto feature = find(map, expected[i], view, pyramid, config)) {
       ++found;
       followed.features.push_back(*feature);

@@ -23,7 +23,7 @@ struct FollowingView {
 struct FollowedPoints {
   std::vector<Feature> features;  // image_px; level, angle and descriptor as in the map. Not matchable.
   std::vector<PointId> points;    // per feature; kNoId: not looked for, because something movable is there
-  int expected = 0;               // looked for
+  std::vector<PointId> looked_for;
 };
 
 /// Finds map points in a picture by the patch around the feature of the keyframe that saw them from nearest.

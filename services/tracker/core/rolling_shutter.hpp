@@ -29,7 +29,7 @@ struct ShutterMotion {
 
 /// Moves features (px, depth_m) to where they would be had all rows been read with the middle one; image_px
 /// stays. First order in time; a feature without depth follows the rotation only.
-/// Source: the idea of Klein & Murray 2009, §4.3 (compensation with the velocity of the motion model).
+/// Source: the idea of Klein & Murray 2009 (PTAM on a camera phone).
 void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMotion& motion,
                             std::vector<Feature>& features);
 

@@ -55,7 +55,7 @@ struct Keyframe {
   ShutterMotion motion;        // that px and depth of the features are compensated for
   bool pose_is_given = false;  // and held by bundle adjustment
   std::shared_ptr<const FeatureSet> features;
-  std::shared_ptr<const ImagePyramid> images;  // null in a map that was saved
+  std::shared_ptr<const ImagePyramid> images;  // null if points are not followed, and in a map that was saved
   std::vector<PointId> points;                 // per feature; kNoId
   std::vector<bool> movable;                   // per feature; more than the set knows after late boxes
   std::vector<CovisibleKeyframe> covisible;    // most shared points first, then by id

@@ -17,7 +17,6 @@ constexpr double kNsPerSecond = 1e9;
 constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
 constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;        // after it
-constexpr int kHalvings = 5;              // levels of the picture that points are followed in
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 
 std::int64_t microseconds_since(Clock::time_point start) {
@@ -127,7 +126,8 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
 void Tracker::look_at(const image::RgbdFrame& picture) {
   cv::Mat gray;
   picture.color.to_gray(gray);
-  images_ = std::make_shared<const ImagePyramid>(gray, kHalvings);
+  images_ =
+      std::make_shared<const ImagePyramid>(gray, follows_points() ? config_.following.coarsest_level + 1 : 1);
 }
 
 /// Extracts features and finds the pose from them. @return true if the frame is to become a keyframe.

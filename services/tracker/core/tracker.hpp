@@ -84,6 +84,8 @@ class Tracker {
     Pose reference_from_camera = Pose::Identity();
   };
 
+  /// False where poses are not estimated or nothing is to be followed.
+  [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
   void look_at(const image::RgbdFrame& picture);
   bool track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                       TrackedFrame& frame, FrameResult& result);

@@ -63,8 +63,8 @@ std::vector<PointId> Tracker::points_to_follow(const LocalMap& local) const {
 bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                          TrackedFrame& frame) {
   const FollowingConfig& config = config_.following;
-  const bool allowed = config.enabled && (movable.empty() || config.while_movable);
-  if (!allowed || given_poses_ || state_ != State::kTracking || !last_) return false;
+  const bool allowed = follows_points() && (movable.empty() || config.while_movable);
+  if (!allowed || state_ != State::kTracking || !last_) return false;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
   frame.stamp_ns = picture.stamp_ns;
@@ -79,12 +79,10 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
   const int found = frame.matches();
   const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
   if (inliers < config.min_points || inliers < config.min_inlier_share * found) return false;
+  for (const PointId id : followed.looked_for) ++map_.point(id)->visible;
   for (const PointId id : frame.points)
-    if (MapPoint* point = map_.point(id)) {
-      ++point->visible;
-      ++point->found;
-    }
-  changed_ |= change_while_following_.update(followed.expected, inliers);
+    if (MapPoint* point = map_.point(id)) ++point->found;
+  changed_ |= change_while_following_.update(static_cast<int>(followed.looked_for.size()), inliers);
   reference_ = local.reference;
   return true;
 }

@@ -114,7 +114,7 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   const PointId first_new = map_.next_point_id();
   const Keyframe& keyframe = insert_keyframe(map_, frame, config_.depth, config_.map);
   frame.points = keyframe.points;  // the next frame looks for the new points too
-  map_.keyframe(keyframe.id)->images = images_;
+  if (follows_points()) map_.keyframe(keyframe.id)->images = images_;
   newest_keyframe_ = reference_ = keyframe.id;
   covered_at_keyframe_ = 0;
   changed_ = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/tracker.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
@@ -39,6 +41,41 @@ TEST(Tracker, FollowsAMovingCamera) {
     EXPECT_EQ(result.verdicts.size(), result.features);
   }
   EXPECT_GT(tracker.map().keyframes(), 1U);
+}
+
+TEST(Tracker, FollowsPointsAndExtractsForKeyframesOnly) {
+  TrackerConfig config = small_config();
+  config.following.points = 120;
+  Tracker tracker(config);
+  int followed = 0;
+  for (int i = 0; i < 12; ++i) {
+    const FrameResult result = step(tracker, i);
+    ASSERT_EQ(result.state, State::kTracking) << i;
+    if (result.keyframe) continue;
+    EXPECT_LE(result.features, 120U);
+    EXPECT_EQ(result.times.extract_us, 0);
+    ++followed;
+  }
+  EXPECT_GE(followed, 5);
+}
+
+TEST(Tracker, APointThatIsNotFoundWhereItShouldBeLosesTrust) {
+  Tracker tracker(small_config());
+  step(tracker, 0);
+  std::vector<PointId> covered;
+  tracker.map().all_points().for_each([&](const MapPoint& p) {
+    if (p.position.x() < -0.3) covered.push_back(p.id);
+  });
+  ASSERT_GT(covered.size(), 20U);
+  const std::uint32_t before = tracker.map().point(covered.front())->visible;
+  image::RgbdFrame hidden = test::picture_of_wall(truth(1), kFrameNs);
+  hidden.color.pixels(cv::Rect(0, 0, 160, 240)).setTo(cv::Scalar(90, 90, 90));
+  ASSERT_TRUE(has_pose(tracker.track(hidden, {}).state));
+  const auto is_missed = [&](PointId id) {
+    const MapPoint* p = tracker.map().point(id);
+    return p != nullptr && p->visible > before && p->found < p->visible;
+  };
+  EXPECT_GT(std::ranges::count_if(covered, is_missed), 20);
 }
 
 TEST(Tracker, TheFirstFrameIsAKeyframeAtTheOrigin) {

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "tools/rds/doctor_command.hpp"
+#include "tools/rds/doctor/doctor_command.hpp"
 #include "tools/rds/eval_command.hpp"
 #include "tools/rds/map_command.hpp"
 #include "tools/rds/models_command.hpp"
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   rds::tools::add_map_command(rds);
   rds::tools::add_topic_command(rds);
   rds::tools::add_models_command(rds);
-  rds::tools::add_doctor_command(rds);
+  rds::doctor::add_doctor_command(rds);
   rds::tools::add_simulate_command(rds);
   try {
     rds.parse(argc, argv);

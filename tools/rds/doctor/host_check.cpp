@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/host_check.hpp"
+#include "tools/rds/doctor/host_check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include "common/geometry/text_line.hpp"
 #include "services/detector/models/model_store.hpp"
 
-namespace rds::tools {
+namespace rds::doctor {
 namespace {
 constexpr unsigned kFewestCores = 2;
 constexpr double kGiB = 1024.0 * 1024 * 1024;
@@ -179,4 +179,4 @@ std::vector<Finding> check_host() {
           check_networks()};
 }
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

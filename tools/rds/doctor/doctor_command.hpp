@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace rds::tools {
+namespace rds::doctor {
 
 /// `rds doctor`: is this machine ready? `rds doctor --dataset DIR`: is this recording fit to be run?
 ///
@@ -11,4 +11,4 @@ namespace rds::tools {
 /// dataset that cannot be opened it prints one sentence to stderr and throws CLI::RuntimeError(2).
 void add_doctor_command(CLI::App& rds);
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

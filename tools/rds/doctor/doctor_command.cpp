@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor_command.hpp"
+#include "tools/rds/doctor/doctor_command.hpp"
 
 #include <memory>
 #include <string>
@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "tools/rds/dataset_check.hpp"
+#include "tools/rds/doctor/dataset_check.hpp"
+#include "tools/rds/doctor/host_check.hpp"
 #include "tools/rds/exit.hpp"
-#include "tools/rds/host_check.hpp"
 
-namespace rds::tools {
+namespace rds::doctor {
 namespace {
 
 struct DoctorOptions {
@@ -21,15 +21,11 @@ struct DoctorOptions {
 
 void conclude(const std::vector<Finding>& findings) {
   fmt::print("{}", to_text(findings));
-  if (any_fault(findings)) throw CLI::RuntimeError(kExitFault);
+  if (any_fault(findings)) throw CLI::RuntimeError(tools::kExitFault);
 }
 
-std::vector<Finding> check_dataset(const DoctorOptions& options) {
-  const auto dataset = value_or_exit(image::TumDataset::open(options.dataset));
-  auto findings = check_lists(dataset);
-  const auto looks = look_at_pictures(dataset, options.every);
-  for (auto& finding : check_looks(looks, dataset.depth_scale())) findings.push_back(std::move(finding));
-  return findings;
+std::vector<Finding> check_recording(const DoctorOptions& options) {
+  return check_dataset(tools::value_or_exit(image::TumDataset::open(options.dataset)), options.every);
 }
 
 }  // namespace
@@ -42,7 +38,7 @@ void add_doctor_command(CLI::App& rds) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback(
-      [options] { conclude(options->dataset.empty() ? check_host() : check_dataset(*options)); });
+      [options] { conclude(options->dataset.empty() ? check_host() : check_recording(*options)); });
 }
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

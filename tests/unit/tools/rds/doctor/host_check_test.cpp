@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/host_check.hpp"
+#include "tools/rds/doctor/host_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rds::tools {
+namespace rds::doctor {
 namespace {
 
 TEST(HostCheck, AcceptsDomainsThatDdsHasPortsFor) {
@@ -29,4 +29,4 @@ TEST(HostCheck, BothVendorsJoin) {
 }
 
 }  // namespace
-}  // namespace rds::tools
+}  // namespace rds::doctor

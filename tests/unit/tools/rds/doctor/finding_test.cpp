@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/finding.hpp"
+#include "tools/rds/doctor/finding.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rds::tools {
+namespace rds::doctor {
 namespace {
 
 TEST(Findings, AreLinesAndOnlyFaultsCount) {
@@ -14,4 +14,4 @@ TEST(Findings, AreLinesAndOnlyFaultsCount) {
 }
 
 }  // namespace
-}  // namespace rds::tools
+}  // namespace rds::doctor

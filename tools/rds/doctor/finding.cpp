@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/finding.hpp"
+#include "tools/rds/doctor/finding.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-namespace rds::tools {
+namespace rds::doctor {
 namespace {
 
 const char* name_of(Verdict verdict) {
@@ -33,4 +33,4 @@ bool any_fault(const std::vector<Finding>& findings) {
   return std::ranges::any_of(findings, [](const auto& f) { return f.verdict == Verdict::kFault; });
 }
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

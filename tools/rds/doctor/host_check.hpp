@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
-#include "tools/rds/finding.hpp"
+#include "tools/rds/doctor/finding.hpp"
 
-namespace rds::tools {
+namespace rds::doctor {
 
 /// Processor and memory of this machine.
 Finding check_processor();
@@ -29,4 +29,4 @@ Finding check_networks();
 /// All of the above for this process, results going to the current folder.
 std::vector<Finding> check_host();
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

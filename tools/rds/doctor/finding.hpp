@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rds::tools {
+namespace rds::doctor {
 
 /// kHint: works, but could be better. kFault: a run will fail or be spoiled.
 enum class Verdict { kGood, kHint, kFault };
@@ -20,4 +20,4 @@ struct Finding {
 std::string to_text(const std::vector<Finding>& findings);
 bool any_fault(const std::vector<Finding>& findings);
 
-}  // namespace rds::tools
+}  // namespace rds::doctor

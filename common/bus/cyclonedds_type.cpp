@@ -167,7 +167,7 @@ std::size_t print(const ddsi_sertype* /*type*/, const ddsi_serdata* data, char* 
 }
 
 const ddsi_serdata_ops* message_operations() {
-  static const ddsi_serdata_ops operations = [] {
+  static const ddsi_serdata_ops kOperations = [] {
     ddsi_serdata_ops ops{};  // shared memory stays off, so its operations stay empty
     ops.eqkey = [](const ddsi_serdata*, const ddsi_serdata*) { return true; };
     ops.get_size = [](const ddsi_serdata* d) { return static_cast<std::uint32_t>(Look(d)->size); };
@@ -188,11 +188,11 @@ const ddsi_serdata_ops* message_operations() {
     };
     return ops;
   }();
-  return &operations;
+  return &kOperations;
 }
 
 const ddsi_sertype_ops* type_operations() {
-  static const ddsi_sertype_ops operations = [] {
+  static const ddsi_sertype_ops kOperations = [] {
     ddsi_sertype_ops ops{};
     ops.version = ddsi_sertype_v0;
     ops.free = [](ddsi_sertype* t) {
@@ -217,7 +217,7 @@ const ddsi_sertype_ops* type_operations() {
     };
     return ops;
   }();
-  return &operations;
+  return &kOperations;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ bool decode(const std::uint8_t* bytes, std::size_t size, void* message) {
 
 template <class T>
 const TypeOps& type_ops() {
-  static const TypeOps ops{
+  static const TypeOps kOps{
       .dds_name = messages::Fields<T>::kDdsName,
       .ros_name = messages::Fields<T>::kRosName,
       .type_hash = messages::Fields<T>::kTypeHash,
@@ -68,7 +68,7 @@ const TypeOps& type_ops() {
       .create = []() -> void* { return new T; },
       .destroy = [](void* message) { delete static_cast<T*>(message); },
   };
-  return ops;
+  return kOps;
 }
 
 }  // namespace rds::bus

@@ -21,8 +21,8 @@ std::vector<MessageType> sorted_types() {
 }  // namespace
 
 std::span<const MessageType> message_types() {
-  static const std::vector<MessageType> types = sorted_types();
-  return types;
+  static const std::vector<MessageType> kTypes = sorted_types();
+  return kTypes;
 }
 
 const MessageType* find_message_type(std::string_view dds_name) {

@@ -59,6 +59,7 @@ void draw_broken_line(PlotPanel& panel, const std::vector<TimedPoint>& samples, 
 
 std::vector<double> coordinate(const std::vector<TimedPoint>& samples, int axis) {
   std::vector<double> values;
+  values.reserve(samples.size());
   for (const auto& sample : samples) values.push_back(sample.point[axis]);
   return values;
 }

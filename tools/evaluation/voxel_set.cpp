@@ -29,8 +29,7 @@ VoxelKey voxel_of(const Eigen::Vector3d& point, double resolution_m) {
 
 VoxelSet make_voxel_set(std::vector<VoxelKey> keys) {
   std::ranges::sort(keys);
-  const auto rest = std::ranges::unique(keys);
-  keys.erase(rest.begin(), rest.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
 }
 

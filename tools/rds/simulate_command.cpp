@@ -87,6 +87,7 @@ std::optional<std::string> render_all(const Simulation& simulation, DatasetWrite
     }
   };
   std::vector<std::jthread> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) workers.emplace_back(work, true);
   workers.clear();
   return fault;

@@ -44,6 +44,7 @@ std::vector<TopicSummary> summarise(const std::vector<bus::DiscoveredEndpoint>& 
     ++(endpoint.publisher ? summary.publishers : summary.subscribers);
   }
   std::vector<TopicSummary> result;
+  result.reserve(topics.size());
   for (auto& [key, summary] : topics) result.push_back(std::move(summary));
   return result;
 }

@@ -57,7 +57,9 @@ int FloorMap::cell(const Eigen::Vector2d& point) const {
 }
 
 Eigen::Vector2d FloorMap::center(int cell) const {
-  return corner_ + kCell * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
+  const int x = cell % width_;
+  const int y = cell / width_;
+  return corner_ + kCell * Eigen::Vector2d(x + 0.5, y + 0.5);
 }
 
 bool FloorMap::is_free(const Eigen::Vector2d& point) const {

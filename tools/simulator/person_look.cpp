@@ -136,8 +136,8 @@ PersonLook make_person(Appearance& appearance, Random& random) {
   const std::array<cv::Scalar, 5> hairs{cv::Scalar(25, 28, 35), cv::Scalar(35, 50, 75),
                                         cv::Scalar(60, 95, 140), cv::Scalar(95, 150, 190),
                                         cv::Scalar(130, 130, 135)};
-  const cv::Scalar skin = skins[static_cast<std::size_t>(random.integer(4))];
-  const cv::Scalar hair = hairs[static_cast<std::size_t>(random.integer(5))];
+  const cv::Scalar& skin = skins[static_cast<std::size_t>(random.integer(4))];
+  const cv::Scalar& hair = hairs[static_cast<std::size_t>(random.integer(5))];
   PersonLook look;
   look.long_hair = random.chance(0.45);
   const cv::Scalar color = cloth_color(random);

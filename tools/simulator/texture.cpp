@@ -78,7 +78,7 @@ Eigen::Array3f Texture::sample(float u, float v, float footprint) const {
   const float wanted = std::clamp(lod, 0.0F, last);
   const auto fine = static_cast<std::size_t>(wanted);
   const float blend = wanted - static_cast<float>(fine);
-  const Eigen::Array3f a = bilinear(levels_[fine], u, v);
+  Eigen::Array3f a = bilinear(levels_[fine], u, v);
   if (blend < 0.02F || fine + 1 >= levels_.size()) return a;
   return a * (1 - blend) + bilinear(levels_[fine + 1], u, v) * blend;
 }

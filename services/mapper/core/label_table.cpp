@@ -9,7 +9,7 @@ namespace rds::mapper {
 namespace {
 
 const std::map<std::string, Rgb>& known_colors() {
-  static const std::map<std::string, Rgb> colors = {
+  static const std::map<std::string, Rgb> kColors = {
       {"person", {214, 39, 40}},        {"chair", {31, 119, 180}},        {"sofa", {148, 103, 189}},
       {"couch", {148, 103, 189}},       {"diningtable", {255, 127, 14}},  {"dining table", {255, 127, 14}},
       {"table", {255, 127, 14}},        {"tvmonitor", {23, 190, 207}},    {"tv", {23, 190, 207}},
@@ -17,7 +17,7 @@ const std::map<std::string, Rgb>& known_colors() {
       {"potted plant", {106, 191, 75}}, {"laptop", {227, 119, 194}},      {"keyboard", {188, 189, 34}},
       {"book", {140, 86, 75}},          {"shelf", {140, 86, 75}},         {"box", {196, 156, 90}},
       {"cup", {240, 200, 40}},          {"refrigerator", {90, 110, 200}}, {"sink", {0, 140, 140}}};
-  return colors;
+  return kColors;
 }
 
 Rgb color_of_hue(double hue, double lightness) {

@@ -27,8 +27,8 @@ void check_may_be_replaced(const fs::path& wanted, bool force) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path wanted, bool force)
-    : wanted_(fs::absolute(std::move(wanted)).lexically_normal()) {
+OutputFolder::OutputFolder(const fs::path& wanted, bool force)
+    : wanted_(fs::absolute(wanted).lexically_normal()) {
   if (!wanted_.has_filename()) wanted_ = wanted_.parent_path();
   check_may_be_replaced(wanted_, force);
   partial_ = wanted_;

@@ -12,7 +12,7 @@ class OutputFolder {
  public:
   /// @param force  an earlier run at `wanted` (a folder with summary.json) is replaced.
   /// @throws std::runtime_error with one sentence if it exists and is not empty, or cannot be written.
-  OutputFolder(std::filesystem::path wanted, bool force);
+  OutputFolder(const std::filesystem::path& wanted, bool force);
   /// Removes what was written unless it was published.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;

@@ -36,7 +36,7 @@ void parse_vendors(const std::string& text, RunOptions& options) {
     }
     std::string process = part.substr(0, equals);
     if (process == "player") process = kPlayer;
-    if (process != kPlayer && !process.starts_with("rds-")) process = "rds-" + process;
+    if (process != kPlayer && !process.starts_with("rds-")) process.insert(0, "rds-");
     static const std::set<std::string> kProcesses{kPlayer,      kTracker, kDetector,
                                                   kTransformer, kMapper,  kLoopCloser};
     if (process == "rds-loop_closer") process = kLoopCloser;

@@ -11,7 +11,7 @@ constexpr double kTexelsPerMetre = 160;  // as fine as the camera sees the wall
 constexpr int kTexels = 1200;
 
 const cv::Mat& texture() {
-  static const cv::Mat made = [] {
+  static const cv::Mat kTexture = [] {
     std::mt19937 random(7);
     cv::Mat grey(kTexels, kTexels, CV_8UC1, cv::Scalar(128));
     for (int i = 0; i < 6000; ++i) {
@@ -24,7 +24,7 @@ const cv::Mat& texture() {
     cv::cvtColor(grey, color, cv::COLOR_GRAY2BGR);
     return color;
   }();
-  return made;
+  return kTexture;
 }
 
 /// Where a camera-frame point is when its row is read. The row depends on the place: a few steps find both.

@@ -11,7 +11,7 @@ namespace rds::messages {
 namespace {
 
 #define SKIP_WITHOUT(recordings) \
-  if (recordings.empty())        \
+  if ((recordings).empty())      \
   GTEST_SKIP() << "RDS_SHARED/data/wire is missing: messages of an independent encoder"
 
 /// The recordings list the constants of a message with its values; ours are not part of a message.

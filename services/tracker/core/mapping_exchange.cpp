@@ -82,11 +82,18 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
   map.all_points().for_each([&](MapPoint& p) {
     if (p.created_by > result.keyframe) p.position = moved_from_before * p.position;
   });
-  for (const auto& o : result.added) map.observe(o.point, o.keyframe, o.feature);
+  std::vector<PointId> seen_otherwise;
+  for (const auto& o : result.added)
+    if (map.observe(o.point, o.keyframe, o.feature)) seen_otherwise.push_back(o.point);
   for (const auto& f : result.fused) map.merge(f.keep, f.drop);
-  for (const auto& o : result.removed) map.forget(o.point, o.keyframe);
+  for (const auto& o : result.removed) {
+    map.forget(o.point, o.keyframe);
+    seen_otherwise.push_back(o.point);
+  }
+  for (const PointId id : seen_otherwise)
+    if (MapPoint* p = map.point(id)) map.refresh(*p);
   for (const auto& moved : result.points)
-    if (MapPoint* p = map.point(moved.id)) map.refresh(*p);
+    if (MapPoint* p = map.point(moved.id)) map.refresh_view(*p);
   map.update_covisibility(result.keyframe);
 }
 
@@ -109,7 +116,7 @@ void apply_correction(SlamMap& map, std::span<const KeyframePose> corrected) {
     if (map.keyframe(k.id) != nullptr) map.set_pose(k.id, k.map_from_camera);
   for (const KeyframePose& k : all)
     if (map.keyframe(k.id) == nullptr) map.set_pose(k.id, k.map_from_camera);
-  map.all_points().for_each([&](MapPoint& p) { map.refresh(p); });
+  map.all_points().for_each([&](MapPoint& p) { map.refresh_view(p); });
 }
 
 }  // namespace rds::tracker

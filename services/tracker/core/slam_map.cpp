@@ -2,7 +2,9 @@
 #include "services/tracker/core/slam_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <span>
 #include <stdexcept>
 
 namespace rds::tracker {
@@ -12,25 +14,25 @@ auto find_observation(MapPoint& point, KeyframeId keyframe) {
   return std::ranges::lower_bound(point.observations, keyframe, {}, &Observation::keyframe);
 }
 
-/// The descriptor whose median distance to the others is smallest.
-Descriptor most_typical(const std::vector<Descriptor>& descriptors) {
-  std::size_t best = 0;
-  int best_median = 257;
-  std::vector<int> distances(descriptors.size());
-  for (std::size_t i = 0; i < descriptors.size(); ++i) {
-    for (std::size_t j = 0; j < descriptors.size(); ++j)
-      distances[j] = descriptor_distance(descriptors[i], descriptors[j]);
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((distances.size() - 1) / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    if (*middle < best_median) {
-      best_median = *middle;
-      best = i;
-    }
-  }
-  return descriptors[best];
-}
-
 constexpr std::size_t kMaxTypicalOf = 12;  // newest observations that the descriptor is chosen from
+
+/// The descriptor whose median distance to the others is smallest.
+const Descriptor& most_typical(std::span<const Descriptor* const> descriptors) {
+  const std::size_t count = descriptors.size();
+  std::array<std::array<int, kMaxTypicalOf>, kMaxTypicalOf> distances{};
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      distances[i][j] = distances[j][i] = descriptor_distance(*descriptors[i], *descriptors[j]);
+  const auto median = [count](std::array<int, kMaxTypicalOf>& row) {
+    const auto middle = row.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
+    std::nth_element(row.begin(), middle, row.begin() + static_cast<std::ptrdiff_t>(count));
+    return *middle;
+  };
+  std::array<int, kMaxTypicalOf> medians{};
+  for (std::size_t i = 0; i < count; ++i) medians[i] = median(distances[i]);
+  const auto best = std::min_element(medians.begin(), medians.begin() + static_cast<std::ptrdiff_t>(count));
+  return *descriptors[static_cast<std::size_t>(best - medians.begin())];
+}
 
 }  // namespace
 
@@ -108,22 +110,34 @@ void SlamMap::merge(PointId keep, PointId drop) {
 }
 
 void SlamMap::refresh(MapPoint& point) const {
-  std::vector<Descriptor> descriptors;
+  refresh_view(point);
+  refresh_descriptor(point);
+}
+
+void SlamMap::refresh_view(MapPoint& point) const {
+  if (point.observations.empty()) return;
   Eigen::Vector3d directions = Eigen::Vector3d::Zero();
-  const std::size_t skip =
-      point.observations.size() > kMaxTypicalOf ? point.observations.size() - kMaxTypicalOf : 0;
   for (std::size_t i = 0; i < point.observations.size(); ++i) {
     const Keyframe* k = keyframes_.find(point.observations[i].keyframe);
-    const Feature& feature = (*k->features)[point.observations[i].feature];
     const Eigen::Vector3d ray = point.position - k->map_from_camera.translation();
     const double distance = ray.norm();
     if (distance > 0) directions += ray / distance;
-    if (i == 0) point.level_0_distance = distance * pyramid_.scale(feature.level);
-    if (i >= skip) descriptors.push_back(feature.descriptor);
+    if (i == 0)
+      point.level_0_distance =
+          distance * pyramid_.scale((*k->features)[point.observations[i].feature].level);
   }
-  if (descriptors.empty()) return;
   point.normal = directions.normalized();
-  point.descriptor = most_typical(descriptors);
+}
+
+void SlamMap::refresh_descriptor(MapPoint& point) const {
+  if (point.observations.empty()) return;
+  std::array<const Descriptor*, kMaxTypicalOf> newest{};
+  const std::size_t count = std::min(point.observations.size(), kMaxTypicalOf);
+  std::transform(point.observations.end() - static_cast<std::ptrdiff_t>(count), point.observations.end(),
+                 newest.begin(), [this](const Observation& o) {
+                   return &(*keyframes_.find(o.keyframe)->features)[o.feature].descriptor;
+                 });
+  point.descriptor = most_typical(std::span(newest).first(count));
 }
 
 void SlamMap::set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const {

@@ -106,8 +106,10 @@ class SlamMap {
   void erase_point(PointId point);
   /// All that saw `drop` see `keep`; `drop` is erased.
   void merge(PointId keep, PointId drop);
-  /// Computes descriptor, normal and distance of a point anew from its observations.
+  /// Computes anew what a point owes to its observations: after it or its observers have moved the normal and
+  /// the distance, after other keyframes see it the descriptor too.
   void refresh(MapPoint& point) const;
+  void refresh_view(MapPoint& point) const;
 
   /// Computes a keyframe's covisibility edges from its points, at both ends.
   void update_covisibility(KeyframeId keyframe);
@@ -133,6 +135,7 @@ class SlamMap {
     Pose anchor_from_camera = Pose::Identity();
   };
 
+  void refresh_descriptor(MapPoint& point) const;
   void set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const;
 
   MapConfig config_;

@@ -33,7 +33,7 @@ TEST(DelayedValues, GiveUpWhatIsMissingWhenDueAndRefuseItLater) {
 
 TEST(DelayedValues, InRealTimeTakeWhatIsThereAndForgetOlderQuestions) {
   DelayedValues<int> values;
-  for (std::uint64_t key : {1, 2, 3}) values.ask(key, 100);
+  for (std::uint64_t key : {1U, 2U, 3U}) values.ask(key, 100);
   EXPECT_TRUE(values.arrive(2, 20));
   EXPECT_THAT(values.take_arrived(), ElementsAre(20));
   EXPECT_EQ(values.missed(), 1U);
@@ -44,7 +44,7 @@ TEST(DelayedValues, InRealTimeTakeWhatIsThereAndForgetOlderQuestions) {
 
 TEST(DelayedValues, ALaterAnswerStandsInForEarlierOnesThatGotLost) {
   DelayedValues<int> values;
-  for (std::uint64_t key : {1, 2, 3}) values.ask(key, key);
+  for (std::uint64_t key : {1U, 2U, 3U}) values.ask(key, key);
   EXPECT_TRUE(values.arrive(1, 10));
   values.arrive_through(2, 20);
   EXPECT_TRUE(values.complete(2));

@@ -97,7 +97,7 @@ TEST_P(TrainedNetwork, GivesNearlyTheSameWithMoreThreadsOfItsOwn) {
 
 TEST_P(TrainedNetwork, RefusesItsOwnFileCutShort) {
   const Network whole = load_network(GetParam(), model_folders());
-  for (const std::size_t parts : {2, 3, 50, 1000}) {
+  for (const std::size_t parts : {2U, 3U, 50U, 1000U}) {
     Network cut{whole.description, whole.weights};
     cut.weights.resize(whole.weights.size() / parts);
     EXPECT_THROW(Detector{cut}, DetectorError) << "cut to 1 / " << parts;

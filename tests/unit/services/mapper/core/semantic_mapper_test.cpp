@@ -208,14 +208,14 @@ TEST(SemanticMapper, SettlesToTheSameBytesWhateverTheOrderOfArrival) {
   const std::vector<LabelledBox> boxes = *with_person(0).box("person", kPerson, true).make().boxes;
   SemanticMapper in_order(MapperConfig{});
   SemanticMapper disordered(MapperConfig{});
-  for (const std::uint64_t id : {0, 1, 2}) {
+  for (const std::uint64_t id : {0U, 1U, 2U}) {
     auto complete = keyframe(id);
     complete.boxes = boxes;
     in_order.integrate(complete);
   }
-  for (const std::uint64_t id : {2, 0, 1}) disordered.integrate(keyframe(id));
+  for (const std::uint64_t id : {2U, 0U, 1U}) disordered.integrate(keyframe(id));
   EXPECT_NE(to_bytes(disordered.tree()), to_bytes(in_order.tree()));
-  for (const std::uint64_t id : {1, 2, 0}) EXPECT_TRUE(disordered.set_boxes(id, boxes));
+  for (const std::uint64_t id : {1U, 2U, 0U}) EXPECT_TRUE(disordered.set_boxes(id, boxes));
   EXPECT_FALSE(disordered.set_boxes(99, boxes));
   disordered.settle({});
   EXPECT_EQ(to_bytes(disordered.tree()), to_bytes(in_order.tree()));

@@ -104,35 +104,35 @@ TEST_F(RollingShutter, TheEffectIsTheDerivativeByTheReadoutTime) {
 class MovingKeyframes {
  public:
   explicit MovingKeyframes(double readout_s) {
-    std::vector<PointId> ids(points.size(), kNoId);
+    std::vector<PointId> ids(points_.size(), kNoId);
     for (int k = 0; k < 8; ++k) {
       const Pose truth = test::pose(0.05 * k, 0, 0, -0.02 * k);
       const Twist velocity = (k % 3 - 1.0) * quick_motion();
-      const auto view = test::view_of(points, truth, 0.3, random, {velocity, readout_s});
-      Keyframe& keyframe = map.add_keyframe(k, truth, view.features);
+      const auto view = test::view_of(points_, truth, 0.3, random_, {velocity, readout_s});
+      Keyframe& keyframe = map_.add_keyframe(k, truth, view.features);
       keyframe.motion.velocity = velocity;
       for (std::uint32_t f = 0; f < view.point.size(); ++f) {
         PointId& p = ids[view.point[f]];
         if (p == kNoId)
-          p = map.add_point(truth * view.features->point_in_camera(f), keyframe.id, f).id;
+          p = map_.add_point(truth * view.features->point_in_camera(f), keyframe.id, f).id;
         else
-          map.observe(p, keyframe.id, f);
+          map_.observe(p, keyframe.id, f);
       }
-      map.update_covisibility(keyframe.id);
+      map_.update_covisibility(keyframe.id);
     }
   }
 
   [[nodiscard]] LocalMappingJob job() const {
-    LocalMappingJob made = make_mapping_job(map, 7, LocalMappingConfig{});
+    LocalMappingJob made = make_mapping_job(map_, 7, LocalMappingConfig{});
     made.pyramid = ScalePyramid(8, 1.2);
     made.calibrate_readout = true;
     return made;
   }
 
  private:
-  std::mt19937 random{5};
-  std::vector<Eigen::Vector3d> points = test::random_points(400, random);
-  SlamMap map{MapConfig{}, ScalePyramid(8, 1.2)};
+  std::mt19937 random_{5};
+  std::vector<Eigen::Vector3d> points_ = test::random_points(400, random_);
+  SlamMap map_{MapConfig{}, ScalePyramid(8, 1.2)};
 };
 
 TEST(ReadoutInBundleAdjustment, IsFound) {

@@ -38,7 +38,7 @@ std::vector<double> brightness_changes(const std::vector<FrameLook>& frames) {
 
 Finding check_frozen(const std::vector<FrameLook>& frames) {
   return share_of(frames, "frozen", "repeat the colour picture before",
-                  [](const auto& f) { return f.color_change < kFrozenChange; });
+                  [](const auto& f) { return is_usable(f) && f.color_change < kFrozenChange; });
 }
 
 Finding check_blur(const std::vector<FrameLook>& frames) {

@@ -8,7 +8,8 @@
 
 namespace rds::doctor {
 
-/// Colour pictures that repeat the one before although their stamps differ.
+/// Colour pictures that repeat the one before although their stamps differ; such as check_exposure() counts
+/// are left out.
 Finding check_frozen(const std::vector<FrameLook>& frames);
 /// Pictures far less sharp than the recording's others, or than any lens in focus makes them.
 Finding check_blur(const std::vector<FrameLook>& frames);

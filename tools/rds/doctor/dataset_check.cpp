@@ -16,7 +16,8 @@ constexpr double kManyUnreadable = 0.1;  // of the frames looked at
 
 Finding check_unreadable(const RecordingLooks& looks) {
   const std::size_t all = looks.frames.size() + looks.unreadable.size();
-  if (looks.unreadable.empty()) return {Verdict::kGood, "pictures", fmt::format("{} frames decoded", all)};
+  if (looks.unreadable.empty())
+    return {Verdict::kGood, "pictures", fmt::format("all of {} frames looked at can be read", all)};
   const bool many = static_cast<double>(looks.unreadable.size()) > kManyUnreadable * static_cast<double>(all);
   return {many ? Verdict::kFault : Verdict::kHint, "pictures",
           fmt::format("{} of {} frames cannot be read and will be skipped; {}", looks.unreadable.size(), all,

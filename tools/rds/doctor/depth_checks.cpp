@@ -42,10 +42,11 @@ bool cannot_be(const Range& range) {
   return range.median_m < 0.15 || range.median_m > 20;
 }
 
-/// Of a sensor that sees rooms.
+/// Too near or too far for a sensor that measures rooms: as a rule the depth of another scale.
 bool is_odd(const Range& range) {
-  return (range.near_m < 0.2 && range.far_m < 1.5) || (range.near_m > 1.8 && range.far_m > 12) ||
-         cannot_be(range);
+  const bool near = range.near_m < 0.35 && range.far_m < 1.2;
+  const bool far = range.near_m > 2.5 && range.far_m > 9;
+  return near || far || cannot_be(range);
 }
 
 std::string plausible_scales(const Range& range, double depth_scale) {
@@ -68,7 +69,7 @@ Finding check_depth_scale(const std::vector<FrameLook>& frames, double depth_sca
                                 depth_scale, range.median_m, range.near_m, range.far_m);
   if (!is_odd(range)) return {Verdict::kGood, "depth scale", text};
   return {cannot_be(range) ? Verdict::kFault : Verdict::kHint, "depth scale",
-          text + (cannot_be(range) ? ", which cannot be" : ", which is unusual") +
+          text + (cannot_be(range) ? ", which cannot be" : ", which is unusual in a room") +
               plausible_scales(range, depth_scale)};
 }
 
@@ -85,13 +86,9 @@ Finding check_depth_values(const std::vector<FrameLook>& frames) {
   };
   const auto first = std::ranges::find_if(frames, is_bad);
   const double value = first == frames.end() ? 0 : first->depth.commonest_raw;
-  return share_of(
-      frames, "depth values",
-      first == frames.end()
-          ? "repeat one depth all over"
-          : fmt::format("repeat one depth all over ({:g} as it stands in the file; `no measurement` is 0)",
-                        value),
-      is_bad);
+  return share_of(frames, "depth values",
+                  fmt::format("hold one value, {:g}, in too many places (no measurement is 0)", value),
+                  is_bad);
 }
 
 Finding check_depth_frozen(const std::vector<FrameLook>& frames) {

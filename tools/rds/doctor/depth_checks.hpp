@@ -8,9 +8,9 @@
 
 namespace rds::doctor {
 
-/// Metres that can be: a median of 0.15 … 20 m is a must; measurements from nearer than 0.2 m that all end
-/// before 1.5 m, or none nearer than 1.8 m and some beyond 12 m, are as rule those of another scale.
-/// The sentence names the usual scales (1000, 5000, …) that would be plausible.
+/// Metres that can be: a median beyond 0.15 … 20 m is a fault. Depth that starts before 0.35 m and ends
+/// before 1.2 m, or starts beyond 2.5 m and ends beyond 9 m, is a hint: as a rule millimetres and fifths of
+/// them were mixed up. The sentence names the usual scales that would be plausible.
 ///
 /// @param depth_scale  raw units per metre, as used.
 Finding check_depth_scale(const std::vector<FrameLook>& frames, double depth_scale);

@@ -14,9 +14,11 @@
 namespace rds::doctor {
 namespace {
 
+constexpr std::size_t kMostFrames = 1500;  // a quarter of a minute
+
 struct DoctorOptions {
   std::string dataset;
-  std::size_t every = 1;
+  std::size_t every = 0;  // 0: such that at most kMostFrames are looked at
 };
 
 void conclude(const std::vector<Finding>& findings) {
@@ -25,7 +27,9 @@ void conclude(const std::vector<Finding>& findings) {
 }
 
 std::vector<Finding> check_recording(const DoctorOptions& options) {
-  return check_dataset(tools::value_or_exit(image::TumDataset::open(options.dataset)), options.every);
+  const auto dataset = tools::value_or_exit(image::TumDataset::open(options.dataset));
+  const std::size_t needed = (dataset.frames().size() + kMostFrames - 1) / kMostFrames;
+  return check_dataset(dataset, options.every > 0 ? options.every : needed);
 }
 
 }  // namespace
@@ -34,9 +38,10 @@ void add_doctor_command(CLI::App& rds) {
   auto* command = rds.add_subcommand("doctor", "Check this machine, or a recording");
   const auto options = std::make_shared<DoctorOptions>();
   command->add_option("--dataset", options->dataset, "Folder of a recording to check");
-  command->add_option("--every", options->every, "Look at every n-th frame's pictures only")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  command
+      ->add_option("--every", options->every,
+                   "Look at every n-th frame's pictures only (default: all, of long ones up to 1500 evenly)")
+      ->check(CLI::Range(1, 1000));
   command->callback(
       [options] { conclude(options->dataset.empty() ? check_host() : check_recording(*options)); });
 }

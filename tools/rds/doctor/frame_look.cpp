@@ -9,7 +9,8 @@
 
 namespace rds::doctor {
 namespace {
-constexpr int kEvery = 4;  // pixel of a row, row of a depth picture
+constexpr int kWidestPx = 640;  // more pixels than a lens resolves look blurred
+constexpr int kEvery = 4;       // pixel of a row, row of a depth picture
 
 struct Measurements {
   std::vector<float> ascending_raw;
@@ -42,7 +43,10 @@ void find_commonest(const std::vector<float>& ascending, DepthLook& look) {
 
 }  // namespace
 
-ColorLook look_at_color(const cv::Mat& gray) {
+ColorLook look_at_color(const cv::Mat& picture) {
+  cv::Mat gray = picture;
+  if (const double shrink = static_cast<double>(kWidestPx) / picture.cols; shrink < 1)
+    cv::resize(picture, gray, {}, shrink, shrink, cv::INTER_AREA);
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(gray, mean, deviation);

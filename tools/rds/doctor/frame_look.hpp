@@ -35,7 +35,8 @@ struct FrameLook {
   bool depth_repeated = false;  // every value as in the frame looked at before
 };
 
-ColorLook look_at_color(const cv::Mat& gray);
+/// @param picture  CV_8UC1; a wider one than 640 px is looked at shrunk to that.
+ColorLook look_at_color(const cv::Mat& picture);
 DepthLook look_at_depth(const image::DepthImage& depth);
 
 }  // namespace rds::doctor

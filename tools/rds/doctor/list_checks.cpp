@@ -48,8 +48,8 @@ Finding check_counts(const RecordingLists& lists) {
   if (verdict == Verdict::kGood && lists.repeated > 0) verdict = Verdict::kHint;
   return {
       verdict, "frames",
-      fmt::format("{} colour and {} depth pictures make {} frames; {} colour pictures have no depth within "
-                  "20 ms, {} stamps are given twice",
+      fmt::format("{} colour and {} depth pictures make {} frames; colour pictures without depth within "
+                  "20 ms: {}, stamps given twice: {}",
                   lists.color_pictures, lists.depth_pictures, lists.frames.size(), unpaired, lists.repeated)};
 }
 
@@ -71,7 +71,8 @@ Finding check_pairing(const RecordingLists& lists, double focal_px) {
   const double pixels = focal_px * kFewDegreesPerSecond * std::numbers::pi / 180 * median / 1000;
   const bool far = median > kFarApart * percentile(intervals_ms(lists), 50);
   if (far)
-    text += fmt::format("; {:.0f} px off when the camera turns at {:g}°/s", pixels, kFewDegreesPerSecond);
+    text += fmt::format("; not synchronised: {:.0f} px off when the camera turns at {:g}°/s", pixels,
+                        kFewDegreesPerSecond);
   return {far ? Verdict::kHint : Verdict::kGood, "pairing", text};
 }
 

@@ -27,11 +27,10 @@ Finding check_registration(const std::optional<RegistrationFit>& fit, const geom
   if (!is_misplaced(*fit, cv::Size(camera.width, camera.height)))
     return {Verdict::kGood, "registration", "depth's edges lie on colour's"};
   return {Verdict::kHint, "registration",
-          fmt::format(
-              "depth fits colour best when scaled by {:.2f} about the centre and moved by ({:.0f}, {:.0f}) "
-              "px (edges agree to {:.0f} %, as it is to {:.0f} %): {}",
-              fit->best.scale, fit->best.shift_px.x, fit->best.shift_px.y, 100 * fit->agreement,
-              100 * fit->agreement_as_is, advice(fit->best, camera))};
+          fmt::format("depth fits colour best when scaled by {:.2f} about the centre and moved by ({}, {}) "
+                      "px (edges agree to {:.0f} %, as it is to {:.0f} %): {}",
+                      fit->best.scale, std::lround(fit->best.shift_px.x), std::lround(fit->best.shift_px.y),
+                      100 * fit->agreement, 100 * fit->agreement_as_is, advice(fit->best, camera))};
 }
 
 }  // namespace rds::doctor

@@ -35,6 +35,14 @@ TEST(LookAtColor, SharpnessFallsWithBlurAndNotWithContrast) {
   EXPECT_EQ(look_at_color(cv::Mat(20, 20, CV_8UC1, cv::Scalar(80))).sharpness, 0);
 }
 
+TEST(LookAtColor, SharpnessIsThatOfTheScene) {
+  cv::Mat usual;
+  cv::Mat large;
+  cv::resize(squares(), usual, {}, 4, 4, cv::INTER_LINEAR);
+  cv::resize(squares(), large, {}, 8, 8, cv::INTER_LINEAR);
+  EXPECT_NEAR(look_at_color(large).sharpness / look_at_color(usual).sharpness, 1, 0.2);
+}
+
 TEST(LookAtDepth, MeasuresTheRangeOfWhatIsMeasured) {
   cv::Mat values(40, 400, CV_16UC1, cv::Scalar(0));
   for (int x = 0; x < 400; ++x) values.rowRange(0, 20).col(x) = 1000 + 5 * x;

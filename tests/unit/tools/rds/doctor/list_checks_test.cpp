@@ -31,7 +31,7 @@ TEST(ListChecks, CountColourWithoutDepth) {
   auto lists = even_lists(100);
   lists.color_pictures = 102;
   EXPECT_EQ(check_counts(lists).verdict, Verdict::kHint);
-  EXPECT_THAT(check_counts(lists).sentence, HasSubstr("2 colour pictures have no depth within 20 ms"));
+  EXPECT_THAT(check_counts(lists).sentence, HasSubstr("colour pictures without depth within 20 ms: 2"));
   lists.color_pictures = 150;
   EXPECT_EQ(check_counts(lists).verdict, Verdict::kFault);
 }
@@ -40,7 +40,7 @@ TEST(ListChecks, CountStampsGivenTwice) {
   auto lists = even_lists(100);
   lists.repeated = 3;
   EXPECT_EQ(check_counts(lists).verdict, Verdict::kHint);
-  EXPECT_THAT(check_counts(lists).sentence, HasSubstr("3 stamps are given twice"));
+  EXPECT_THAT(check_counts(lists).sentence, HasSubstr("stamps given twice: 3"));
 }
 
 TEST(ListChecks, NameTheFirstMissingFile) {

@@ -24,4 +24,8 @@ float DepthImage::at(int x, int y) const {
   return std::isfinite(raw) && raw > 0 ? raw * metres_per_unit : 0.0F;
 }
 
+DepthImage empty_depth(const cv::Size& size) {
+  return {.values = cv::Mat::zeros(size, CV_16UC1), .metres_per_unit = 0.001F, .owner = nullptr};
+}
+
 }  // namespace rds::image

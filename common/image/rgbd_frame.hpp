@@ -36,6 +36,9 @@ struct DepthImage {
   [[nodiscard]] float at(int x, int y) const;
 };
 
+/// A depth picture without any measurement.
+DepthImage empty_depth(const cv::Size& size);
+
 /// One colour picture and the depth picture that belongs to it.
 struct RgbdFrame {
   std::int64_t stamp_ns = 0;  // of the colour picture

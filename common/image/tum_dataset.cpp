@@ -67,13 +67,13 @@ tl::expected<void, std::string> TumDataset::pair_frames(const TumDatasetOptions&
   const auto color_stamps = stamps_of(color_);
   const auto depth_stamps = stamps_of(depth_);
   const auto pairs = geometry::pair_in_order(color_stamps, depth_stamps, options.pairing_tolerance_ns);
+  for (const auto& color : color_.entries)
+    frames_.push_back({frames_.size(), color.stamp_ns, color.stamp_text, color.picture, color.stamp_ns, {}});
   for (const auto& [i, j] : pairs) {
-    const auto& color = color_.entries[i];
-    const auto& depth = depth_.entries[j];
-    frames_.push_back(
-        {frames_.size(), color.stamp_ns, color.stamp_text, color.picture, depth.stamp_ns, depth.picture});
+    frames_[i].depth_stamp_ns = depth_.entries[j].stamp_ns;
+    frames_[i].depth_path = depth_.entries[j].picture;
   }
-  if (frames_.empty())
+  if (pairs.empty())
     return tl::unexpected(
         fmt::format("{}: no colour picture has a depth picture within {} ms (colour {} … {}, depth {} … {}), "
                     "expected rgb.txt and "
@@ -82,6 +82,11 @@ tl::expected<void, std::string> TumDataset::pair_frames(const TumDatasetOptions&
                     color_.entries.front().stamp_text, color_.entries.back().stamp_text,
                     depth_.entries.front().stamp_text, depth_.entries.back().stamp_text));
   return {};
+}
+
+std::size_t TumDataset::without_depth() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(frames_, [](const FrameRef& frame) { return !frame.has_depth(); }));
 }
 
 std::string TumDataset::stamp_text(std::int64_t stamp_ns) const {
@@ -94,7 +99,8 @@ tl::expected<RgbdFrame, std::string> TumDataset::load(const FrameRef& frame) con
   const cv::Size size(camera_.camera.width, camera_.camera.height);
   auto color = read_color_picture(frame.color_path, size);
   if (!color) return tl::unexpected(color.error());
-  auto depth = read_depth_picture(frame.depth_path, size);
+  tl::expected<cv::Mat, std::string> depth = empty_depth(size).values;
+  if (frame.has_depth()) depth = read_depth_picture(frame.depth_path, size);
   if (!depth) return tl::unexpected(depth.error());
   RgbdFrame result;
   result.stamp_ns = frame.stamp_ns;

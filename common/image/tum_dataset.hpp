@@ -17,14 +17,16 @@
 
 namespace rds::image {
 
-/// A colour picture and the depth picture that goes with it.
+/// A colour picture and the depth picture that goes with it, if there is one.
 struct FrameRef {
-  std::size_t index = 0;  // place among the paired frames
+  std::size_t index = 0;  // place in rgb.txt
   std::int64_t stamp_ns = 0;
   std::string stamp_text;  // the stamp's digits in rgb.txt; what output files repeat
   std::filesystem::path color_path;
-  std::int64_t depth_stamp_ns = 0;
-  std::filesystem::path depth_path;
+  std::int64_t depth_stamp_ns = 0;   // the colour picture's where there is no depth
+  std::filesystem::path depth_path;  // empty where there is none
+
+  [[nodiscard]] bool has_depth() const { return !depth_path.empty(); }
 };
 
 struct TumDatasetOptions {
@@ -36,7 +38,8 @@ struct TumDatasetOptions {
 /// Immutable after open(); load() may be called from several threads.
 class TumDataset {
  public:
-  /// Reads lists, ground truth and camera, and pairs colour with depth (pair_in_order()); opens no picture.
+  /// Reads lists, ground truth and camera, and pairs colour with depth (pair_in_order()); opens no picture. A
+  /// colour picture without a partner is a frame without depth.
   ///
   /// @return or one sentence that names the file, the line and what was expected: missing folder or list,
   /// malformed line, stamps that go backwards, colour and depth that never pair, bad camera.yaml, unknown
@@ -54,13 +57,14 @@ class TumDataset {
   }
   [[nodiscard]] const TumList& color_list() const { return color_; }
   [[nodiscard]] const TumList& depth_list() const { return depth_; }
-  /// Colour pictures left out because no depth picture is near enough.
-  [[nodiscard]] std::size_t unpaired() const { return color_.entries.size() - frames_.size(); }
+  /// Frames that no depth picture is near enough to.
+  [[nodiscard]] std::size_t without_depth() const;
 
   /// The digits of a frame's stamp as rgb.txt writes them; format_stamp() for a stamp that is no frame's.
   [[nodiscard]] std::string stamp_text(std::int64_t stamp_ns) const;
 
-  /// Decodes both pictures (16-bit depth with 1/depth_scale metres per unit).
+  /// Decodes both pictures (16-bit depth with 1/depth_scale metres per unit; all zero for a frame without
+  /// depth).
   ///
   /// @return or one sentence that names the picture: missing, truncated, of another size or type.
   [[nodiscard]] tl::expected<RgbdFrame, std::string> load(const FrameRef& frame) const;

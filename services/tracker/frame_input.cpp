@@ -29,6 +29,10 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
     const std::lock_guard lock(pairer_mutex_);
     return pairer_.unpaired();
   });
+  context.diagnostics.gauge("frames without depth", [this] {
+    const std::lock_guard lock(pairer_mutex_);
+    return pairer_.without_depth();
+  });
 }
 
 void FrameInput::on_camera_info(const sensor_msgs::msg::CameraInfo& message) {
@@ -52,8 +56,8 @@ void FrameInput::on_depth(const std::shared_ptr<const sensor_msgs::msg::Image>& 
   push(pairer_.add_depth(messages::to_nanoseconds(message->header().stamp()), std::move(*depth)));
 }
 
-void FrameInput::push(std::optional<image::RgbdFrame> frame) {
-  if (frame) frames_.push(std::move(*frame));
+void FrameInput::push(FramePairer::Frames frames) {
+  for (image::RgbdFrame& frame : frames) frames_.push(std::move(frame));
 }
 
 }  // namespace rds::tracker

@@ -29,7 +29,7 @@ class FrameInput {
   void on_camera_info(const sensor_msgs::msg::CameraInfo& message);
   void on_color(const std::shared_ptr<const sensor_msgs::msg::Image>& message);
   void on_depth(const std::shared_ptr<const sensor_msgs::msg::Image>& message);
-  void push(std::optional<image::RgbdFrame> frame);
+  void push(FramePairer::Frames frames);
 
   service::ServiceContext& context_;
   CameraTopics topics_;

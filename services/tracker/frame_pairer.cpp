@@ -6,72 +6,74 @@
 
 namespace rds::tracker {
 namespace {
-constexpr std::size_t kMaxWaiting = 5;
+constexpr std::size_t kMaxWaiting = 5;  // as the topics keep
 }
 
-template <class Picture>
-auto FramePairer::nearest(std::deque<Stamped<Picture>>& waiting, std::int64_t stamp_ns) const {
-  const auto best = std::min_element(waiting.begin(), waiting.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a.stamp_ns - stamp_ns) < std::abs(b.stamp_ns - stamp_ns);
-  });
-  return best != waiting.end() && std::abs(best->stamp_ns - stamp_ns) <= tolerance_ns_ ? best : waiting.end();
-}
-
-template <class Picture>
-void FramePairer::drop_until(std::deque<Stamped<Picture>>& waiting, std::int64_t stamp_ns) {
-  unpaired_ += static_cast<std::uint64_t>(
-      std::erase_if(waiting, [&](const auto& picture) { return picture.stamp_ns <= stamp_ns; }));
-}
-
-template <class Picture>
-void FramePairer::keep(std::deque<Stamped<Picture>>& waiting, Stamped<Picture> picture) {
-  waiting.push_back(std::move(picture));
-  if (waiting.size() <= kMaxWaiting) return;
-  waiting.pop_front();
-  ++unpaired_;
-}
-
-std::optional<image::RgbdFrame> FramePairer::set_camera(const geometry::CameraModel& camera) {
-  const bool first = !camera_;
+FramePairer::Frames FramePairer::set_camera(const geometry::CameraModel& camera) {
   camera_ = camera;
-  if (!first || colors_.empty()) return std::nullopt;
-  Stamped<image::ColorImage> newest = std::move(colors_.back());
-  colors_.pop_back();
-  return add_color(newest.stamp_ns, std::move(newest.picture));
+  return take_complete();
 }
 
-std::optional<image::RgbdFrame> FramePairer::add_color(std::int64_t stamp_ns, image::ColorImage color) {
-  const auto partner = nearest(depths_, stamp_ns);
-  if (!camera_ || partner == depths_.end()) {
-    keep(colors_, {stamp_ns, std::move(color)});
-    return std::nullopt;
-  }
-  auto depth = std::move(*partner);
-  depths_.erase(partner);
-  return pair({stamp_ns, std::move(color)}, std::move(depth));
+FramePairer::Frames FramePairer::add_color(std::int64_t stamp_ns, image::ColorImage color) {
+  colors_.push_back({stamp_ns, std::move(color)});
+  return take_complete();
 }
 
-std::optional<image::RgbdFrame> FramePairer::add_depth(std::int64_t stamp_ns, image::DepthImage depth) {
-  const auto partner = nearest(colors_, stamp_ns);
-  if (!camera_ || partner == colors_.end()) {
-    keep(depths_, {stamp_ns, std::move(depth)});
-    return std::nullopt;
-  }
-  auto color = std::move(*partner);
-  colors_.erase(partner);
-  return pair(std::move(color), {stamp_ns, std::move(depth)});
+FramePairer::Frames FramePairer::add_depth(std::int64_t stamp_ns, image::DepthImage depth) {
+  depth_seen_ = true;
+  depths_.push_back({stamp_ns, std::move(depth)});
+  return take_complete();
 }
 
-std::optional<image::RgbdFrame> FramePairer::pair(Stamped<image::ColorImage> color,
-                                                  Stamped<image::DepthImage> depth) {
-  drop_until(colors_, color.stamp_ns);
-  drop_until(depths_, depth.stamp_ns);
-  const cv::Size size = color.picture.pixels.size();
-  if (size != cv::Size(camera_->width, camera_->height) || size != depth.picture.values.size()) {
-    unpaired_ += 2;
-    return std::nullopt;
+FramePairer::Frames FramePairer::take_complete() {
+  Frames frames;
+  while (camera_ && !colors_.empty()) {
+    const std::int64_t stamp_ns = colors_.front().stamp_ns;
+    auto depth = take_partner(stamp_ns);
+    if (!depth && partner_may_come(stamp_ns)) break;
+    Color color = std::move(colors_.front());
+    colors_.pop_front();
+    make_frame(std::move(color), std::move(depth), frames);
   }
-  return image::RgbdFrame{color.stamp_ns, std::move(color.picture), std::move(depth.picture), *camera_};
+  give_up_oldest(colors_);
+  give_up_oldest(depths_);
+  return frames;
+}
+
+/// The nearest depth picture within the tolerance; older ones are given up.
+std::optional<FramePairer::Depth> FramePairer::take_partner(std::int64_t stamp_ns) {
+  const auto distance = [&](const Depth& d) { return std::abs(d.stamp_ns - stamp_ns); };
+  const auto best = std::ranges::min_element(depths_, {}, distance);
+  if (best == depths_.end() || distance(*best) > tolerance_ns_) return std::nullopt;
+  Depth partner = std::move(*best);
+  depths_.erase(best);
+  unpaired_ += std::erase_if(depths_, [&](const Depth& d) { return d.stamp_ns <= partner.stamp_ns; });
+  return partner;
+}
+
+bool FramePairer::partner_may_come(std::int64_t stamp_ns) const {
+  const bool too_late = !depths_.empty() && depths_.back().stamp_ns > stamp_ns + tolerance_ns_;
+  const bool broken_off = depth_seen_ && colors_.size() > kMaxWaiting;
+  return !too_late && !broken_off;
+}
+
+void FramePairer::make_frame(Color color, std::optional<Depth> depth, Frames& frames) {
+  const cv::Size size(camera_->width, camera_->height);
+  const bool fits = color.picture.pixels.size() == size && (!depth || depth->picture.values.size() == size);
+  const bool in_order = depth || color.stamp_ns > last_stamp_ns_;
+  if (!fits || !in_order) {
+    unpaired_ += depth ? 2 : 1;
+    return;
+  }
+  last_stamp_ns_ = color.stamp_ns;
+  if (!depth) ++without_depth_;
+  frames.push_back({color.stamp_ns, std::move(color.picture),
+                    depth ? std::move(depth->picture) : image::empty_depth(size), *camera_});
+}
+
+template <class Picture>
+void FramePairer::give_up_oldest(std::deque<Stamped<Picture>>& waiting) {
+  for (; waiting.size() > kMaxWaiting; ++unpaired_) waiting.pop_front();
 }
 
 }  // namespace rds::tracker

@@ -3,26 +3,37 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "common/image/rgbd_frame.hpp"
 
 namespace rds::tracker {
 
-/// Brings colour and depth pictures together by their stamps, in whatever order they arrive.
+/// Brings colour and depth pictures together by their stamps, whichever of the two streams is ahead.
+///
+/// Every colour picture makes a frame, in the order of the stamps: with the nearest depth picture within the
+/// tolerance, or with an empty one (nothing measured) once none can come any more. That is known when a later
+/// depth picture is there, or when too many colour pictures wait for a depth stream that has broken off.
 class FramePairer {
  public:
+  using Frames = std::vector<image::RgbdFrame>;
+
   explicit FramePairer(std::int64_t tolerance_ns) : tolerance_ns_(tolerance_ns) {}
 
-  /// Pictures wait until the camera is known. @return the frame that was waiting for it.
-  std::optional<image::RgbdFrame> set_camera(const geometry::CameraModel& camera);
+  /// Pictures wait until the camera is known. @return the frames that were waiting for it.
+  Frames set_camera(const geometry::CameraModel& camera);
 
-  /// @return the frame that this picture completes. Pictures that are not of the camera's size are given up.
-  std::optional<image::RgbdFrame> add_color(std::int64_t stamp_ns, image::ColorImage color);
-  std::optional<image::RgbdFrame> add_depth(std::int64_t stamp_ns, image::DepthImage depth);
+  /// @return the frames that are complete now. Pictures that are not of the camera's size are given up.
+  Frames add_color(std::int64_t stamp_ns, image::ColorImage color);
+  Frames add_depth(std::int64_t stamp_ns, image::DepthImage depth);
 
-  /// Pictures given up: no partner came, they were older than a pair that did, or no camera model fits.
+  /// Pictures given up: depth without colour, colour before the first depth or later than a frame that went
+  /// on without it, no camera model that fits.
   [[nodiscard]] std::uint64_t unpaired() const { return unpaired_; }
+  /// Frames with an empty depth picture.
+  [[nodiscard]] std::uint64_t without_depth() const { return without_depth_; }
 
  private:
   template <class Picture>
@@ -30,19 +41,24 @@ class FramePairer {
     std::int64_t stamp_ns;
     Picture picture;
   };
+  using Color = Stamped<image::ColorImage>;
+  using Depth = Stamped<image::DepthImage>;
+
+  Frames take_complete();
+  std::optional<Depth> take_partner(std::int64_t stamp_ns);
+  [[nodiscard]] bool partner_may_come(std::int64_t stamp_ns) const;
+  void make_frame(Color color, std::optional<Depth> depth, Frames& frames);
   template <class Picture>
-  [[nodiscard]] auto nearest(std::deque<Stamped<Picture>>& waiting, std::int64_t stamp_ns) const;
-  template <class Picture>
-  void drop_until(std::deque<Stamped<Picture>>& waiting, std::int64_t stamp_ns);
-  template <class Picture>
-  void keep(std::deque<Stamped<Picture>>& waiting, Stamped<Picture> picture);
-  std::optional<image::RgbdFrame> pair(Stamped<image::ColorImage> color, Stamped<image::DepthImage> depth);
+  void give_up_oldest(std::deque<Stamped<Picture>>& waiting);
 
   std::int64_t tolerance_ns_;
   std::optional<geometry::CameraModel> camera_;
-  std::deque<Stamped<image::ColorImage>> colors_;
-  std::deque<Stamped<image::DepthImage>> depths_;
+  std::deque<Color> colors_;
+  std::deque<Depth> depths_;
+  bool depth_seen_ = false;
+  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();  // of the last frame
   std::uint64_t unpaired_ = 0;
+  std::uint64_t without_depth_ = 0;
 };
 
 }  // namespace rds::tracker

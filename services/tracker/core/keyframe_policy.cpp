@@ -13,7 +13,7 @@ constexpr int kMinExpected = 50;     // fewer points say nothing about a change
 }  // namespace
 
 bool is_keyframe(const KeyframeFacts& facts, const KeyframeConfig& config) {
-  if (facts.since_last_s < config.min_interval_s) return false;
+  if (!facts.has_depth || facts.since_last_s < config.min_interval_s) return false;
   const bool losing_reference = facts.inliers < config.reference_ratio * facts.reference_points;
   const bool close_points_wanted =
       facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;

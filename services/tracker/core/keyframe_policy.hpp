@@ -10,6 +10,7 @@ struct KeyframeFacts {
   double since_last_s = 0;          // since the last keyframe
   int inliers = 0;                  // map points that support the frame's pose
   int reference_points = 0;         // well observed map points of the reference keyframe
+  bool has_depth = false;           // without, no map points can be made
   int close_tracked = 0;            // of the inliers, those at close depth
   int close_new = 0;                // close features without map point
   double rotation_rad = 0;          // since the last keyframe

@@ -21,6 +21,10 @@ int well_observed_points(const SlamMap& map, const Keyframe& keyframe) {
   }));
 }
 
+bool has_depth(const FeatureSet& features) {
+  return std::ranges::any_of(features.all(), [](const Feature& f) { return f.depth_m > 0; });
+}
+
 double median_depth(const FeatureSet& features) {
   std::vector<float> depths;
   for (const Feature& f : features.all())
@@ -74,6 +78,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, const KeyframeP
                                       bool movable_there, int inliers) const {
   KeyframeFacts facts;
   facts.inliers = inliers;
+  facts.has_depth = has_depth(*frame.features);
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   const Pose moved = frame.camera_from_map * newest.map_from_camera;
   facts.rotation_rad = geometry::rotation_angle_rad(moved.linear());
@@ -88,8 +93,8 @@ bool Tracker::needs_keyframe(const TrackedFrame& frame, bool movable_there) cons
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
   if (!well_localized && !frame.pose_is_given) return false;
   const auto newest = newest_keyframe();
-  return !newest ||
-         is_keyframe(keyframe_facts(frame, *newest, movable_there, frame.matches()), config_.keyframe);
+  if (!newest) return has_depth(*frame.features);
+  return is_keyframe(keyframe_facts(frame, *newest, movable_there, frame.matches()), config_.keyframe);
 }
 
 void Tracker::add_keyframe(TrackedFrame& frame, FrameResult& result) {

@@ -43,18 +43,18 @@ Verdict by_share(std::size_t bad, std::size_t all) {
 }  // namespace
 
 Finding check_counts(const RecordingLists& lists) {
-  const std::size_t unpaired = lists.color_pictures - lists.frames.size();
-  Verdict verdict = by_share(unpaired, lists.color_pictures);
+  const std::size_t without_depth = lists.frames.size() - lists.depth_after.size();
+  Verdict verdict = by_share(without_depth, lists.frames.size());
   if (verdict == Verdict::kGood && lists.repeated > 0) verdict = Verdict::kHint;
   return {
       verdict, "frames",
-      fmt::format("{} colour and {} depth pictures make {} frames; colour pictures without depth within "
-                  "20 ms: {}, stamps given twice: {}",
-                  lists.color_pictures, lists.depth_pictures, lists.frames.size(), unpaired, lists.repeated)};
+      fmt::format("{} colour and {} depth pictures; colour pictures without depth within 20 ms: {}, stamps "
+                  "given twice: {}",
+                  lists.frames.size(), lists.depth_pictures, without_depth, lists.repeated)};
 }
 
 Finding check_files(const RecordingLists& lists) {
-  const std::size_t listed = lists.color_pictures + lists.depth_pictures;
+  const std::size_t listed = lists.frames.size() + lists.depth_pictures;
   if (lists.missing.empty())
     return {Verdict::kGood, "files", fmt::format("all {} listed pictures are there", listed)};
   return {by_share(lists.missing.size(), listed), "files",

@@ -6,7 +6,7 @@
 
 namespace rds::doctor {
 
-/// Pictures, frames, colour pictures without depth in reach, stamps given twice.
+/// Pictures, colour pictures without depth in reach, stamps given twice.
 Finding check_counts(const RecordingLists& lists);
 /// Pictures that are listed but not there.
 Finding check_files(const RecordingLists& lists);

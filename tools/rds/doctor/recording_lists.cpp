@@ -16,12 +16,11 @@ RecordingLists lists_of(const image::TumDataset& dataset) {
   const auto& color = dataset.color_list();
   const auto& depth = dataset.depth_list();
   RecordingLists lists;
-  lists.color_pictures = color.entries.size();
   lists.depth_pictures = depth.entries.size();
   lists.repeated = color.repeated + depth.repeated;
   for (const auto& frame : dataset.frames()) {
     lists.frames.push_back(frame.stamp_ns);
-    lists.depth_after.push_back(frame.depth_stamp_ns - frame.stamp_ns);
+    if (frame.has_depth()) lists.depth_after.push_back(frame.depth_stamp_ns - frame.stamp_ns);
   }
   if (dataset.ground_truth()) {
     lists.truth.emplace();

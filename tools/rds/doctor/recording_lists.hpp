@@ -13,11 +13,10 @@ namespace rds::doctor {
 
 /// What the lists of a recording say, without its pictures. Stamps increase [ns].
 struct RecordingLists {
-  std::size_t color_pictures = 0;
   std::size_t depth_pictures = 0;
   std::size_t repeated = 0;               // lines whose stamp equals the one before
-  std::vector<std::int64_t> frames;       // colour pictures with depth
-  std::vector<std::int64_t> depth_after;  // how much later each frame's depth was taken [ns], may be negative
+  std::vector<std::int64_t> frames;       // colour pictures
+  std::vector<std::int64_t> depth_after;  // how much later depth was taken [ns], of the frames that have it
   std::optional<std::vector<std::int64_t>> truth;
   std::vector<std::filesystem::path> missing;  // pictures that are listed but not there
 };

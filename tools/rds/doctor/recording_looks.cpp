@@ -26,7 +26,8 @@ FrameLook look_at(const image::RgbdFrame& frame, const Pictures& now, const Pict
                  std::numeric_limits<double>::quiet_NaN(), false};
   if (before.gray.empty()) return look;
   look.color_change = cv::norm(now.gray, before.gray, cv::NORM_L1) / static_cast<double>(now.gray.total());
-  look.depth_repeated = cv::norm(now.depth, before.depth, cv::NORM_INF) == 0;
+  look.depth_repeated =
+      cv::countNonZero(now.depth) > 0 && cv::norm(now.depth, before.depth, cv::NORM_INF) == 0;
   return look;
 }
 

@@ -31,7 +31,8 @@ struct PlayerReport {
 /// @throws std::runtime_error with one sentence.
 void check_first_frame(const image::TumDataset& dataset, std::size_t start);
 
-/// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour.
+/// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour; an empty
+/// depth picture with the same stamp where the recording has none.
 ///
 /// Pictures are decoded ahead of time by a thread of its own. A frame that cannot be read is skipped and
 /// counted.

@@ -39,17 +39,32 @@ TEST_F(TumDatasetTest, ReadsListsCameraTruthAndPictures) {
   EXPECT_LE(frame->depth.at(3, 4), 3.0F);
 }
 
-TEST_F(TumDatasetTest, PairsEachDepthOnceAndCountsWhatIsLeft) {
+TEST_F(TumDatasetTest, PairsEachDepthOnceAndKeepsColourWithoutDepth) {
   test::write_text(folder / "rgb.txt", "10.000 a\n10.010 b\n10.050 c\n10.099 d\n10.099 d\n");
   test::write_text(folder / "depth.txt", "10.008 A\n10.069 C\n10.140 D\n");
   const auto dataset = TumDataset::open(folder.path());
   ASSERT_TRUE(dataset) << dataset.error();
-  ASSERT_EQ(dataset->frames().size(), 2U);
-  EXPECT_EQ(dataset->frames()[0].stamp_text, "10.010");
-  EXPECT_EQ(dataset->frames()[1].depth_path.filename(), "C");
-  EXPECT_EQ(dataset->frames()[1].index, 1U);
-  EXPECT_EQ(dataset->unpaired(), 2U);
+  ASSERT_EQ(dataset->frames().size(), 4U);
+  EXPECT_FALSE(dataset->frames()[0].has_depth());
+  EXPECT_EQ(dataset->frames()[0].depth_stamp_ns, 10000000000);
+  EXPECT_EQ(dataset->frames()[1].depth_stamp_ns, 10008000000);
+  EXPECT_EQ(dataset->frames()[2].depth_path.filename(), "C");
+  EXPECT_EQ(dataset->frames()[2].index, 2U);
+  EXPECT_EQ(dataset->without_depth(), 2U);
   EXPECT_EQ(dataset->color_list().repeated, 1U);
+}
+
+TEST_F(TumDatasetTest, AFrameWithoutDepthHasAnEmptyDepthPicture) {
+  std::string list = test::read_text(folder / "depth.txt");
+  const auto third = list.find("10.066");
+  list.erase(third, list.find('\n', third) + 1 - third);
+  test::write_text(folder / "depth.txt", list);
+  const auto dataset = TumDataset::open(folder.path());
+  ASSERT_EQ(dataset->without_depth(), 1U);
+  const auto frame = dataset->load(dataset->frames()[2]);
+  ASSERT_TRUE(frame) << frame.error();
+  EXPECT_EQ(frame->depth.values.size(), cv::Size(64, 48));
+  EXPECT_EQ(cv::countNonZero(frame->depth.values), 0);
 }
 
 TEST_F(TumDatasetTest, NamesFileAndLineOfBadLists) {
@@ -110,7 +125,8 @@ TEST(TumDatasetRecordings, OpensBothRecordings) {
   RDS_REQUIRE_SHARED("data");
   const auto rpy = TumDataset::open(test::shared() / "data/tum_fr1_rpy");
   ASSERT_TRUE(rpy) << rpy.error();
-  EXPECT_EQ(rpy->frames().size(), 721U);
+  EXPECT_EQ(rpy->frames().size(), 723U);
+  EXPECT_EQ(rpy->without_depth(), 2U);
   const auto kitchen = TumDataset::open(test::shared() / "data/7scenes_kitchen");
   ASSERT_TRUE(kitchen) << kitchen.error();
   EXPECT_EQ(kitchen->frames().size(), 500U);

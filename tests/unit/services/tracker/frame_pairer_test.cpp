@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/frame_pairer.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace rds::tracker {
 namespace {
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 constexpr std::int64_t kMs = 1'000'000;
 
@@ -12,7 +15,7 @@ image::ColorImage color(int width = 8) {
   return {cv::Mat(6, width, CV_8UC3), image::ChannelOrder::kBgr, nullptr};
 }
 image::DepthImage depth() {
-  return {cv::Mat(6, 8, CV_16UC1), 0.001F, nullptr};
+  return {cv::Mat(6, 8, CV_16UC1, cv::Scalar(1500)), 0.001F, nullptr};
 }
 
 FramePairer pairer_with_camera() {
@@ -21,45 +24,79 @@ FramePairer pairer_with_camera() {
   return pairer;
 }
 
+/// Stamps in ms; those of frames without depth are negative.
+std::vector<std::int64_t> stamps(const FramePairer::Frames& frames) {
+  std::vector<std::int64_t> all;
+  for (const auto& frame : frames)
+    all.push_back(frame.stamp_ns / kMs * (cv::countNonZero(frame.depth.values) > 0 ? 1 : -1));
+  return all;
+}
+
 TEST(FramePairer, PairsInEitherOrderOfArrival) {
   FramePairer pairer = pairer_with_camera();
-  EXPECT_FALSE(pairer.add_color(100 * kMs, color()));
-  const auto first = pairer.add_depth(110 * kMs, depth());
-  ASSERT_TRUE(first);
-  EXPECT_EQ(first->stamp_ns, 100 * kMs);
-  EXPECT_FALSE(pairer.add_depth(133 * kMs, depth()));
-  EXPECT_TRUE(pairer.add_color(134 * kMs, color()));
-  EXPECT_EQ(pairer.unpaired(), 0U);
+  EXPECT_THAT(pairer.add_color(100 * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(110 * kMs, depth())), ElementsAre(100));
+  EXPECT_THAT(pairer.add_depth(133 * kMs, depth()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_color(134 * kMs, color())), ElementsAre(134));
+  EXPECT_EQ(pairer.unpaired() + pairer.without_depth(), 0U);
 }
 
-TEST(FramePairer, LeavesWhatIsTooFarApart) {
+TEST(FramePairer, AColourPictureGoesOnAloneOnceALaterDepthPictureIsThere) {
   FramePairer pairer = pairer_with_camera();
-  EXPECT_FALSE(pairer.add_color(100 * kMs, color()));
-  EXPECT_FALSE(pairer.add_depth(121 * kMs, depth()));
-  EXPECT_TRUE(pairer.add_color(125 * kMs, color()));
-  EXPECT_EQ(pairer.unpaired(), 1U);  // the first colour picture will never find a partner
+  EXPECT_THAT(pairer.add_color(100 * kMs, color()), IsEmpty());
+  EXPECT_THAT(pairer.add_depth(79 * kMs, depth()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(121 * kMs, depth())), ElementsAre(-100));
+  EXPECT_THAT(stamps(pairer.add_color(125 * kMs, color())), ElementsAre(125));
+  EXPECT_EQ(pairer.without_depth(), 1U);
+  EXPECT_EQ(pairer.unpaired(), 1U);  // depth at 79
 }
 
-TEST(FramePairer, BoundsWhatWaits) {
+TEST(FramePairer, FramesKeepTheOrderOfTheirStamps) {
   FramePairer pairer = pairer_with_camera();
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(pairer.add_color(i * 100 * kMs, color()));
+  for (const int ms : {100, 133, 166}) EXPECT_THAT(pairer.add_color(ms * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(166 * kMs, depth())), ElementsAre(-100, -133, 166));
+  EXPECT_THAT(pairer.add_color(150 * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(200 * kMs, depth())), IsEmpty()) << "150 after 166";
+  EXPECT_EQ(pairer.unpaired(), 1U);
+}
+
+TEST(FramePairer, DepthThatIsAheadWaitsForItsColour) {
+  FramePairer pairer = pairer_with_camera();
+  for (const int ms : {100, 133, 166}) EXPECT_THAT(pairer.add_depth(ms * kMs, depth()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_color(101 * kMs, color())), ElementsAre(101));
+  EXPECT_THAT(stamps(pairer.add_color(165 * kMs, color())), ElementsAre(165));
+  EXPECT_EQ(pairer.unpaired(), 1U);
+}
+
+TEST(FramePairer, ADepthStreamThatBreaksOffDoesNotHoldColourForLong) {
+  FramePairer pairer = pairer_with_camera();
+  for (int i = 0; i < 100; ++i) EXPECT_THAT(pairer.add_color(i * 100 * kMs, color()), IsEmpty());
+  EXPECT_EQ(pairer.unpaired(), 95U) << "no depth has ever come";
+  EXPECT_THAT(stamps(pairer.add_depth(9900 * kMs, depth())), ElementsAre(-9500, -9600, -9700, -9800, 9900));
+  for (int i = 100; i < 105; ++i) EXPECT_THAT(pairer.add_color(i * 100 * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_color(10500 * kMs, color())), ElementsAre(-10000));
+}
+
+TEST(FramePairer, BoundsDepthThatWaits) {
+  FramePairer pairer = pairer_with_camera();
+  for (int i = 0; i < 100; ++i) EXPECT_THAT(pairer.add_depth(i * 100 * kMs, depth()), IsEmpty());
   EXPECT_EQ(pairer.unpaired(), 95U);
 }
 
 TEST(FramePairer, KeepsTheFirstFrameUntilTheCameraIsKnown) {
   FramePairer pairer(20 * kMs);
-  EXPECT_FALSE(pairer.add_color(0, color()));
-  EXPECT_FALSE(pairer.add_depth(0, depth()));
-  const auto frame = pairer.set_camera({8, 6, 10, 10, 4, 3, {}});
-  ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->camera.width, 8);
-  EXPECT_FALSE(pairer.set_camera({8, 6, 10, 10, 4, 3, {}}));
+  EXPECT_THAT(pairer.add_color(0, color()), IsEmpty());
+  EXPECT_THAT(pairer.add_depth(0, depth()), IsEmpty());
+  const auto frames = pairer.set_camera({8, 6, 10, 10, 4, 3, {}});
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames.front().camera.width, 8);
+  EXPECT_THAT(pairer.set_camera({8, 6, 10, 10, 4, 3, {}}), IsEmpty());
 }
 
 TEST(FramePairer, GivesUpPicturesOfAnotherSize) {
   FramePairer pairer = pairer_with_camera();
-  EXPECT_FALSE(pairer.add_color(50 * kMs, color(9)));
-  EXPECT_FALSE(pairer.add_depth(50 * kMs, depth()));
+  EXPECT_THAT(pairer.add_color(50 * kMs, color(9)), IsEmpty());
+  EXPECT_THAT(pairer.add_depth(50 * kMs, depth()), IsEmpty());
   EXPECT_EQ(pairer.unpaired(), 2U);
 }
 

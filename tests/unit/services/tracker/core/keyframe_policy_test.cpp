@@ -12,6 +12,7 @@ KeyframeFacts calm() {
   facts.since_last_s = 0.5;
   facts.inliers = facts.reference_points = 300;
   facts.close_tracked = 250;
+  facts.has_depth = true;
   return facts;
 }
 
@@ -31,6 +32,13 @@ TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   facts.since_last_s = 0.2;
   EXPECT_TRUE(is_keyframe(facts, KeyframeConfig{}));
   facts.since_last_s = 0.13;
+  EXPECT_FALSE(is_keyframe(facts, KeyframeConfig{}));
+}
+
+TEST(KeyframePolicy, NeedsDepth) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 5;
+  facts.has_depth = false;
   EXPECT_FALSE(is_keyframe(facts, KeyframeConfig{}));
 }
 

@@ -102,6 +102,39 @@ TEST(Tracker, InventsNoPoseWhenNothingIsSeenAndFindsBack) {
   EXPECT_TRUE((found.map_from_camera.translation() - expected.translation()).norm() < 0.02);
 }
 
+/// A depth camera that misses every second picture and, at the end, all of them.
+void expect_tracking_without_depth(bool following) {
+  TrackerConfig config = small_config();
+  config.following.enabled = following;
+  Tracker tracker(config);
+  for (int i = 0; i < 24; ++i) {
+    image::RgbdFrame picture = test::picture_of_wall(truth(i), i * kFrameNs);
+    const bool has_depth = i % 2 == 0 && i < 12;
+    if (!has_depth) picture.depth = image::empty_depth(picture.color.pixels.size());
+    const FrameResult result = tracker.track(picture, {});
+    ASSERT_EQ(result.state, State::kTracking) << i;
+    EXPECT_TRUE(error_m(result, i) < 0.02) << i << ": " << error_m(result, i);
+    EXPECT_TRUE(has_depth || !result.keyframe) << i;
+  }
+  EXPECT_GT(tracker.map().keyframes(), 1U);
+}
+
+TEST(Tracker, FollowsPointsThroughFramesWithoutDepth) {
+  expect_tracking_without_depth(true);
+}
+
+TEST(Tracker, TracksFeaturesInFramesWithoutDepth) {
+  expect_tracking_without_depth(false);
+}
+
+TEST(Tracker, StartsWithDepthOnly) {
+  Tracker tracker(small_config());
+  image::RgbdFrame picture = test::picture_of_wall(truth(0), 0);
+  picture.depth = image::empty_depth(picture.color.pixels.size());
+  EXPECT_EQ(tracker.track(picture, {}).state, State::kNotInitialized);
+  EXPECT_TRUE(step(tracker, 1).keyframe.has_value());
+}
+
 TEST(Tracker, GivesTheSameBytesTwice) {
   Tracker a(small_config());
   Tracker b(small_config());

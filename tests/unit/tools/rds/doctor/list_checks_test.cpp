@@ -11,7 +11,7 @@ constexpr std::int64_t kPeriodNs = 33'000'000;
 
 RecordingLists even_lists(std::size_t frames) {
   RecordingLists lists;
-  lists.color_pictures = lists.depth_pictures = frames;
+  lists.depth_pictures = frames;
   for (std::size_t i = 0; i < frames; ++i) {
     lists.frames.push_back(1'000'000'000 + static_cast<std::int64_t>(i) * kPeriodNs);
     lists.depth_after.push_back(i % 2 == 0 ? 2'000'000 : -2'000'000);
@@ -29,10 +29,10 @@ TEST(ListChecks, FindNothingWrongWithEvenLists) {
 
 TEST(ListChecks, CountColourWithoutDepth) {
   auto lists = even_lists(100);
-  lists.color_pictures = 102;
+  lists.depth_after.resize(98);
   EXPECT_EQ(check_counts(lists).verdict, Verdict::kHint);
   EXPECT_THAT(check_counts(lists).sentence, HasSubstr("colour pictures without depth within 20 ms: 2"));
-  lists.color_pictures = 150;
+  lists.depth_after.resize(80);
   EXPECT_EQ(check_counts(lists).verdict, Verdict::kFault);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,9 +13,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/rds/exit.hpp"
 #include "tools/simulator/dataset_writer.hpp"
+#include "tools/simulator/lens.hpp"
 
 namespace rds::tools {
 namespace {
@@ -25,6 +28,12 @@ using simulator::Simulation;
 
 constexpr int kMostPeople = 8;
 constexpr double kLongestS = 3600;
+constexpr int kShortestSide = 64;
+constexpr int kLongestSide = 4096;
+constexpr double kSlowest = 1;
+constexpr double kFastest = 240;
+constexpr double kCoarsestDepth = 100;
+constexpr double kFinestDepth = 13000;  // the farthest measurement must fit into 16 bits
 
 struct SimulateOptions {
   std::string out;
@@ -32,9 +41,33 @@ struct SimulateOptions {
   int people = 2;
   double seconds = 20;
   std::uint64_t seed = 1;
+  std::string size = "640x480";
+  double fps = 30;
+  std::vector<double> distortion;
+  double depth_scale = simulator::DepthSensor::kUnitsPerMetre;
   bool force = false;
   int threads = 0;
 };
+
+/// @return what --size and --distortion ask for.
+geometry::CameraModel camera_of(const SimulateOptions& options) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  const bool is_size = std::sscanf(options.size.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
+  const auto is_side = [](int side) { return side >= kShortestSide && side <= kLongestSide; };
+  if (!is_size || !is_side(width) || !is_side(height))
+    exit_with(kExitBadInput, fmt::format("--size {}: expected WIDTHxHEIGHT, {} … {} px each", options.size,
+                                         kShortestSide, kLongestSide));
+  geometry::CameraModel camera = simulator::camera_of_size(width, height);
+  std::ranges::copy(options.distortion, camera.distortion.begin());
+  try {
+    (void)simulator::Lens(camera);
+  } catch (const std::invalid_argument& e) {
+    exit_with(kExitBadInput, fmt::format("--distortion {}: {}", fmt::join(options.distortion, ","), e.what()));
+  }
+  return camera;
+}
 
 simulator::SimulationOptions checked(const SimulateOptions& options) {
   const auto path = simulator::path_kind(options.path);
@@ -47,7 +80,15 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
               fmt::format("--seconds {}: expected more than 0 and at most {}", options.seconds, kLongestS));
   if (options.threads < 0)
     exit_with(kExitBadInput, fmt::format("--threads {}: expected 0 (all cores) or more", options.threads));
+  if (!(options.fps >= kSlowest && options.fps <= kFastest))
+    exit_with(kExitBadInput, fmt::format("--fps {}: expected {} … {}", options.fps, kSlowest, kFastest));
+  if (!(options.depth_scale >= kCoarsestDepth && options.depth_scale <= kFinestDepth))
+    exit_with(kExitBadInput, fmt::format("--depth-scale {}: expected {} … {} units per metre",
+                                         options.depth_scale, kCoarsestDepth, kFinestDepth));
   simulator::SimulationOptions checked;
+  checked.camera = camera_of(options);
+  checked.rate_hz = options.fps;
+  checked.depth_units_per_metre = options.depth_scale;
   checked.path = *path;
   checked.people = options.people;
   checked.seconds = options.seconds;
@@ -122,7 +163,16 @@ void add_simulate_command(CLI::App& rds) {
       ->capture_default_str();
   simulate_app->add_option("--people", options->people, "How many people walk; 0 = the static twin")
       ->capture_default_str();
-  simulate_app->add_option("--seconds", options->seconds, "Length at 30 frames a second")
+  simulate_app->add_option("--seconds", options->seconds, "Length")->capture_default_str();
+  simulate_app->add_option("--fps", options->fps, "Frames a second")->capture_default_str();
+  simulate_app->add_option("--size", options->size, "WIDTHxHEIGHT [px]; the field of view is as wide at every size")
+      ->capture_default_str();
+  simulate_app
+      ->add_option("--distortion", options->distortion,
+                   "k1,k2,p1,p2,k3 of the lens; none if left out. Kinect: 0.2624,-0.9531,-0.0054,0.0026,1.1633")
+      ->delimiter(',')
+      ->expected(5);
+  simulate_app->add_option("--depth-scale", options->depth_scale, "Units of the depth pictures per metre; 1000: mm")
       ->capture_default_str();
   simulate_app->add_option("--seed", options->seed, "Chooses room, people and paths")->capture_default_str();
   simulate_app->add_option("--threads", options->threads, "0 = one per core; the result is the same")

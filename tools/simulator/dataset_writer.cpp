@@ -24,6 +24,12 @@ constexpr std::array kEntries{"rgb",          "depth",
                               "camera.yaml",  "people.json",
                               "objects.json", "detections_truth.jsonl"};
 
+/// As short as it is exact, with a point: 525.0, 347.8125.
+std::string decimal(double value) {
+  std::string text = fmt::format("{}", value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
 /// Rounded for the file, so that the last binary digits do not show.
 Json number(double value, int digits) {
   return std::stod(fmt::format("{:.{}f}", value, digits));
@@ -156,12 +162,15 @@ std::string DatasetWriter::detections() const {
 
 std::string DatasetWriter::camera() const {
   const auto& c = simulation_.options().camera;
+  const auto& d = c.distortion;
   return fmt::format(
-      "# Simulated camera. Pinhole, no distortion, depth registered to colour.\nwidth: {}\nheight: {}\nfx: "
-      "{:.1f}\nfy: {:.1f}\ncx: {:.1f}\ncy: {:.1f}\n"
-      "distortion: [0.0, 0.0, 0.0, 0.0, 0.0]   # k1 k2 p1 p2 k3\ndepth_scale: {:.1f}   # raw depth units per "
+      "# Simulated camera. Pinhole, {} distortion, depth registered to colour.\nwidth: {}\nheight: {}\nfx: "
+      "{}\nfy: {}\ncx: {}\ncy: {}\n"
+      "distortion: [{}, {}, {}, {}, {}]   # k1 k2 p1 p2 k3\ndepth_scale: {}   # raw depth units per "
       "metre; 0 = no measurement\nfps: {}\n",
-      c.width, c.height, c.fx, c.fy, c.cx, c.cy, DepthSensor::kUnitsPerMetre, simulation_.options().rate_hz);
+      c.has_distortion() ? "radial-tangential" : "no", c.width, c.height, decimal(c.fx), decimal(c.fy),
+      decimal(c.cx), decimal(c.cy), decimal(d[0]), decimal(d[1]), decimal(d[2]), decimal(d[3]), decimal(d[4]),
+      decimal(simulation_.options().depth_units_per_metre), simulation_.options().rate_hz);
 }
 
 void DatasetWriter::finish() const {

@@ -10,7 +10,9 @@
 namespace rds::simulator {
 namespace {
 
+constexpr double kFocalPx = 525;          // of the infrared camera
 constexpr double kBaselineM = 0.075;      // projector to infrared camera
+constexpr auto kFocalTimesBaseline = static_cast<float>(kFocalPx * kBaselineM);
 constexpr float kDisparityNoise = 0.11F;  // standard deviation [px]
 constexpr float kSteps = 8.0F;            // disparity steps per pixel
 constexpr float kEdge = 0.035F;           // relative jump in depth that is a rim
@@ -35,16 +37,17 @@ float quality(const Rendering& truth, int x, int y) {
 
 }  // namespace
 
-DepthSensor::DepthSensor(std::uint64_t seed, double fx)
+DepthSensor::DepthSensor(std::uint64_t seed, double fx, double units_per_metre)
     : seed_(hash64(seed ^ 0xDE97ULL)),
-      focal_times_baseline_(static_cast<float>(fx * kBaselineM)),
+      pixels_per_sensor_pixel_(static_cast<float>(fx / kFocalPx)),
+      units_per_metre_(units_per_metre),
       fine_(seed_, 1),
       coarse_(seed_ + 1, 3) {}
 
 double DepthSensor::sigma_m(double z) const {
   const double step = 1.0 / static_cast<double>(kSteps);
   const double disparity = std::hypot(static_cast<double>(kDisparityNoise), step / std::sqrt(12.0));
-  return z * z / static_cast<double>(focal_times_baseline_) * disparity;
+  return z * z / static_cast<double>(kFocalTimesBaseline) * disparity;
 }
 
 cv::Mat DepthSensor::measure(const Rendering& truth, std::uint64_t frame) const {
@@ -58,19 +61,19 @@ cv::Mat DepthSensor::measure(const Rendering& truth, std::uint64_t frame) const 
     for (int x = 0; x < size.width; ++x) {
       const float z = truth.depth.at<float>(y, x);
       if (z <= 0) continue;
-      const float disparity = focal_times_baseline_ / z;
-      const float projector_x = static_cast<float>(x) + disparity;
-      const bool in_shadow = projector_x < reach - 1.5F;
+      const float disparity = kFocalTimesBaseline / z;
+      const float projector_x = static_cast<float>(x) + disparity * pixels_per_sensor_pixel_;
+      const bool in_shadow = projector_x < reach - 1.5F * pixels_per_sensor_pixel_;
       reach = std::max(reach, projector_x);
       const int n = x % NoiseField::kSize;
       if (in_shadow || quality(truth, x, y) < 0.27F + 0.14F * coarse[n]) continue;
       if (near_edge(truth.depth, x, y, 1) && coarse[n] > -0.9F) continue;
       if (near_edge(truth.depth, x, y, 2) && coarse[n] > 0.5F) continue;
       const float step = std::round((disparity + kDisparityNoise * fine[n]) * kSteps) / kSteps;
-      const float measured = focal_times_baseline_ / std::max(step, 0.5F);
+      const float measured = kFocalTimesBaseline / std::max(step, 0.5F);
       if (measured < kNearestM || measured > kFarthestM) continue;
       out.at<std::uint16_t>(y, x) =
-          static_cast<std::uint16_t>(std::lround(static_cast<double>(measured) * kUnitsPerMetre));
+          static_cast<std::uint16_t>(std::lround(static_cast<double>(measured) * units_per_metre_));
     }
   }
   return out;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 namespace rds::simulator {
 namespace {
 
@@ -80,7 +82,7 @@ Pixel gather(const Rasterizer& rasterizer, int x, int y, const Eigen::Vector3f& 
 
 }  // namespace
 
-Renderer::Renderer(const geometry::CameraModel& camera) : camera_(camera), rasterizer_(camera) {}
+Renderer::Renderer(const geometry::CameraModel& camera) : lens_(camera), rasterizer_(lens_.ideal()) {}
 
 void Renderer::render(std::span<const Mesh* const> meshes, const Appearance& appearance,
                       std::span<const Shadow> shadows, const geometry::Pose& world_from_camera,
@@ -88,13 +90,16 @@ void Renderer::render(std::span<const Mesh* const> meshes, const Appearance& app
   rasterizer_.clear();
   const geometry::Pose camera_from_world = world_from_camera.inverse();
   for (const Mesh* mesh : meshes) rasterizer_.draw(*mesh, camera_from_world);
-  const cv::Size size(camera_.width, camera_.height);
+  const cv::Size size(lens_.ideal().width, lens_.ideal().height);
   out.color.create(size, CV_32FC3);
   out.depth.create(size, CV_32FC1);
   out.object.create(size, CV_16UC1);
   out.cosine.create(size, CV_32FC1);
   out.infrared.create(size, CV_32FC1);
-  for (int y = 0; y < camera_.height; ++y) shade_row(y, appearance, shadows, world_from_camera, out);
+  for (int y = 0; y < size.height; ++y) shade_row(y, appearance, shadows, world_from_camera, out);
+  lens_.distort(out.color, cv::INTER_LINEAR);
+  for (cv::Mat* picture : {&out.depth, &out.object, &out.cosine, &out.infrared})
+    lens_.distort(*picture, cv::INTER_NEAREST);
 }
 
 void Renderer::shade_row(int y, const Appearance& appearance, std::span<const Shadow> shadows,
@@ -103,11 +108,11 @@ void Renderer::shade_row(int y, const Appearance& appearance, std::span<const Sh
                                shadows,
                                world_from_camera.linear().cast<float>(),
                                world_from_camera.translation().cast<float>(),
-                               1 / static_cast<float>(camera_.fx),
-                               1 / static_cast<float>(camera_.fy)};
+                               1 / static_cast<float>(lens_.ideal().fx),
+                               1 / static_cast<float>(lens_.ideal().fy)};
   const auto& triangles = rasterizer_.triangles();
   auto* color = out.color.ptr<cv::Vec3f>(y);
-  for (int x = 0; x < camera_.width; ++x) {
+  for (int x = 0; x < lens_.ideal().width; ++x) {
     const auto sx = static_cast<float>(2 * x);
     const auto sy = static_cast<float>(2 * y);
     const Eigen::Vector3f ray(rasterizer_.ray_x(sx + 0.5F), rasterizer_.ray_y(sy + 0.5F), 1);

@@ -6,6 +6,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "tools/simulator/lens.hpp"
 #include "tools/simulator/rasterizer.hpp"
 
 namespace rds::simulator {
@@ -29,8 +30,8 @@ struct Rendering {
   cv::Mat infrared;  // CV_32FC1, Material::infrared
 };
 
-/// Renders meshes with textures, baked light and 2×2 anti-aliasing. One instance per thread; keeps its
-/// buffers.
+/// Renders meshes with textures, baked light and 2×2 anti-aliasing, as seen through the camera's lens. One
+/// instance per thread; keeps its buffers.
 class Renderer {
  public:
   explicit Renderer(const geometry::CameraModel& camera);
@@ -43,7 +44,7 @@ class Renderer {
   void shade_row(int y, const Appearance& appearance, std::span<const Shadow> shadows,
                  const geometry::Pose& world_from_camera, Rendering& out) const;
 
-  geometry::CameraModel camera_;
+  Lens lens_;
   Rasterizer rasterizer_;
 };
 

@@ -13,6 +13,7 @@ namespace rds::simulator {
 namespace {
 
 constexpr std::uint64_t kPeopleStream = 100;
+constexpr double kLeastSeen = 1.0 / 768;  // of the picture, that an object must fill (400 px of 640×480)
 
 std::vector<Shadow> shadows_of(const PersonLook& look, const Motion& motion) {
   const Skeleton s = pose_skeleton(look.body, motion);
@@ -31,12 +32,18 @@ std::string motion_name(const Motion& motion, double turn_rad_s) {
 
 }  // namespace
 
+geometry::CameraModel camera_of_size(int width, int height) {
+  constexpr double kFocalPerWidth = 525.0 / 640;
+  const double f = kFocalPerWidth * width;
+  return {width, height, f, f, (width - 1) / 2.0, (height - 1) / 2.0, {}};
+}
+
 Simulation::Simulation(const SimulationOptions& options)
     : options_(options),
       scene_(make_room(options.seed)),
       path_(options.path, options.seconds, options.seed),
       color_sensor_(options.seed),
-      depth_sensor_(options.seed, options.camera.fx) {
+      depth_sensor_(options.seed, options.camera.fx, options.depth_units_per_metre) {
   const FloorMap floor(scene_);
   WalkPlanner planner(
       floor, options_.camera, [this](double t) { return path_.world_from_camera(t); }, options_.seconds);
@@ -115,7 +122,7 @@ void Simulation::observe_objects(const Rendering& rendering, const geometry::Pos
   for (const auto& object : seen) {
     const bool person = object.object >= kFirstPerson;
     if (!person && scene_.objects[object.object].label.empty()) continue;
-    if (object.area < 400) continue;
+    if (object.area < kLeastSeen * options_.camera.width * options_.camera.height) continue;
     if (!person) {
       const auto whole =
           geometry::project(scene_.objects[object.object].box, camera_from_world, options_.camera);

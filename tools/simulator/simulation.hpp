@@ -16,13 +16,17 @@
 
 namespace rds::simulator {
 
+/// A camera without distortion with the same horizontal field of view at every size, 62.7°.
+geometry::CameraModel camera_of_size(int width, int height);
+
 struct SimulationOptions {
   PathKind path = PathKind::kXyz;
   int people = 2;
   double seconds = 20;
   std::uint64_t seed = 1;
   double rate_hz = 30;
-  geometry::CameraModel camera{640, 480, 525.0, 525.0, 319.5, 239.5, {}};
+  geometry::CameraModel camera = camera_of_size(640, 480);
+  double depth_units_per_metre = DepthSensor::kUnitsPerMetre;
 };
 
 /// Truth about one person in one picture; only people with visible pixels are listed.
@@ -47,7 +51,7 @@ struct VisibleObject {
 
 struct SimulatedFrame {
   cv::Mat color;  // CV_8UC3, BGR
-  cv::Mat depth;  // CV_16UC1, DepthSensor::kUnitsPerMetre
+  cv::Mat depth;  // CV_16UC1, SimulationOptions::depth_units_per_metre
   cv::Mat mask;   // CV_8UC1, 0 = background, k = pixel shows person k − 1
   std::vector<PersonTruth> people;
   std::vector<VisibleObject> visible;

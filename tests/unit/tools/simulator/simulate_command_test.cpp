@@ -31,6 +31,12 @@ TEST(SimulateCommand, BadValuesEndWithStatus2AndASentence) {
       {{"--people", "99"}, "--people 99: expected 0 … 8"},
       {{"--seconds", "0"}, "--seconds 0: expected more than 0"},
       {{"--seconds", "nan"}, "--seconds nan: expected more than 0"},
+      {{"--size", "640"}, "--size 640: expected WIDTHxHEIGHT, 64 … 4096 px each"},
+      {{"--size", "640x480x3"}, "--size 640x480x3: expected WIDTHxHEIGHT"},
+      {{"--size", "20x480"}, "--size 20x480: expected WIDTHxHEIGHT"},
+      {{"--fps", "0"}, "--fps 0: expected 1 … 240"},
+      {{"--distortion", "-5,0,0,0,0"}, "--distortion -5,0,0,0,0: lens: the distortion"},
+      {{"--depth-scale", "nan"}, "--depth-scale nan: expected 100 … 13000 units per metre"},
       {{"--threads", "-2"}, "--threads -2: expected 0"}};
   for (const auto& [arguments, sentence] : cases) {
     std::vector<std::string> all{"simulate", "--out", out};

@@ -241,7 +241,10 @@ service::CommandOutcome TrackerService::finish() {
   const auto poses = tracker_.keyframe_poses();
   const std::uint64_t revision = outputs_.publish_poses(poses, loop_revision_, loops_closed_);
   const std::size_t in_map = config_.tracker.localize_only ? 0 : poses.size();
-  return {true, nlohmann::json{{"poses_revision", revision}, {"keyframes", in_map}}.dump()};
+  return {true, nlohmann::json{{"poses_revision", revision},
+                               {"keyframes", in_map},
+                               {"keyframes_in_map", tracker_.map().keyframes()}}
+                    .dump()};
 }
 
 void TrackerService::reset() {

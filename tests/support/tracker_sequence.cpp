@@ -69,10 +69,10 @@ void TrackerSequence::step(std::size_t i) {
 void TrackerSequence::record(std::size_t i, const tracker::FrameResult& result) {
   ++states_[static_cast<int>(result.state)];
   if (options_.verbose)
-    fmt::print("{} state {} features {} dynamic {} inliers {} kf {} ref {} points {} ms {:.1f}\n", i,
+    fmt::print("{} state {} features {} dynamic {} inliers {} kf {} ref {} points {} ms {:.1f} kept {}\n", i,
                static_cast<int>(result.state), result.features, result.dynamic_features, result.inliers,
                result.keyframe.has_value(), result.reference_keyframe_id, tracker_.map().points(),
-               times_.total.back());
+               times_.total.back(), tracker_.map().keyframes());
   if (!tracker::has_pose(result.state)) return;
   const auto& frame = dataset_.frames()[i];
   live_.push_back({frame.stamp_ns, result.map_from_camera, frame.stamp_text});

@@ -64,7 +64,8 @@ geometry::CameraModel camera_of(const SimulateOptions& options) {
   try {
     (void)simulator::Lens(camera);
   } catch (const std::invalid_argument& e) {
-    exit_with(kExitBadInput, fmt::format("--distortion {}: {}", fmt::join(options.distortion, ","), e.what()));
+    exit_with(kExitBadInput,
+              fmt::format("--distortion {}: {}", fmt::join(options.distortion, ","), e.what()));
   }
   return camera;
 }
@@ -165,14 +166,17 @@ void add_simulate_command(CLI::App& rds) {
       ->capture_default_str();
   simulate_app->add_option("--seconds", options->seconds, "Length")->capture_default_str();
   simulate_app->add_option("--fps", options->fps, "Frames a second")->capture_default_str();
-  simulate_app->add_option("--size", options->size, "WIDTHxHEIGHT [px]; the field of view is as wide at every size")
+  simulate_app
+      ->add_option("--size", options->size, "WIDTHxHEIGHT [px]; the field of view is as wide at every size")
       ->capture_default_str();
   simulate_app
-      ->add_option("--distortion", options->distortion,
-                   "k1,k2,p1,p2,k3 of the lens; none if left out. Kinect: 0.2624,-0.9531,-0.0054,0.0026,1.1633")
+      ->add_option(
+          "--distortion", options->distortion,
+          "k1,k2,p1,p2,k3 of the lens; none if left out. Kinect: 0.2624,-0.9531,-0.0054,0.0026,1.1633")
       ->delimiter(',')
       ->expected(5);
-  simulate_app->add_option("--depth-scale", options->depth_scale, "Units of the depth pictures per metre; 1000: mm")
+  simulate_app
+      ->add_option("--depth-scale", options->depth_scale, "Units of the depth pictures per metre; 1000: mm")
       ->capture_default_str();
   simulate_app->add_option("--seed", options->seed, "Chooses room, people and paths")->capture_default_str();
   simulate_app->add_option("--threads", options->threads, "0 = one per core; the result is the same")

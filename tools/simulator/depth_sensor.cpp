@@ -10,8 +10,8 @@
 namespace rds::simulator {
 namespace {
 
-constexpr double kFocalPx = 525;          // of the infrared camera
-constexpr double kBaselineM = 0.075;      // projector to infrared camera
+constexpr double kFocalPx = 525;      // of the infrared camera
+constexpr double kBaselineM = 0.075;  // projector to infrared camera
 constexpr auto kFocalTimesBaseline = static_cast<float>(kFocalPx * kBaselineM);
 constexpr float kDisparityNoise = 0.11F;  // standard deviation [px]
 constexpr float kSteps = 8.0F;            // disparity steps per pixel

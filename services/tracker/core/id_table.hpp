@@ -31,14 +31,14 @@ class IdTable {
   [[nodiscard]] Id next_id() const { return next_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Uses up an id without an object.
-  void skip_id() {
-    if (next_++ / kBlock >= blocks_.size()) blocks_.emplace_back();
+  /// Uses up an id without an object. @return the id.
+  Id skip_id() {
+    if (next_ / kBlock >= blocks_.size()) blocks_.emplace_back();
+    return next_++;
   }
 
   T& emplace(T object) {
-    const Id id = next_;
-    skip_id();
+    const Id id = skip_id();
     auto& block = blocks_[id / kBlock];
     if (!block) block = std::make_unique<Block>();
     ++block->used;

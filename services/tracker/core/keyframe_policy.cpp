@@ -12,18 +12,22 @@ constexpr int kMinExpected = 50;     // fewer points say nothing about a change
 
 }  // namespace
 
-bool is_keyframe(const KeyframeFacts& facts, const KeyframeConfig& config) {
-  if (!facts.has_depth || facts.since_last_s < config.min_interval_s) return false;
+double view_change(const Pose& from_other_view, double median_depth_m, const KeyframeConfig& config) {
+  const double depth_ratio = std::clamp(median_depth_m / kUsualDepth, 0.25, 4.0);
+  return std::max(geometry::rotation_angle_rad(from_other_view.linear()) / config.max_rotation_rad,
+                  from_other_view.translation().norm() / (config.max_translation_m * depth_ratio));
+}
+
+KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config) {
+  if (!facts.has_depth || facts.since_last_s < config.min_interval_s) return KeyframeNeed::kNone;
   const bool losing_reference = facts.inliers < config.reference_ratio * facts.reference_points;
   const bool close_points_wanted =
       facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;
-  const double depth_ratio = std::clamp(facts.median_depth_m / kUsualDepth, 0.25, 4.0);
-  const bool view_changed = facts.rotation_rad > config.max_rotation_rad ||
-                            facts.translation_m > config.max_translation_m * depth_ratio;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
-  return losing_reference || close_points_wanted || view_changed || facts.since_last_s >= longest - kJitter;
+  if (losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
+  return facts.since_last_s >= longest - kJitter ? KeyframeNeed::kLook : KeyframeNeed::kNone;
 }
 
 bool ChangeDetector::update(int expected, int found) {

@@ -13,17 +13,27 @@ struct KeyframeFacts {
   bool has_depth = false;           // without, no map points can be made
   int close_tracked = 0;            // of the inliers, those at close depth
   int close_new = 0;                // close features without map point
-  double rotation_rad = 0;          // since the last keyframe
-  double translation_m = 0;         // since the last keyframe
-  double median_depth_m = 2;        // of the frame's features
+  double view_change = 0;           // from the nearest keyframe around, as view_change() says
   bool movable_or_changed = false;  // movable objects are there, or the picture changes faster than the view
 };
 
-/// True if the frame should become a keyframe.
+/// How far a view is from another one: 1 where the scene looks different enough for a keyframe of its own.
 ///
-/// Often while the picture changes, because the detector looks at keyframes only; seldom in a static scene.
+/// @param median_depth_m  of the scene: the farther it is away, the less a step changes.
+double view_change(const Pose& from_other_view, double median_depth_m, const KeyframeConfig& config);
+
+/// What a frame should become.
+enum class KeyframeNeed : std::uint8_t {
+  kNone,
+  kLook,  // a keyframe for those who look at its picture; the map has what it shows
+  kMap    // a keyframe of the map
+};
+
+/// The map needs a frame whose view no keyframe has, or that sees less of the map than others there did. The
+/// detector, which looks at keyframes only, needs one often while the picture changes, seldom in a static
+/// scene.
 /// Source: Mur-Artal & Tardós 2017, §III-E; the paper, §III-A (keyframes allocate the detector's time).
-bool is_keyframe(const KeyframeFacts& facts, const KeyframeConfig& config);
+KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config);
 
 /// Notices that expected map points vanish, as they do when something enters the picture.
 class ChangeDetector {

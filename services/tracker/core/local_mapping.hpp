@@ -20,7 +20,8 @@ struct MappingKeyframe {
 
 /// The part of the map around a keyframe, by value: nothing in it refers to the map.
 struct LocalMappingJob {
-  KeyframeId keyframe = kNoId;             // the newest, the centre
+  KeyframeId keyframe = kNoId;             // the centre
+  KeyframeId next_keyframe = kNoId;        // those from here on are made after the snapshot
   std::uint64_t revision = 0;              // of the map's geometry
   std::vector<MappingKeyframe> keyframes;  // by ascending id
   std::vector<MapPoint> points;            // by ascending id
@@ -53,6 +54,7 @@ struct LocalMappingResult {
   };
 
   KeyframeId keyframe = kNoId;
+  KeyframeId next_keyframe = kNoId;
   std::uint64_t revision = 0;
   double readout_s = 0;            // refined
   double readout_information = 0;  // 1/s²; 0 if it was not

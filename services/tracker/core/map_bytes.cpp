@@ -57,7 +57,7 @@ void put(ByteWriter& writer, const Keyframe& keyframe) {
 void add_culled(std::span<const KeyframePose> poses, KeyframeId end, SlamMap& map) {
   while (map.next_keyframe_id() < end) {
     const KeyframePose& culled = poses[map.next_keyframe_id()];
-    map.add_culled_keyframe(culled.stamp_ns, culled.map_from_camera);
+    map.add_pose_only(culled.stamp_ns, culled.map_from_camera, 0);
   }
 }
 

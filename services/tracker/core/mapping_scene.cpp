@@ -103,6 +103,7 @@ void search_and_fuse(MappingScene& scene, const LocalMappingConfig& config, Loca
 LocalMappingResult run_local_mapping(const LocalMappingJob& job, const LocalMappingConfig& config) {
   LocalMappingResult result;
   result.keyframe = job.keyframe;
+  result.next_keyframe = job.next_keyframe;
   result.revision = job.revision;
   MappingScene scene(job);
   search_and_fuse(scene, config, result);

@@ -50,9 +50,9 @@ Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_came
   return keyframes_.emplace(std::move(keyframe));
 }
 
-void SlamMap::add_culled_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera) {
-  records_.push_back({stamp_ns, 0, pose_of(0).inverse() * map_from_camera});
-  keyframes_.skip_id();
+KeyframeId SlamMap::add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor) {
+  records_.push_back({stamp_ns, anchor, pose_of(anchor).inverse() * map_from_camera});
+  return keyframes_.skip_id();
 }
 
 MapPoint& SlamMap::add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature) {
@@ -123,8 +123,7 @@ void SlamMap::refresh_view(MapPoint& point) const {
     const double distance = ray.norm();
     if (distance > 0) directions += ray / distance;
     if (i == 0)
-      point.level_0_distance =
-          distance * pyramid_.scale((*k->features)[point.observations[i].feature].level);
+      point.level_0_distance = distance * pyramid_.scale((*k->features)[point.observations[i].feature].level);
   }
   point.normal = directions.normalized();
 }

@@ -87,8 +87,9 @@ class SlamMap {
 
   Keyframe& add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
                          std::shared_ptr<const FeatureSet> features);
-  /// Takes an id for a keyframe that a saved map knows but no longer holds. @pre keyframe 0 is there.
-  void add_culled_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera);
+  /// Takes an id for a keyframe that the map does not hold: only its pose is kept, relative to `anchor`.
+  /// @return the id. @throws std::out_of_range for an unknown anchor.
+  KeyframeId add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
   /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
   void hold_keyframes() { held_ = records_.size(); }
   /// The id of the first keyframe that hold_keyframes() did not find, and of the one that is made next.
@@ -124,7 +125,7 @@ class SlamMap {
   [[nodiscard]] std::int64_t keyframe_stamp_ns(KeyframeId id) const { return records_.at(id).stamp_ns; }
   /// Sets the pose, also of a culled keyframe. Points stay.
   void set_pose(KeyframeId id, const Pose& map_from_camera);
-  /// Every keyframe that ever was, from this one on, by id.
+  /// Every keyframe that ever was, from this one on, by id; also those of which only the pose was kept.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses(KeyframeId first = 0) const;
 
  private:

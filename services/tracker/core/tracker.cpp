@@ -103,7 +103,7 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
   const auto start = Clock::now();
   look_at(picture);
   TrackedFrame frame;
-  const bool keyframe_due = follow_map(picture, movable, frame)
+  const KeyframeNeed need = follow_map(picture, movable, frame)
                                 ? follow_with_keyframe(picture, movable, frame, result)
                                 : track_features(picture, movable, frame, result);
   result.state = state_;
@@ -112,7 +112,7 @@ FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const Mova
       static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
   if (has_pose(state_)) {
     result.inliers = static_cast<unsigned>(frame.matches());
-    if (keyframe_due) add_keyframe(frame, result);
+    if (need != KeyframeNeed::kNone) add_keyframe(need, frame, result);
     result.map_from_camera = frame.camera_from_map.inverse();
     result.reference_keyframe_id = reference_;
     result.reference_from_camera = map_.pose_of(reference_).inverse() * result.map_from_camera;
@@ -130,9 +130,9 @@ void Tracker::look_at(const image::RgbdFrame& picture) {
       std::make_shared<const ImagePyramid>(gray, follows_points() ? config_.following.coarsest_level + 1 : 1);
 }
 
-/// Extracts features and finds the pose from them. @return true if the frame is to become a keyframe.
-bool Tracker::track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                             TrackedFrame& frame, FrameResult& result) {
+/// Extracts features and finds the pose from them. @return what else the frame is to become.
+KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                                     TrackedFrame& frame, FrameResult& result) {
   extract(picture, movable, frame, result);
   if (given_poses_)
     follow(frame, result);
@@ -140,7 +140,8 @@ bool Tracker::track_features(const image::RgbdFrame& picture, std::span<const Mo
     initialize(frame, result);
   else
     state_ = track_motion(frame);
-  return has_pose(state_) && !result.keyframe && needs_keyframe(frame, !movable.empty());
+  if (!has_pose(state_) || result.keyframe) return KeyframeNeed::kNone;
+  return keyframe_need(frame, !movable.empty());
 }
 
 void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {

@@ -48,7 +48,8 @@ class Tracker {
   /// empty, of other sizes or types than promised count as pictures without features.
   FrameResult track(const image::RgbdFrame& frame, std::span<const MovableRegion> movable);
 
-  /// Snapshot around the newest keyframe; nullopt if there is no keyframe since the last call.
+  /// Snapshot around the newest keyframe, or around the reference keyframe where a calm frame only was
+  /// looked at; nullopt if there is neither since the last call.
   std::optional<LocalMappingJob> take_mapping_job();
   /// Moves keyframes and points; removes, fuses and adds observations. What has changed since the snapshot
   /// is left alone.
@@ -62,10 +63,12 @@ class Tracker {
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
   void start_from(SlamMap&& map);
 
-  /// Every keyframe since the last reset, culled ones too, by id; without those of a map that it started
-  /// from.
+  /// Every keyframe since the last reset, by id, also those that are culled or never were in the map; without
+  /// those of a map that it started from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
+  /// Keyframes that a lost camera can find itself by.
+  [[nodiscard]] std::size_t known_places() const { return places_.size(); }
   /// Time [s] from the first row of a picture to the last, as far as known.
   [[nodiscard]] double readout_s() const { return readout_.readout_s(); }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
@@ -83,12 +86,16 @@ class Tracker {
     KeyframeId reference = kNoId;
     Pose reference_from_camera = Pose::Identity();
   };
+  struct KnownView {
+    KeyframeId keyframe = kNoId;
+    double change = std::numeric_limits<double>::infinity();  // from there, as view_change() says
+  };
 
   /// False where poses are not estimated or nothing is to be followed.
   [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
   void look_at(const image::RgbdFrame& picture);
-  bool track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                      TrackedFrame& frame, FrameResult& result);
+  KeyframeNeed track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                              TrackedFrame& frame, FrameResult& result);
   void extract(const image::RgbdFrame& picture, std::span<const MovableRegion> movable, TrackedFrame& frame,
                FrameResult& result);
   void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
@@ -98,8 +105,8 @@ class Tracker {
   [[nodiscard]] std::vector<PointId> points_to_follow(const LocalMap& local) const;
   bool follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                   TrackedFrame& frame);
-  bool follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                            TrackedFrame& frame, FrameResult& result);
+  KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+                                    TrackedFrame& frame, FrameResult& result);
   void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
   void initialize(TrackedFrame& frame, FrameResult& result);
   void follow(TrackedFrame& frame, FrameResult& result);
@@ -111,14 +118,14 @@ class Tracker {
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
-  [[nodiscard]] bool needs_keyframe(const TrackedFrame& frame, bool movable_there) const;
-  void add_keyframe(TrackedFrame& frame, FrameResult& result);
+  [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame, bool movable_there) const;
+  void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
-  [[nodiscard]] std::optional<KeyframePose> newest_keyframe() const;
+  [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
   void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
-  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, const KeyframePose& newest,
-                                             bool movable_there, int inliers) const;
+  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers,
+                                             double view_change) const;
 
   TrackerConfig config_;
   GivenPoses given_poses_;
@@ -134,11 +141,13 @@ class Tracker {
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
   State state_ = State::kNotInitialized;
   KeyframeId reference_ = kNoId;
-  KeyframeId newest_keyframe_ = kNoId;  // of those made here
-  std::vector<KeyframePose> shown_;     // keyframes that did not enter the map, by id
-  std::uint64_t revision_ = 0;          // of the map's geometry, counts corrections
-  int covered_at_keyframe_ = 0;         // cells of the picture with followed points, in the frame after it
-  bool job_due_ = false;
+  KeyframeId newest_keyframe_ = kNoId;            // of those made here
+  std::vector<KeyframePose> shown_;               // keyframes that did not enter the map, by id
+  std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
+  std::optional<std::int64_t> last_keyframe_ns_;  // stamp, of those shown too
+  KeyframeId followed_view_ = kNoId;  // keyframe with the view nearest to the last followed frame's
+  int covered_at_view_ = 0;  // cells of the picture with followed points when that became the nearest
+  KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;
   std::uint64_t mark_ = 0;

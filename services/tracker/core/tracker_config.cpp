@@ -62,6 +62,7 @@ void read(config::ConfigReader& r, KeyframeConfig& c) {
   r.value("min_close_new", c.min_close_new, 0, 10000);
   r.value("max_rotation_rad", c.max_rotation_rad, 0.01, 3.2, "rad");
   r.value("max_translation_m", c.max_translation_m, 0.01, 10.0, "m");
+  r.value("known_after_s", c.known_after_s, 0.0, 1e6, "s");
   r.value("min_interval_s", c.min_interval_s, 0.0, 10.0, "s");
   r.value("movable_interval_s", c.movable_interval_s, 0.01, 60.0, "s");
   r.value("static_interval_s", c.static_interval_s, 0.01, 3600.0, "s");

@@ -77,6 +77,7 @@ struct KeyframeConfig {
   int min_close_new = 70;           // … while more than this could be made
   double max_rotation_rad = 0.26;   // view change since the last keyframe
   double max_translation_m = 0.15;  // the same, for a scene 2 m away
+  double known_after_s = 5;         // a view that a keyframe has for so long needs no other
   double min_interval_s = 0.09;     // between keyframes, unless tracking is about to fail
   double movable_interval_s = 0.2;  // longest, while movable objects are there or the picture changes
   double static_interval_s = 1.0;   // longest, otherwise

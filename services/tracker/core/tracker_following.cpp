@@ -87,25 +87,28 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
   return true;
 }
 
-/// If the view has changed enough since the last keyframe, extracts features where the pose is known.
-/// @return true if the frame is to become a keyframe.
-bool Tracker::follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                                   TrackedFrame& frame, FrameResult& result) {
-  const auto newest = newest_keyframe();
-  if (!newest) return false;
+/// If the map needs the frame, extracts features where the pose is known.
+/// @return what the frame is to become.
+KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture,
+                                           std::span<const MovableRegion> movable, TrackedFrame& frame,
+                                           FrameResult& result) {
+  if (!last_keyframe_ns_) return KeyframeNeed::kNone;
+  const KnownView view = nearest_view(frame);
   const int covered = covered_cells(frame);
-  if (covered_at_keyframe_ == 0) covered_at_keyframe_ = covered;
-  KeyframeFacts facts = keyframe_facts(frame, *newest, !movable.empty(), covered);
-  facts.reference_points = covered_at_keyframe_;
-  if (!is_keyframe(facts, config_.keyframe)) return false;
+  if (view.keyframe != followed_view_) covered_at_view_ = covered;
+  followed_view_ = view.keyframe;
+  KeyframeFacts facts = keyframe_facts(frame, !movable.empty(), covered, view.change);
+  facts.reference_points = covered_at_view_;
+  const KeyframeNeed need = tracker::keyframe_need(facts, config_.keyframe);
+  if (need != KeyframeNeed::kMap) return need;
   TrackedFrame extracted;
   extracted.camera_from_map = frame.camera_from_map;
   extract(picture, movable, extracted, result);
   take_over(frame, picture, extracted);
   refine_with_local_map(extracted, 1);
-  if (extracted.static_matches() < config_.quality.min_inliers) return false;
+  if (extracted.static_matches() < config_.quality.min_inliers) return KeyframeNeed::kNone;
   frame = std::move(extracted);
-  return true;
+  return KeyframeNeed::kMap;
 }
 
 /// A corner near a followed point is taken for it, and for standing where the point was found.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Tracker that builds and changes the map.
 #include <algorithm>
+#include <utility>
 
 #include "services/tracker/core/map_building.hpp"
 #include "services/tracker/core/mapping_exchange.hpp"
@@ -10,8 +11,12 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
 constexpr std::size_t kWellObserved = 2;  // keyframes, of a point that the reference keyframe can rely on
+
+double seconds(std::int64_t duration_ns) {
+  constexpr double kNsPerSecond = 1e9;
+  return static_cast<double>(duration_ns) / kNsPerSecond;
+}
 
 int well_observed_points(const SlamMap& map, const Keyframe& keyframe) {
   const std::size_t wanted = map.keyframes() > 2 ? kWellObserved : 1;
@@ -52,13 +57,6 @@ KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
 
 }  // namespace
 
-std::optional<KeyframePose> Tracker::newest_keyframe() const {
-  if (!shown_.empty()) return shown_.back();
-  if (newest_keyframe_ == kNoId) return std::nullopt;
-  return KeyframePose{newest_keyframe_, map_.keyframe_stamp_ns(newest_keyframe_),
-                      map_.pose_of(newest_keyframe_)};
-}
-
 std::vector<KeyframePose> Tracker::keyframe_poses() const {
   return config_.localize_only ? shown_ : map_.keyframe_poses(map_.first_free_keyframe());
 }
@@ -74,44 +72,74 @@ void Tracker::add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) 
   }
 }
 
-KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, const KeyframePose& newest,
-                                      bool movable_there, int inliers) const {
+/// The keyframe with the view nearest to the frame's, and how far that is: the newest one, or one of those
+/// around that have been there for long. (While a place is new, every turn of the camera makes a keyframe:
+/// from views that come back bundle adjustment learns what drifted and how rows are read.) Where the map does
+/// not grow, it is the last one shown.
+Tracker::KnownView Tracker::nearest_view(const TrackedFrame& frame) const {
+  const double depth = median_depth(*frame.features);
+  KnownView nearest;
+  const auto look_at = [&](KeyframeId id, const Pose& map_from_camera) {
+    const double change = view_change(frame.camera_from_map * map_from_camera, depth, config_.keyframe);
+    if (change < nearest.change) nearest = {id, change};
+  };
+  if (config_.localize_only) {
+    if (!shown_.empty()) look_at(shown_.back().id, shown_.back().map_from_camera);
+    return nearest;
+  }
+  const auto look_at_old = [&](KeyframeId id) {
+    const Keyframe* keyframe = map_.keyframe(id);
+    if (keyframe != nullptr && seconds(frame.stamp_ns - keyframe->stamp_ns) > config_.keyframe.known_after_s)
+      look_at(id, keyframe->map_from_camera);
+  };
+  if (const Keyframe* newest = map_.keyframe(newest_keyframe_)) look_at(newest->id, newest->map_from_camera);
+  look_at_old(reference_);
+  if (const Keyframe* reference = map_.keyframe(reference_))
+    for (const CovisibleKeyframe& c : reference->covisible) look_at_old(c.id);
+  return nearest;
+}
+
+KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers,
+                                      double view_change) const {
   KeyframeFacts facts;
   facts.inliers = inliers;
   facts.has_depth = has_depth(*frame.features);
   if (!config_.localize_only) add_facts_of_map(frame, facts);
-  const Pose moved = frame.camera_from_map * newest.map_from_camera;
-  facts.rotation_rad = geometry::rotation_angle_rad(moved.linear());
-  facts.translation_m = moved.translation().norm();
-  facts.median_depth_m = median_depth(*frame.features);
-  facts.since_last_s = static_cast<double>(frame.stamp_ns - newest.stamp_ns) / kNsPerSecond;
+  facts.view_change = view_change;
+  facts.since_last_s = seconds(frame.stamp_ns - *last_keyframe_ns_);
   facts.movable_or_changed = movable_there || changed_;
   return facts;
 }
 
-bool Tracker::needs_keyframe(const TrackedFrame& frame, bool movable_there) const {
+KeyframeNeed Tracker::keyframe_need(const TrackedFrame& frame, bool movable_there) const {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
-  if (!well_localized && !frame.pose_is_given) return false;
-  const auto newest = newest_keyframe();
-  if (!newest) return has_depth(*frame.features);
-  return is_keyframe(keyframe_facts(frame, *newest, movable_there, frame.matches()), config_.keyframe);
+  if (!well_localized && !frame.pose_is_given) return KeyframeNeed::kNone;
+  if (!last_keyframe_ns_) return has_depth(*frame.features) ? KeyframeNeed::kMap : KeyframeNeed::kNone;
+  return tracker::keyframe_need(
+      keyframe_facts(frame, movable_there, frame.matches(), nearest_view(frame).change), config_.keyframe);
 }
 
-void Tracker::add_keyframe(TrackedFrame& frame, FrameResult& result) {
-  if (config_.localize_only)
+void Tracker::add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {
+  if (need == KeyframeNeed::kLook || config_.localize_only)
     show_keyframe(frame, result);
   else
     make_keyframe(frame, result);
 }
 
-/// A keyframe for others to look at; the map does not learn of it.
+/// A keyframe for others to look at; of it the map keeps the pose at most.
 void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
-  result.keyframe.emplace();
-  result.keyframe->id = map_.next_keyframe_id() + shown_.size();
-  result.keyframe->stamp_ns = frame.stamp_ns;
-  result.keyframe->map_from_camera = frame.camera_from_map.inverse();
-  result.keyframe->in_map = false;
-  shown_.push_back({result.keyframe->id, frame.stamp_ns, result.keyframe->map_from_camera});
+  KeyframeData& shown = result.keyframe.emplace();
+  shown.stamp_ns = frame.stamp_ns;
+  shown.map_from_camera = frame.camera_from_map.inverse();
+  shown.in_map = false;
+  if (config_.localize_only) {
+    shown.id = map_.next_keyframe_id() + shown_.size();
+    shown_.push_back({shown.id, shown.stamp_ns, shown.map_from_camera});
+  } else {
+    shown.id = map_.add_pose_only(shown.stamp_ns, shown.map_from_camera, reference_);
+    if (mapping_centre_ == kNoId) mapping_centre_ = reference_;  // nothing new: what is there gets better
+  }
+  last_keyframe_ns_ = frame.stamp_ns;
   changed_ = false;
 }
 
@@ -121,19 +149,19 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   frame.points = keyframe.points;  // the next frame looks for the new points too
   if (follows_points()) map_.keyframe(keyframe.id)->images = images_;
   newest_keyframe_ = reference_ = keyframe.id;
-  covered_at_keyframe_ = 0;
+  last_keyframe_ns_ = frame.stamp_ns;
+  followed_view_ = kNoId;
   changed_ = false;
   result.keyframe = keyframe_data(map_, keyframe);
   places_.add(keyframe.id, static_descriptors(*frame.features));
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, config_.map, recent_points_);
-  job_due_ = true;
+  mapping_centre_ = keyframe.id;
 }
 
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
-  if (!job_due_) return std::nullopt;
-  job_due_ = false;
-  LocalMappingJob job = make_mapping_job(map_, newest_keyframe_, config_.local_mapping);
+  if (map_.keyframe(mapping_centre_) == nullptr) return std::nullopt;
+  LocalMappingJob job = make_mapping_job(map_, std::exchange(mapping_centre_, kNoId), config_.local_mapping);
   job.revision = revision_;
   job.readout_s = readout_.readout_s();
   job.calibrate_readout = config_.rolling_shutter.calibrate;

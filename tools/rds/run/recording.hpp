@@ -59,6 +59,7 @@ struct Recording {
   std::map<std::int64_t, std::vector<PredictionRecord>> predictions;
   std::map<std::int64_t, std::vector<DetectionRecord>> detections;
   std::map<std::uint64_t, KeyframeRecord> keyframes;  // of the last map epoch
+  std::uint64_t keyframes_in_map = 0;                 // of these, that the map holds at the end
   std::uint64_t map_epoch = 0;                        // that one
   std::uint64_t keyframes_revision = 0;
   std::uint32_t loops_closed = 0;

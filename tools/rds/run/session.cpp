@@ -141,9 +141,11 @@ void Session::drain(const std::stop_token& stop) {
     recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
   const std::string final_poses = ask(kTracker, "finish", "", stop);
   const auto json = nlohmann::json::parse(final_poses, nullptr, false);
-  if (json.is_object())
+  if (json.is_object()) {
     complete_ &=
         recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
+    keyframes_in_map_ = json.value("keyframes_in_map", std::uint64_t{0});
+  }
   map_description_ = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
   status_ = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
@@ -174,7 +176,8 @@ std::string Session::ask(const std::string& service, const std::string& verb, co
 
 void Session::write_results() {
   const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
-  const Recording recording = recorder_.recording();
+  Recording recording = recorder_.recording();
+  recording.keyframes_in_map = keyframes_in_map_;
   write_all_results({options_,
                      recording,
                      report_,

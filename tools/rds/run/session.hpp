@@ -53,6 +53,7 @@ class Session {
   play::PlayerReport report_;
   std::map<std::string, std::string> status_;
   std::string map_description_;
+  std::uint64_t keyframes_in_map_ = 0;
   std::chrono::steady_clock::time_point started_;
   std::chrono::steady_clock::time_point last_progress_;
   std::size_t played_ = 0;

@@ -39,7 +39,8 @@ ordered_json frames_json(const SummaryInput& in) {
           {"tracked", tracked},
           {"lost", lost},
           {"dropped", in.player.played - std::min(in.player.played, in.recording.frames.size())},
-          {"keyframes", keyframes}};
+          {"keyframes", keyframes},
+          {"keyframes_in_map", in.recording.keyframes_in_map}};
 }
 
 ordered_json processes_json(const SummaryInput& in) {

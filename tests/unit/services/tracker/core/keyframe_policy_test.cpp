@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/services/tracker/core/synthetic_scene.hpp"
+
 namespace rds::tracker {
 namespace {
 
@@ -16,54 +18,62 @@ KeyframeFacts calm() {
   return facts;
 }
 
+KeyframeNeed need(const KeyframeFacts& facts) {
+  return keyframe_need(facts, KeyframeConfig{});
+}
+
 TEST(KeyframePolicy, LeavesACalmSceneAlone) {
-  EXPECT_FALSE(is_keyframe(calm(), KeyframeConfig{}));
+  EXPECT_EQ(need(calm()), KeyframeNeed::kNone);
 }
 
 TEST(KeyframePolicy, LooksAgainNowAndThenInACalmScene) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 1;
-  EXPECT_TRUE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
 }
 
 TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   KeyframeFacts facts = calm();
   facts.movable_or_changed = true;
   facts.since_last_s = 0.2;
-  EXPECT_TRUE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
   facts.since_last_s = 0.13;
-  EXPECT_FALSE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
 
 TEST(KeyframePolicy, NeedsDepth) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 5;
   facts.has_depth = false;
-  EXPECT_FALSE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
 
-TEST(KeyframePolicy, FollowsTheView) {
-  KeyframeFacts turned = calm();
-  turned.rotation_rad = 0.3;
-  EXPECT_TRUE(is_keyframe(turned, KeyframeConfig{}));
-  KeyframeFacts moved = calm();
-  moved.translation_m = 0.2;
-  EXPECT_TRUE(is_keyframe(moved, KeyframeConfig{}));
-  moved.median_depth_m = 6;  // far away the same step changes little
-  EXPECT_FALSE(is_keyframe(moved, KeyframeConfig{}));
+TEST(KeyframePolicy, TheMapNeedsNewViews) {
+  KeyframeFacts facts = calm();
+  facts.view_change = 1.1;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+  facts.view_change = 0.9;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
 
-TEST(KeyframePolicy, ActsBeforeTheReferenceIsLost) {
+TEST(KeyframePolicy, TheMapNeedsAKeyframeBeforeTheReferenceIsLost) {
   KeyframeFacts facts = calm();
   facts.inliers = 200;
-  EXPECT_TRUE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
 }
 
 TEST(KeyframePolicy, WaitsTheShortestInterval) {
   KeyframeFacts facts = calm();
   facts.inliers = 50;
   facts.since_last_s = 0.03;
-  EXPECT_FALSE(is_keyframe(facts, KeyframeConfig{}));
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
+TEST(ViewChange, CountsTurnsAndStepsByHowFarTheSceneIs) {
+  const KeyframeConfig config;
+  EXPECT_NEAR(view_change(test::pose(0, 0, 0, config.max_rotation_rad), 2, config), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 2, config), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 4, config), 0.5, 1e-9);
 }
 
 TEST(ChangeDetector, SeesASuddenDropOfFoundPoints) {

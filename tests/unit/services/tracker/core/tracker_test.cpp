@@ -142,6 +142,32 @@ TEST(Tracker, GivesTheSameBytesTwice) {
     EXPECT_EQ(step(a, i).map_from_camera.matrix(), step(b, i).map_from_camera.matrix());
 }
 
+TEST(Tracker, AMapOfAKnownPlaceDoesNotGrow) {
+  constexpr int kPassFrames = 14;
+  TrackerConfig config = small_config();
+  config.keyframe.known_after_s = 1;
+  Tracker tracker(config);
+  std::vector<std::size_t> keyframes, points;
+  int looks = 0;
+  for (int i = 0; i < 10 * kPassFrames; ++i) {
+    const int k = i % (2 * kPassFrames);  // to and fro
+    const Pose where = truth(3 * (k < kPassFrames ? k : 2 * kPassFrames - k));
+    const FrameResult result = tracker.track(test::picture_of_wall(where, i * kFrameNs), {});
+    ASSERT_EQ(result.state, State::kTracking) << i;
+    looks += result.keyframe && !result.keyframe->in_map ? 1 : 0;
+    if (const auto job = tracker.take_mapping_job())
+      tracker.apply(run_local_mapping(*job, config.local_mapping));
+    EXPECT_EQ(tracker.known_places(), tracker.map().keyframes());
+    if ((i + 1) % (2 * kPassFrames) != 0) continue;
+    keyframes.push_back(tracker.map().keyframes());
+    points.push_back(tracker.map().points());
+  }
+  EXPECT_GE(keyframes.front(), 3U);
+  EXPECT_GE(looks, 3);
+  EXPECT_LE(static_cast<double>(keyframes.back()), 1.4 * static_cast<double>(keyframes.front()));
+  EXPECT_LE(static_cast<double>(points.back()), 1.4 * static_cast<double>(points.front()));
+}
+
 TEST(Tracker, AppliedMappingCausesNoJump) {
   Tracker tracker(small_config());
   std::optional<LocalMappingJob> job;

@@ -63,7 +63,7 @@ DepthLook look_at_depth(const image::DepthImage& depth) {
   DepthLook look;
   if (raw.empty()) return look;
   look.measured = static_cast<double>(raw.size()) / static_cast<double>(looked_at);
-  const auto metres = [&](std::size_t percent) {
+  const auto metres = [&raw = raw, &depth](std::size_t percent) {
     return static_cast<double>(raw[(raw.size() - 1) * percent / 100] * depth.metres_per_unit);
   };
   look.near_m = metres(1);

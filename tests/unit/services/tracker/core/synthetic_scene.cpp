@@ -27,6 +27,18 @@ const cv::Mat& texture() {
   return kTexture;
 }
 
+/// Of all pixels, row by row; those of the camera asked for last are kept, for undistorting takes long.
+const std::vector<Eigen::Vector3d>& rays_of(const geometry::CameraModel& camera) {
+  static geometry::CameraModel known;
+  static std::vector<Eigen::Vector3d> rays;
+  if (known == camera) return rays;
+  known = camera;
+  rays.clear();
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) rays.push_back(camera.ray(Eigen::Vector2d(u, v)));
+  return rays;
+}
+
 /// Where a camera-frame point is when its row is read. The row depends on the place: a few steps find both.
 Eigen::Vector3d when_its_row_is_read(const geometry::CameraModel& camera, const ShutterMotion& motion,
                                      const Eigen::Vector3d& p) {
@@ -53,17 +65,19 @@ Pose pose(double x, double y, double z, double turn_rad) {
                              Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY())));
 }
 
-image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns) {
+image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
+                                 const geometry::CameraModel& camera) {
   image::RgbdFrame frame;
   frame.stamp_ns = stamp_ns;
-  frame.camera = small_camera();
+  frame.camera = camera;
+  const auto& rays = rays_of(camera);
   const cv::Size size(frame.camera.width, frame.camera.height);
   cv::Mat map_x(size, CV_32FC1);
   cv::Mat map_y(size, CV_32FC1);
   cv::Mat depth(size, CV_32FC1);
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u) {
-      const Eigen::Vector3d ray = frame.camera.ray(Eigen::Vector2d(u, v));
+      const Eigen::Vector3d& ray = rays[static_cast<std::size_t>(v * size.width + u)];
       const double z =
           (kWallDepth - map_from_camera.translation().z()) / (map_from_camera.linear() * ray).z();
       const Eigen::Vector3d point = map_from_camera * (z * ray);

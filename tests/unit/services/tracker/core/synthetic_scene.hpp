@@ -15,8 +15,9 @@ geometry::CameraModel small_camera();
 /// Rotation about the camera's y axis [rad] and translation [m].
 Pose pose(double x, double y, double z, double turn_rad = 0);
 
-/// What the camera sees of a wall with random texture at z = 2 m.
-image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns);
+/// What a camera sees of a wall with random texture at z = 2 m; depth in metres.
+image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
+                                 const geometry::CameraModel& camera = small_camera());
 
 /// The same camera with its lens covered.
 image::RgbdFrame dark_picture(std::int64_t stamp_ns);

@@ -43,6 +43,32 @@ TEST(Tracker, FollowsAMovingCamera) {
   EXPECT_GT(tracker.map().keyframes(), 1U);
 }
 
+/// A camera like the first Kinect's, whatever its size; depth comes in mm.
+void expect_to_follow_with(int width, int height, int frames) {
+  const double f = 0.81 * width;
+  const geometry::CameraModel camera{
+      width, height, f, f, 0.498 * width, 0.52 * height, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
+  Tracker tracker(small_config());
+  for (int i = 0; i < frames; ++i) {
+    image::RgbdFrame frame = test::picture_of_wall(truth(2 * i), i * kFrameNs, camera);
+    cv::Mat mm;
+    frame.depth.values.convertTo(mm, CV_16UC1, 1000);
+    frame.depth.values = mm;
+    frame.depth.metres_per_unit = 0.001F;
+    const FrameResult result = tracker.track(frame, {});
+    ASSERT_EQ(result.state, State::kTracking) << i;
+    EXPECT_TRUE(error_m(result, 2 * i) < 0.015) << i << ": " << error_m(result, 2 * i);
+  }
+}
+
+TEST(Tracker, FollowsWithASmallPicture) {
+  expect_to_follow_with(320, 240, 8);
+}
+
+TEST(Tracker, FollowsWithALargePicture) {
+  expect_to_follow_with(1280, 720, 5);
+}
+
 TEST(Tracker, FollowsPointsAndExtractsForKeyframesOnly) {
   TrackerConfig config = small_config();
   config.following.points = 120;

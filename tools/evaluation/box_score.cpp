@@ -14,12 +14,10 @@ namespace {
 using geometry::Box2;
 using nlohmann::json;
 
-constexpr int kImageWidth = 640;
-constexpr int kImageHeight = 480;
 constexpr double kWarmUpS = 1.0;
 constexpr double kSameInstantS = 0.005;
 constexpr double kMinVisible = 0.5;
-constexpr double kMinAreaPx = 2500;
+constexpr double kMinArea = 2500.0 / (640 * 480);  // of the picture
 constexpr double kHitIou = 0.5;
 
 Box2 box_from(const json& numbers) {
@@ -44,8 +42,8 @@ bool overlap(const Box2& a, const Box2& b) {
   return std::min(a.x1, b.x1) > std::max(a.x0, b.x0) && std::min(a.y1, b.y1) > std::max(a.y0, b.y0);
 }
 
-cv::Rect pixels_of(const Box2& box) {
-  const Box2 inside = box.clipped(kImageWidth, kImageHeight);
+cv::Rect pixels_of(const Box2& box, const cv::Size& picture) {
+  const Box2 inside = box.clipped(picture.width, picture.height);
   const auto whole = [](double v) { return static_cast<int>(std::nearbyint(v)); };
   const int x0 = whole(inside.x0);
   const int y0 = whole(inside.y0);
@@ -55,19 +53,21 @@ cv::Rect pixels_of(const Box2& box) {
 /// Sums over frames, divided at the end.
 class Tally {
  public:
+  explicit Tally(const cv::Size& picture) : picture_(picture) {}
+
   void add(const PeopleFrame& frame, const std::vector<Box2>& boxes) {
-    cv::Mat covered = cv::Mat::zeros(kImageHeight, kImageWidth, CV_8UC1);
+    cv::Mat covered = cv::Mat::zeros(picture_, CV_8UC1);
     int wasted = 0;
     for (const auto& box : boxes) {
-      const cv::Rect pixels = pixels_of(box);
+      const cv::Rect pixels = pixels_of(box, picture_);
       covered(pixels).setTo(1);
       if (std::ranges::none_of(frame.people, [&](const auto& person) { return overlap(box, person.box); }))
         wasted += pixels.area();
     }
-    waste_ += static_cast<double>(wasted) / (kImageWidth * kImageHeight);
+    waste_ += static_cast<double>(wasted) / picture_.area();
     ++frames_;
     for (const auto& person : frame.people)
-      if (person.visible_fraction > kMinVisible && person.area_px > kMinAreaPx)
+      if (person.visible_fraction > kMinVisible && person.area_px > kMinArea * picture_.area())
         add_person(person, boxes, covered);
   }
 
@@ -84,9 +84,10 @@ class Tally {
     ++people_;
     hits_ += best > kHitIou ? 1 : 0;
     iou_ += best;
-    cover_ += cv::mean(covered(pixels_of(person.box)))[0];
+    cover_ += cv::mean(covered(pixels_of(person.box, picture_)))[0];
   }
 
+  cv::Size picture_;
   std::size_t frames_ = 0;
   std::size_t people_ = 0;
   std::size_t hits_ = 0;
@@ -141,8 +142,9 @@ tl::expected<std::vector<PredictedFrame>, std::string> read_predictions(const st
   return frames;
 }
 
-BoxScore score_boxes(const std::vector<PeopleFrame>& truth, const std::vector<PredictedFrame>& predictions) {
-  Tally tally;
+BoxScore score_boxes(const std::vector<PeopleFrame>& truth, const std::vector<PredictedFrame>& predictions,
+                     const cv::Size& picture) {
+  Tally tally(picture);
   for (const auto& frame : truth) {
     if (frame.time_s - truth.front().time_s < kWarmUpS) continue;
     const auto found =

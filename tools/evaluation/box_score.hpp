@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
 #include <tl/expected.hpp>
 
 #include "common/geometry/box.hpp"
@@ -34,7 +35,7 @@ tl::expected<std::vector<PredictedFrame>, std::string> read_predictions(const st
 
 /// How well predicted boxes cover people; shares 0 … 1, NaN where nothing could be counted.
 struct BoxScore {
-  std::size_t people = 0;  // visible by more than half and larger than 2500 px
+  std::size_t people = 0;  // visible by more than half and larger than 2500 px of 640×480
   double recall = 0;       // share of them with a box at IoU > .5
   double mean_iou = 0;     // of the best box, 0 where none
   double cover = 0;        // mean share of the true box inside the union of the boxes
@@ -42,6 +43,7 @@ struct BoxScore {
 };
 
 /// Scores frames later than 1 s after the first; a prediction belongs to a frame less than 5 ms away.
-BoxScore score_boxes(const std::vector<PeopleFrame>& truth, const std::vector<PredictedFrame>& predictions);
+BoxScore score_boxes(const std::vector<PeopleFrame>& truth, const std::vector<PredictedFrame>& predictions,
+                     const cv::Size& picture);
 
 }  // namespace rds::evaluation

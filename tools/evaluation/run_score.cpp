@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/geometry/trajectory.hpp"
+#include "common/image/camera_yaml.hpp"
 #include "common/image/tum_list.hpp"
 #include "tools/evaluation/box_score.hpp"
 #include "tools/evaluation/frame_times.hpp"
@@ -61,7 +62,13 @@ Result add_boxes(const RunScoreInput& input, Figures& figures) {
   if (!people) return tl::unexpected(people.error());
   const auto predictions = read_predictions(input.out / "predictions.jsonl");
   if (!predictions) return tl::unexpected(predictions.error());
-  const BoxScore score = score_boxes(*people, *predictions);
+  cv::Size picture(640, 480);  // of the TUM cameras, whose recordings need no camera.yaml
+  if (const auto file = input.dataset / "camera.yaml"; std::filesystem::exists(file)) {
+    const auto description = image::read_camera_yaml(file);
+    if (!description) return tl::unexpected(description.error());
+    picture = {description->camera.width, description->camera.height};
+  }
+  const BoxScore score = score_boxes(*people, *predictions, picture);
   figures["box_people"] = score.people;
   figures["box_recall"] = score.recall;
   figures["box_iou"] = score.mean_iou;

@@ -24,7 +24,7 @@ TEST(ScoreBoxes, CountsHitsCoverAndWaste) {
   const std::vector<PredictedFrame> predictions{{0, {{400, 0, 500, 100}}},
                                                 {2.004, {{0, 0, 100, 80}, {500, 0, 600, 96}}},
                                                 {3.006, {{200, 200, 300, 300}}}};
-  const auto score = score_boxes(truth, predictions);
+  const auto score = score_boxes(truth, predictions, {640, 480});
   EXPECT_EQ(score.people, 2U);
   EXPECT_DOUBLE_EQ(score.recall, 0.5);
   EXPECT_DOUBLE_EQ(score.mean_iou, 0.4);
@@ -35,7 +35,15 @@ TEST(ScoreBoxes, CountsHitsCoverAndWaste) {
 TEST(ScoreBoxes, LeavesOutHiddenAndSmallPeople) {
   const std::vector<PeopleFrame> truth{{0, {}},
                                        {5, {{{0, 0, 100, 100}, 0.5, 9000}, {{0, 0, 40, 40}, 1, 1600}}}};
-  EXPECT_EQ(score_boxes(truth, {}).people, 0U);
+  EXPECT_EQ(score_boxes(truth, {}, {640, 480}).people, 0U);
+}
+
+TEST(ScoreBoxes, KnowsThePicturesSize) {
+  const std::vector<PeopleFrame> truth{frame_at(0, {0, 0, 1, 1}), frame_at(2, {1000, 500, 1200, 700})};
+  const std::vector<PredictedFrame> predictions{{2, {{1000, 500, 1200, 720}}}};
+  EXPECT_EQ(score_boxes(truth, predictions, {1280, 720}).people, 0U);  // 5000 px are too few of so many
+  const std::vector<PeopleFrame> large{truth[0], {2, {{{1000, 500, 1200, 700}, 0.9, 20000}}}};
+  EXPECT_DOUBLE_EQ(score_boxes(large, predictions, {1280, 720}).cover, 1);
 }
 
 TEST(ReadPredictions, NamesTheBadLine) {

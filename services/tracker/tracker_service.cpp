@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -147,8 +148,11 @@ void TrackerService::apply_answers() {
 
 void TrackerService::apply(const LocalMappingResult& result) {
   tracker_.apply(result);
+  const SelfCalibration& camera = tracker_.calibration();
   context_.diagnostics.counter("readout us") =
-      static_cast<std::uint64_t>(std::max(0.0, tracker_.readout_s()) * 1e6);
+      static_cast<std::uint64_t>(std::max(0.0, camera.readout_s()) * 1e6);
+  context_.diagnostics.counter("focal length permille") =
+      static_cast<std::uint64_t>(std::lround(camera.focal_scale() * 1e3));
   publish_poses();
 }
 

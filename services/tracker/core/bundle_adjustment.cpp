@@ -54,24 +54,19 @@ class PoseManifold final : public ceres::Manifold {
   }
 };
 
-/// An observation's derivative by the readout time, and the readout time that it is compensated for already.
-struct ReadoutEffect {
-  Eigen::Vector3d by_readout = Eigen::Vector3d::Zero();  // of the weighted residual, 1/s
-  double readout_s = 0;
-};
-
-class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3, 1> {
+class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
  public:
+  /// @param shift  of the weighted residual.
   ReprojectionCost(const ObservationModel& model, const Measurement& measurement,
-                   const ReadoutEffect& readout)
-      : model_(model), measurement_(measurement), readout_(readout) {}
+                   const Eigen::Vector3d& shift)
+      : model_(model), measurement_(measurement), shift_(shift) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Pose camera_from_map = to_pose(parameters[0]);
     const Eigen::Vector3d p = camera_from_map * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
     if (p.z() < kMinDepth) return false;
     Eigen::Map<Eigen::Vector3d> r(residuals);
-    r = model_.residual(p, measurement_) + (*parameters[2] - readout_.readout_s) * readout_.by_readout;
+    r = model_.residual(p, measurement_) + shift_;
     if (jacobians == nullptr) return true;
     const Eigen::Matrix3d by_point = model_.jacobian(p, measurement_);
     if (jacobians[0] != nullptr) {
@@ -84,22 +79,30 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3, 1> {
       Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> j(jacobians[1]);
       j = by_point * camera_from_map.linear();
     }
-    if (jacobians[2] != nullptr) std::copy_n(readout_.by_readout.data(), 3, jacobians[2]);
     return true;
   }
 
  private:
   ObservationModel model_;
   Measurement measurement_;
-  ReadoutEffect readout_;
+  Eigen::Vector3d shift_;
 };
+
+/// The camera of a keyframe with the focal length that is known by now; one of another kind stays as it is.
+geometry::CameraModel known_camera(geometry::CameraModel camera, const LocalMappingJob& job) {
+  const double scale = job.given_fx > 0 ? camera.fx / job.given_fx : 0;
+  if (scale > kLargestFocalError || scale < 1 / kLargestFocalError) return camera;
+  camera.fx *= job.focal_scale / scale;
+  camera.fy *= job.focal_scale / scale;
+  return camera;
+}
 
 class LocalBundle {
  public:
-  explicit LocalBundle(MappingScene& scene) : scene_(scene), readout_s_(scene.job().readout_s) {
+  explicit LocalBundle(MappingScene& scene) : scene_(scene) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
-      models_.emplace_back(k.features->camera(), scene.job().depth);
+      models_.emplace_back(known_camera(k.features->camera(), scene.job()), scene.job().depth);
     }
   }
 
@@ -114,8 +117,8 @@ class LocalBundle {
       for (const auto& o : point.observations) {
         const Measurement m = measurement(o);
         ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
-        problem.AddResidualBlock(new ReprojectionCost(models_[o.keyframe], m, readout_effect(o)), loss,
-                                 poses_[o.keyframe].data(), point.position.data(), &readout_s_);
+        problem.AddResidualBlock(new ReprojectionCost(cost(o)), loss, poses_[o.keyframe].data(),
+                                 point.position.data());
       }
       ordering->AddElementToGroup(point.position.data(), 0);
     }
@@ -124,10 +127,6 @@ class LocalBundle {
       problem.SetManifold(poses_[k].data(), &manifold_);
       if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
       ordering->AddElementToGroup(poses_[k].data(), 1);
-    }
-    if (problem.HasParameterBlock(&readout_s_)) {
-      if (!scene_.job().calibrate_readout) problem.SetParameterBlockConstant(&readout_s_);
-      ordering->AddElementToGroup(&readout_s_, 1);
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -155,7 +154,7 @@ class LocalBundle {
   }
 
   void report(LocalMappingResult& result) const {
-    report_readout(result);
+    result.imaging = estimate_imaging();
     const auto& keyframes = scene_.job().keyframes;
     for (std::size_t k = 0; k < poses_.size(); ++k)
       if (!keyframes[k].fixed)
@@ -185,28 +184,52 @@ class LocalBundle {
                                            scene_.job().pyramid);
   }
 
-  /// The residual is predicted − measured, and measured − readout·effect is what the pose predicts.
-  [[nodiscard]] ReadoutEffect readout_effect(const MappingScene::SceneObservation& o) const {
+  /// Derivative of the weighted residual by the readout time, 1/s. The residual is predicted − measured, and
+  /// measured − readout·effect is what the pose predicts.
+  [[nodiscard]] Eigen::Vector3d by_readout(const MappingScene::SceneObservation& o) const {
     const MappingKeyframe& k = scene_.job().keyframes[o.keyframe];
-    const Feature& feature = (*k.features)[o.feature];
     const geometry::CameraModel& camera = k.features->camera();
-    const Eigen::Vector3d effect = shutter_effect(camera, k.motion.velocity, feature);
-    if (effect.isZero(0)) return {Eigen::Vector3d::Zero(), k.motion.readout_s};
-    return {models_[o.keyframe].jacobian(k.features->point_in_camera(o.feature), measurement(o)) * effect,
-            k.motion.readout_s};
+    const Eigen::Vector3d effect = shutter_effect(camera, k.motion.velocity, (*k.features)[o.feature]);
+    if (effect.isZero(0)) return Eigen::Vector3d::Zero();
+    return models_[o.keyframe].jacobian(k.features->point_in_camera(o.feature), measurement(o)) * effect;
   }
 
-  void report_readout(LocalMappingResult& result) const {
-    result.readout_s = readout_s_;
-    if (!scene_.job().calibrate_readout) return;
-    for (const auto& point : scene_.points())
-      if (is_adjusted(point))
-        for (const auto& o : point.observations)
-          result.readout_information += readout_effect(o).by_readout.squaredNorm();
+  /// What a feature was compensated for is made good with the readout time that is known by now.
+  [[nodiscard]] ReprojectionCost cost(const MappingScene::SceneObservation& o) const {
+    const double late = scene_.job().readout_s - scene_.job().keyframes[o.keyframe].motion.readout_s;
+    return {models_[o.keyframe], measurement(o), late * by_readout(o)};
+  }
+
+  [[nodiscard]] ObservationDerivatives derivatives(const MappingScene::SceneObservation& o,
+                                                   const Eigen::Vector3d& position) const {
+    ObservationDerivatives d;
+    Eigen::Matrix<double, 3, 7, Eigen::RowMajor> by_pose;
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_point;
+    const std::array parameters{poses_[o.keyframe].data(), position.data()};
+    std::array jacobians{by_pose.data(), by_point.data()};
+    cost(o).Evaluate(parameters.data(), d.residual.data(), jacobians.data());
+    const Eigen::Vector3d p = to_pose(poses_[o.keyframe].data()) * position;
+    d.camera = o.keyframe;
+    d.by_pose = by_pose.leftCols<6>();
+    d.by_point = by_point;
+    d.by_imaging.col(0) = by_readout(o);
+    d.by_imaging.col(1) = models_[o.keyframe].by_focal_scale(p, measurement(o)) / scene_.job().focal_scale;
+    return d;
+  }
+
+  [[nodiscard]] ImagingEstimate estimate_imaging() const {
+    ImagingEstimator estimator(poses_.size());
+    std::vector<ObservationDerivatives> of_point;
+    for (const auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      of_point.clear();
+      for (const auto& o : point.observations) of_point.push_back(derivatives(o, point.position));
+      estimator.add_point(of_point);
+    }
+    return estimator.estimate({scene_.job().readout_s, scene_.job().focal_scale});
   }
 
   MappingScene& scene_;
-  double readout_s_;
   std::vector<PoseBlock> poses_;  // per keyframe
   std::vector<ObservationModel> models_;
   PoseManifold manifold_;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "services/tracker/core/self_calibration.hpp"
 #include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker {
@@ -26,7 +27,8 @@ struct LocalMappingJob {
   std::vector<MappingKeyframe> keyframes;  // by ascending id
   std::vector<MapPoint> points;            // by ascending id
   double readout_s = 0;                    // of the camera, as far as known
-  bool calibrate_readout = false;          // it may be refined
+  double focal_scale = 1;                  // the same, on the focal length it was given with
+  double given_fx = 0;                     // px; 0: every keyframe's camera is right
   ScalePyramid pyramid{1, 1};
   DepthConfig depth;
   PoseOptimizationConfig robust;  // χ² bounds
@@ -56,8 +58,7 @@ struct LocalMappingResult {
   KeyframeId keyframe = kNoId;
   KeyframeId next_keyframe = kNoId;
   std::uint64_t revision = 0;
-  double readout_s = 0;            // refined
-  double readout_information = 0;  // 1/s²; 0 if it was not
+  ImagingEstimate imaging;
   std::vector<MovedKeyframe> keyframes;
   std::vector<MovedPoint> points;
   std::vector<PointInKeyframe> added;

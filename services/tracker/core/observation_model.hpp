@@ -57,6 +57,11 @@ class ObservationModel {
             m.disparity_weight * (disparity(p.z()) - m.disparity_px)};
   }
 
+  /// Derivative of residual() by a factor on the focal length.
+  [[nodiscard]] Eigen::Vector3d by_focal_scale(const Eigen::Vector3d& p, const Measurement& m) const {
+    return {m.px_weight * fx_ * p.x() / p.z(), m.px_weight * fy_ * p.y() / p.z(), 0};
+  }
+
   /// Derivative of residual() by the camera-frame point.
   [[nodiscard]] Eigen::Matrix3d jacobian(const Eigen::Vector3d& p, const Measurement& m) const {
     const double inverse_z = 1 / p.z();

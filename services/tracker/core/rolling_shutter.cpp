@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/rolling_shutter.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace rds::tracker {
-namespace {
-
-constexpr double kPriorInformation = 1e7;  // 1/s², of the configured value; a calm half second tells as much
-constexpr double kLongestReadout = 0.05;   // s, either way: a camera may hang upside down
-
-}  // namespace
-
 void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMotion& motion,
                             std::vector<Feature>& features) {
   if (motion.readout_s == 0 || motion.velocity.isZero(0)) return;
@@ -44,17 +34,6 @@ Eigen::Vector3d shutter_effect(const geometry::CameraModel& camera, const Twist&
   const Eigen::Vector3d p =
       static_cast<double>(feature.depth_m) * camera.ray_of_undistorted(feature.px.cast<double>());
   return row_share(camera, static_cast<double>(feature.image_px.y())) * point_velocity(velocity, p);
-}
-
-ReadoutCalibration::ReadoutCalibration(const RollingShutterConfig& config)
-    : memory_(config.memory), readout_s_(config.readout_s), information_(kPriorInformation) {}
-
-void ReadoutCalibration::update(double readout_s, double information) {
-  if (!std::isfinite(readout_s) || !std::isfinite(information) || information <= 0) return;
-  const double old = memory_ * information_;
-  information_ = old + information;
-  readout_s_ = std::clamp((old * readout_s_ + information * readout_s) / information_, -kLongestReadout,
-                          kLongestReadout);
 }
 
 }  // namespace rds::tracker

@@ -44,20 +44,4 @@ void remove_rolling_shutter(const geometry::CameraModel& camera, const ShutterMo
 [[nodiscard]] Eigen::Vector3d shutter_effect(const geometry::CameraModel& camera, const Twist& velocity,
                                              const Feature& feature);
 
-/// The readout time, refined by every bundle adjustment: the mean of what they found, weighted with how much
-/// they could tell and with older ones slowly forgotten.
-class ReadoutCalibration {
- public:
-  explicit ReadoutCalibration(const RollingShutterConfig& config);
-
-  [[nodiscard]] double readout_s() const { return readout_s_; }
-  /// @param information  1/s²: sum of squares of the normalised residuals' derivatives.
-  void update(double readout_s, double information);
-
- private:
-  double memory_;
-  double readout_s_;
-  double information_;
-};
-
 }  // namespace rds::tracker

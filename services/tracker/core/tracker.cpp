@@ -31,6 +31,12 @@ bool is_usable(const image::RgbdFrame& frame) {
          (depth_type == CV_16UC1 || depth_type == CV_32FC1) && frame.depth.metres_per_unit > 0;
 }
 
+double newest_focal_length(const SlamMap& map) {
+  double fx = 0;
+  map.all_keyframes().for_each([&](const Keyframe& k) { fx = k.features->camera().fx; });
+  return fx;
+}
+
 std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
   std::vector<KeypointVerdict> all;
   all.reserve(frame.features->size());
@@ -52,7 +58,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction),
       map_(config.map, pyramid_),
-      readout_(config.rolling_shutter),
+      calibration_(config.self_calibration),
       change_(config.keyframe.changed_share),
       change_while_following_(config.keyframe.changed_share) {}
 
@@ -82,7 +88,7 @@ void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRe
     };
   extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
-  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
+  frame.motion = {velocity_.value_or(Twist::Zero()), calibration_.readout_s()};
   set_features(picture, std::move(features), frame);
   frame.clear_matches();
   result.times.extract_us = microseconds_since(start);
@@ -96,10 +102,22 @@ void Tracker::set_features(const image::RgbdFrame& picture, std::vector<Feature>
   frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
 }
 
-FrameResult Tracker::track(const image::RgbdFrame& picture, std::span<const MovableRegion> movable) {
+/// The picture (its pixels shared) with the focal length that is known by now.
+image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
+  if (given_fx_ == 0 && map_.keyframes() > 0)
+    calibration_.begin_with_focal_scale(newest_focal_length(map_) / given.camera.fx);
+  given_fx_ = given.camera.fx;
+  image::RgbdFrame picture = given;
+  picture.camera.fx *= calibration_.focal_scale();
+  picture.camera.fy *= calibration_.focal_scale();
+  return picture;
+}
+
+FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> movable) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
-  if (!is_usable(picture)) return result;
+  if (!is_usable(given)) return result;
+  const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();
   look_at(picture);
   TrackedFrame frame;

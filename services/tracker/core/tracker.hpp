@@ -17,6 +17,7 @@
 #include "services/tracker/core/point_following.hpp"
 #include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/se3.hpp"
+#include "services/tracker/core/self_calibration.hpp"
 #include "services/tracker/core/slam_map.hpp"
 #include "services/tracker/core/tracker_config.hpp"
 #include "services/tracker/core/tracking_types.hpp"
@@ -46,7 +47,7 @@ class Tracker {
   /// @return state and pose; a frame that could not be localised has state kLost (kNotInitialized before the
   /// first keyframe) and no pose; so has, with given poses, a frame that none is given for. Pictures that are
   /// empty, of other sizes or types than promised count as pictures without features.
-  FrameResult track(const image::RgbdFrame& frame, std::span<const MovableRegion> movable);
+  FrameResult track(const image::RgbdFrame& given, std::span<const MovableRegion> movable);
 
   /// Snapshot around the newest keyframe, or around the reference keyframe where a calm frame only was
   /// looked at; nullopt if there is neither since the last call.
@@ -69,8 +70,8 @@ class Tracker {
   [[nodiscard]] const SlamMap& map() const { return map_; }
   /// Keyframes that a lost camera can find itself by.
   [[nodiscard]] std::size_t known_places() const { return places_.size(); }
-  /// Time [s] from the first row of a picture to the last, as far as known.
-  [[nodiscard]] double readout_s() const { return readout_.readout_s(); }
+  /// What is known of the camera beyond what it was given with.
+  [[nodiscard]] const SelfCalibration& calibration() const { return calibration_; }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
@@ -93,6 +94,7 @@ class Tracker {
 
   /// False where poses are not estimated or nothing is to be followed.
   [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
+  [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
   KeyframeNeed track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
                               TrackedFrame& frame, FrameResult& result);
@@ -132,7 +134,8 @@ class Tracker {
   ScalePyramid pyramid_;
   OrbExtractor extractor_;
   SlamMap map_;
-  ReadoutCalibration readout_;
+  SelfCalibration calibration_;
+  double given_fx_ = 0;  // px, of the newest picture
   vision::PlaceIndex places_;
   ChangeDetector change_;
   ChangeDetector change_while_following_;

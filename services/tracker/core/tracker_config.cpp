@@ -21,9 +21,14 @@ void read(config::ConfigReader& r, DepthConfig& c) {
   r.value("disparity_sigma_px", c.disparity_sigma_px, 0.05, 10.0, "px");
 }
 
-void read(config::ConfigReader& r, RollingShutterConfig& c) {
+void read(config::ConfigReader& r, SelfCalibrationConfig& c) {
+  r.value("readout", c.readout);
   r.value("readout_s", c.readout_s, -0.05, 0.05, "s");
-  r.value("calibrate", c.calibrate);
+  r.value("readout_sigma_s", c.readout_sigma_s, 1e-4, 1.0, "s");
+  r.value("tolerated_readout_error_s", c.tolerated_readout_error_s, 0.0, 0.05, "s");
+  r.value("focal_length", c.focal_length);
+  r.value("focal_sigma", c.focal_sigma, 1e-3, 1.0);
+  r.value("tolerated_focal_error", c.tolerated_focal_error, 0.0, 0.3);
   r.value("memory", c.memory, 0.0, 1.0);
 }
 
@@ -107,7 +112,7 @@ void read(config::ConfigReader& r, QualityConfig& c) {
 void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("extraction"), config.extraction);
   read(reader.section("depth"), config.depth);
-  read(reader.section("rolling_shutter"), config.rolling_shutter);
+  read(reader.section("self_calibration"), config.self_calibration);
   read(reader.section("pose"), config.pose);
   read(reader.section("following"), config.following);
   read(reader.section("matching"), config.matching);

@@ -69,7 +69,7 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
   if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
   frame.stamp_ns = picture.stamp_ns;
   frame.camera_from_map = align_with_last(picture, movable);
-  frame.motion = {velocity_.value_or(Twist::Zero()), readout_.readout_s()};
+  frame.motion = {velocity_.value_or(Twist::Zero()), calibration_.readout_s()};
   const ObservationModel model(picture.camera, config_.depth);
   FollowedPoints followed = follow_points(map_, points_to_follow(local),
                                           {picture, *images_, movable, frame.camera_from_map, frame.motion},

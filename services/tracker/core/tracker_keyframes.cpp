@@ -163,8 +163,9 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   if (map_.keyframe(mapping_centre_) == nullptr) return std::nullopt;
   LocalMappingJob job = make_mapping_job(map_, std::exchange(mapping_centre_, kNoId), config_.local_mapping);
   job.revision = revision_;
-  job.readout_s = readout_.readout_s();
-  job.calibrate_readout = config_.rolling_shutter.calibrate;
+  job.readout_s = calibration_.readout_s();
+  job.focal_scale = calibration_.focal_scale();
+  job.given_fx = given_fx_;
   job.pyramid = pyramid_;
   job.depth = config_.depth;
   job.robust = config_.pose;
@@ -175,7 +176,7 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
 void Tracker::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return;
   apply_mapping_result(map_, result);
-  readout_.update(result.readout_s, result.readout_information);
+  calibration_.update(result.imaging);
   for (const KeyframeId culled : cull_redundant_keyframes(map_, result.keyframe, config_.depth, config_.map))
     places_.remove(culled);
 }

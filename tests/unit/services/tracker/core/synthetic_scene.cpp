@@ -65,6 +65,12 @@ Pose pose(double x, double y, double z, double turn_rad) {
                              Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY())));
 }
 
+Twist quick_motion() {
+  Twist velocity;
+  velocity << 0.2, -0.15, 0.15, 0.6, -0.6, 0.2;
+  return velocity;
+}
+
 image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
                                  const geometry::CameraModel& camera) {
   image::RgbdFrame frame;

@@ -15,6 +15,9 @@ geometry::CameraModel small_camera();
 /// Rotation about the camera's y axis [rad] and translation [m].
 Pose pose(double x, double y, double z, double turn_rad = 0);
 
+/// A hand-held camera's: 0.3 m/s and 50 degrees per second.
+Twist quick_motion();
+
 /// What a camera sees of a wall with random texture at z = 2 m; depth in metres.
 image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
                                  const geometry::CameraModel& camera = small_camera());

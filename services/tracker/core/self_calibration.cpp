@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/self_calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace rds::tracker {
+namespace {
+
+constexpr Eigen::Index kImaging = 2;
+constexpr Eigen::Index kPose = 6;
+constexpr double kFreePose = 1e-2;        // information [1/m², 1/rad²] about every pose: next to none
+constexpr double kSignificant = 3;        // σ by which what was given must be off
+constexpr double kLongestReadout = 0.05;  // s, either way: a camera may hang upside down
+
+/// Where a camera's pose starts among the unknowns; camera 0 is no unknown.
+Eigen::Index pose_at(std::size_t camera) {
+  return kImaging + kPose * (static_cast<Eigen::Index>(camera) - 1);
+}
+
+Eigen::Index unknowns(std::size_t cameras) {
+  return cameras == 0 ? kImaging : pose_at(cameras);
+}
+
+struct Part {
+  Eigen::Index at;
+  Eigen::Index size;
+  Eigen::Matrix<double, 3, 6> by_point;  // Jpᵀ J
+};
+
+}  // namespace
+
+ImagingEstimator::ImagingEstimator(std::size_t cameras)
+    : normal_(Eigen::MatrixXd::Zero(unknowns(cameras), unknowns(cameras))),
+      gradient_(Eigen::VectorXd::Zero(unknowns(cameras))) {
+  normal_.diagonal().tail(normal_.rows() - kImaging).setConstant(kFreePose);
+}
+
+void ImagingEstimator::add_point(std::span<const ObservationDerivatives> observations) {
+  Eigen::Matrix3d point = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d point_gradient = Eigen::Vector3d::Zero();
+  std::vector<Part> parts{{0, kImaging, Eigen::Matrix<double, 3, 6>::Zero()}};
+  for (const ObservationDerivatives& o : observations) {
+    point += o.by_point.transpose() * o.by_point;
+    point_gradient += o.by_point.transpose() * o.residual;
+    parts.front().by_point.leftCols<kImaging>() += o.by_point.transpose() * o.by_imaging;
+    normal_.topLeftCorner<kImaging, kImaging>() += o.by_imaging.transpose() * o.by_imaging;
+    gradient_.head<kImaging>() += o.by_imaging.transpose() * o.residual;
+    if (o.camera == 0) continue;
+    const Eigen::Index at = pose_at(o.camera);
+    normal_.block<kPose, kPose>(at, at) += o.by_pose.transpose() * o.by_pose;
+    normal_.block<kPose, kImaging>(at, 0) += o.by_pose.transpose() * o.by_imaging;
+    gradient_.segment<kPose>(at) += o.by_pose.transpose() * o.residual;
+    parts.push_back({at, kPose, o.by_point.transpose() * o.by_pose});
+  }
+  if (point.determinant() <= 0) return;
+  const Eigen::Matrix3d inverse = point.inverse();
+  for (const Part& a : parts) {
+    const Eigen::Matrix<double, 6, 3> weighted = a.by_point.transpose() * inverse;
+    gradient_.segment(a.at, a.size) -= weighted.topRows(a.size) * point_gradient;
+    for (const Part& b : parts)
+      if (b.at <= a.at)
+        normal_.block(a.at, b.at, a.size, b.size) -= weighted.topRows(a.size) * b.by_point.leftCols(b.size);
+  }
+}
+
+ImagingEstimate ImagingEstimator::estimate(const Imaging& at) const {
+  const Eigen::Index poses = normal_.rows() - kImaging;
+  Eigen::Matrix2d information = normal_.topLeftCorner<kImaging, kImaging>();
+  Eigen::Vector2d gradient = gradient_.head<kImaging>();
+  if (poses > 0) {
+    const Eigen::MatrixXd by_poses = normal_.bottomLeftCorner(poses, kImaging);
+    const Eigen::LDLT<Eigen::MatrixXd> solver(normal_.bottomRightCorner(poses, poses));
+    information -= by_poses.transpose() * solver.solve(by_poses);
+    gradient -= by_poses.transpose() * solver.solve(gradient_.tail(poses));
+  }
+  const Eigen::LLT<Eigen::Matrix2d> solver(information);
+  if (!information.allFinite() || solver.info() != Eigen::Success) return {at, Eigen::Matrix2d::Zero()};
+  return {at - solver.solve(gradient), information};
+}
+
+SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config)
+    : config_(config), value_(config.readout_s, 1) {
+  information_ = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
+                     .array()
+                     .square()
+                     .inverse()
+                     .matrix()
+                     .asDiagonal();
+}
+
+void SelfCalibration::begin_with_focal_scale(double scale) {
+  if (!config_.focal_length || scale < 1 / kLargestFocalError || scale > kLargestFocalError) return;
+  value_(1) = scale;
+  focal_is_wrong_ = std::abs(scale - 1) > config_.tolerated_focal_error;
+}
+
+void SelfCalibration::update(const ImagingEstimate& found) {
+  if (!found.value.allFinite() || !found.information.allFinite()) return;
+  const Eigen::Matrix2d old = config_.memory * information_;
+  information_ = old + found.information;
+  value_ = information_.llt().solve(old * value_ + found.information * found.value);
+  value_(0) = std::clamp(value_(0), -kLongestReadout, kLongestReadout);
+  value_(1) = std::clamp(value_(1), 1 / kLargestFocalError, kLargestFocalError);
+  const Imaging error = (value_ - Imaging(config_.readout_s, 1)).cwiseAbs();
+  const Imaging doubt = kSignificant * information_.inverse().diagonal().cwiseSqrt();
+  readout_is_wrong_ |= config_.readout && error(0) > config_.tolerated_readout_error_s + doubt(0);
+  focal_is_wrong_ |= config_.focal_length && error(1) > config_.tolerated_focal_error + doubt(1);
+}
+
+}  // namespace rds::tracker

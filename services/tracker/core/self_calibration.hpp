@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "services/tracker/core/tracker_config.hpp"
+
+namespace rds::tracker {
+
+/// What a camera does not tell about itself, in this order: readout time [s], focal length as a factor on the
+/// given one [1].
+using Imaging = Eigen::Vector2d;
+
+/// What one bundle says about the imaging.
+struct ImagingEstimate {
+  Imaging value = Imaging::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // inverse covariance, everything else being unknown
+};
+
+/// How one observation's weighted residual changes.
+struct ObservationDerivatives {
+  std::size_t camera = 0;
+  Eigen::Vector3d residual;
+  Eigen::Matrix<double, 3, 6> by_pose;
+  Eigen::Matrix3d by_point;
+  Eigen::Matrix<double, 3, 2> by_imaging;
+};
+
+/// One Gauss-Newton step of a bundle in which points, poses and imaging are free, for the imaging alone.
+///
+/// Camera 0 is the gauge; no other is held. That makes the answer independent of what the map was built with,
+/// which keyframes that are held would only repeat. Poses and points are not moved.
+/// Source: Triggs et al. 2000, §6.1 (Schur complement).
+class ImagingEstimator {
+ public:
+  explicit ImagingEstimator(std::size_t cameras);
+
+  /// @param observations  of one point, each by another camera.
+  void add_point(std::span<const ObservationDerivatives> observations);
+  /// @param at  where the derivatives were taken. @return its value and no information if nothing is known.
+  [[nodiscard]] ImagingEstimate estimate(const Imaging& at) const;
+
+ private:
+  Eigen::MatrixXd normal_;    // of imaging and poses, points eliminated
+  Eigen::VectorXd gradient_;  // likewise
+};
+
+/// Beyond this factor, either way, it is another camera.
+inline constexpr double kLargestFocalError = 1.4;
+
+/// What is known of the camera's imaging: the mean of what bundles found, weighted with how much they could
+/// tell and with older ones slowly forgotten.
+class SelfCalibration {
+ public:
+  explicit SelfCalibration(const SelfCalibrationConfig& config);
+
+  /// The given readout time until it is known to be wrong.
+  [[nodiscard]] double readout_s() const { return readout_is_wrong_ ? value_(0) : config_.readout_s; }
+  /// Factor on the given focal length: 1 until that is known to be wrong.
+  [[nodiscard]] double focal_scale() const { return focal_is_wrong_ ? value_(1) : 1; }
+  /// Goes on from what was known when a map was saved; ignored if no camera can be off by that much.
+  void begin_with_focal_scale(double scale);
+  void update(const ImagingEstimate& found);
+
+ private:
+  SelfCalibrationConfig config_;
+  Imaging value_;
+  Eigen::Matrix2d information_;
+  bool readout_is_wrong_ = false;
+  bool focal_is_wrong_ = false;
+};
+
+}  // namespace rds::tracker

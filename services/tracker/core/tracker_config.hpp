@@ -32,7 +32,7 @@ struct SelfCalibrationConfig {
   bool readout = true;            // how long reading a picture takes; false: readout_s is true
   double readout_s = 0;           // from the first row to the last (rolling shutter), to start with
   double readout_sigma_s = 0.02;  // its standard deviation
-  double tolerated_readout_error_s = 0.002;  // nearer to readout_s than this nothing is changed
+  double tolerated_readout_error_s = 0.001;  // nearer to readout_s than this nothing is changed
   bool focal_length = true;                  // false: the given one is true
   double focal_sigma = 0.05;                 // standard deviation of the given one, as a share of it
   double tolerated_focal_error =

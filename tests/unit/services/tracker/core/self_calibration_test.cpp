@@ -144,7 +144,7 @@ TEST(SelfCalibrationTest, GoesTowardsWhatHasMoreInformation) {
 
 TEST(SelfCalibrationTest, AGlobalShutterStaysOne) {
   SelfCalibration calibration(SelfCalibrationConfig{});
-  for (int i = 0; i < 50; ++i) calibration.update(measured(0.0015, 1, 0.01));
+  for (int i = 0; i < 50; ++i) calibration.update(measured(0.0008, 1, 0.01));
   EXPECT_EQ(calibration.readout_s(), 0);
 }
 

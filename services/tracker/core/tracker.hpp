@@ -135,7 +135,8 @@ class Tracker {
   OrbExtractor extractor_;
   SlamMap map_;
   SelfCalibration calibration_;
-  double given_fx_ = 0;  // px, of the newest picture
+  double given_fx_ = 0;                 // px, of the newest picture
+  KeyframeId calibrated_with_ = kNoId;  // the newest that calibration has learned from
   vision::PlaceIndex places_;
   ChangeDetector change_;
   ChangeDetector change_while_following_;

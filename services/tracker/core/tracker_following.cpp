@@ -44,7 +44,7 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture, std::span<const M
     const auto hides = [&](const MovableRegion& r) { return covers(r, f.image_px, f.depth_m); };
     if (p.z() > kMinDepth && std::ranges::none_of(movable, hides)) seen.push_back({f.image_px, p});
   }
-  const Pose expected = expected_camera_from_map(picture.stamp_ns);
+  Pose expected = expected_camera_from_map(picture.stamp_ns);
   if (seen.size() < kEnoughToAlign) return expected;
   return align_sparsely(*last_->images, seen, *images_, picture.camera, expected * last_map_from_camera,
                         config_.following) *

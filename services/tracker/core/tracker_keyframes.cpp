@@ -176,7 +176,10 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
 void Tracker::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return;
   apply_mapping_result(map_, result);
-  calibration_.update(result.imaging);
+  if (calibrated_with_ == kNoId || result.keyframe > calibrated_with_) {  // else nothing new was seen
+    calibration_.update(result.imaging);
+    calibrated_with_ = result.keyframe;
+  }
   for (const KeyframeId culled : cull_redundant_keyframes(map_, result.keyframe, config_.depth, config_.map))
     places_.remove(culled);
 }

@@ -21,6 +21,7 @@ struct TrackedFrame {
   Pose camera_from_map = Pose::Identity();
   ShutterMotion motion;        // that px and depth of the features are compensated for
   bool pose_is_given = false;  // and not to be estimated
+  double found_share = 1;      // of the expected map points, relative to the usual (FoundShare)
 
   [[nodiscard]] int matches() const;
   /// Matches of features that are not on movable objects; only these may carry a keyframe.

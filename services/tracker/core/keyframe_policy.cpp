@@ -30,12 +30,12 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   return facts.since_last_s >= longest - kJitter ? KeyframeNeed::kLook : KeyframeNeed::kNone;
 }
 
-bool ChangeDetector::update(int expected, int found) {
-  if (expected < kMinExpected) return false;
+double FoundShare::update(int expected, int found) {
+  if (expected < kMinExpected) return 1;
   const double share = static_cast<double>(found) / expected;
-  const bool changed = mean_ > 0 && share < (1 - drop_) * mean_;
+  const double relative = mean_ > 0 ? share / mean_ : 1;
   mean_ = mean_ > 0 ? mean_ + kForgetting * (share - mean_) : share;
-  return changed;
+  return relative;
 }
 
 }  // namespace rds::tracker

@@ -35,18 +35,15 @@ enum class KeyframeNeed : std::uint8_t {
 /// Source: Mur-Artal & Tardós 2017, §III-E; the paper, §III-A (keyframes allocate the detector's time).
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config);
 
-/// Notices that expected map points vanish, as they do when something enters the picture.
-class ChangeDetector {
+/// The share of expected map points that is found. It drops when something enters the picture or covers the
+/// lens, and where a pose is wrong.
+class FoundShare {
  public:
-  explicit ChangeDetector(double drop) : drop_(drop) {}
-
   /// @param expected, found  map points that should show in the frame, and those that did.
-  /// @return true if the share found is well below its running mean.
-  bool update(int expected, int found);
-  void reset() { mean_ = 0; }
+  /// @return the share found relative to its running mean; 1 where too few are expected to tell.
+  double update(int expected, int found);
 
  private:
-  double drop_;
   double mean_ = 0;  // 0: nothing known yet
 };
 

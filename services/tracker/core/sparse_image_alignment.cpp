@@ -68,11 +68,12 @@ struct Equations {
   Matrix6f hessian = Matrix6f::Zero();
   Vector6f gradient = Vector6f::Zero();
   float cost = 0;
-  float differences = 0;
+  float differences = 0;  // weighted
+  float weights = 0;
   int pixels = 0;
 
   [[nodiscard]] float mean_cost() const { return cost / static_cast<float>(pixels); }
-  [[nodiscard]] float mean_difference() const { return differences / static_cast<float>(pixels); }
+  [[nodiscard]] float mean_difference() const { return differences / weights; }
 };
 
 void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Mat& image, float offset,
@@ -82,11 +83,13 @@ void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Ma
     const float difference = interpolate(image, at.x(), at.y()) - patch.value[static_cast<std::size_t>(i)];
     const float residual = difference - offset;
     const float size = std::abs(residual);
-    const Vector6f weighted = (size <= kHuber ? 1 : kHuber / size) * patch.by_motion.col(i);
+    const float weight = size <= kHuber ? 1 : kHuber / size;
+    const Vector6f weighted = weight * patch.by_motion.col(i);
     sum.hessian.noalias() += weighted * patch.by_motion.col(i).transpose();
     sum.gradient.noalias() += residual * weighted;
     sum.cost += size <= kHuber ? residual * residual : kHuber * (2 * size - kHuber);
-    sum.differences += difference;
+    sum.differences += weight * difference;
+    sum.weights += weight;
   }
   sum.pixels += kArea;
 }

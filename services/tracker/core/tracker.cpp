@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <chrono>
 
-#include "services/tracker/core/local_map.hpp"
 #include "services/tracker/core/relocalization.hpp"
-#include "services/tracker/core/se3.hpp"
 
 namespace rds::tracker {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kNsPerSecond = 1e9;
-constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
-constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
-constexpr int kEnoughInliers = 10;        // after it
-constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 
 std::int64_t microseconds_since(Clock::time_point start) {
   return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
@@ -58,9 +50,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction),
       map_(config.map, pyramid_),
-      calibration_(config.self_calibration),
-      change_(config.keyframe.changed_share),
-      change_while_following_(config.keyframe.changed_share) {}
+      calibration_(config.self_calibration) {}
 
 void Tracker::reset() {
   *this = Tracker(config_, std::move(given_poses_));
@@ -88,7 +78,7 @@ void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRe
     };
   extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
-  frame.motion = {velocity_.value_or(Twist::Zero()), calibration_.readout_s()};
+  frame.motion = shutter_motion(picture.stamp_ns);
   set_features(picture, std::move(features), frame);
   frame.clear_matches();
   result.times.extract_us = microseconds_since(start);
@@ -169,125 +159,6 @@ void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
   frame.camera_from_map = Pose::Identity();
   state_ = State::kTracking;
   make_keyframe(frame, result);
-}
-
-Pose Tracker::last_map_from_camera() const {
-  return last_ ? map_.pose_of(last_->reference) * last_->reference_from_camera : Pose::Identity();
-}
-
-Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
-  if (given_poses_)
-    if (const auto given = given_poses_(stamp_ns)) return given->inverse();
-  Pose last = last_map_from_camera().inverse();
-  if (!velocity_) return last;
-  const double gap = static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
-  if (gap <= 0 || gap > kMaxPredictedGap) return last;
-  return se3_exp(gap * *velocity_) * last;
-}
-
-bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
-  const ObservationModel model(frame.features->camera(), config_.depth);
-  const Pose predicted = expected_camera_from_map(frame.stamp_ns);
-  const Pose still = last_map_from_camera().inverse();
-  const double window = config_.matching.motion_window_px;
-  for (const auto& [guess, window_px] :
-       {std::pair{predicted, window}, {predicted, 2 * window}, {still, kWideWindow * window}}) {
-    frame.camera_from_map = guess;
-    if (match_last_frame(map_, last_->frame, model, pyramid_, config_.matching, window_px, frame) <
-        kEnoughMatches)
-      continue;
-    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
-  }
-  return false;
-}
-
-bool Tracker::estimate_from_keyframe(TrackedFrame& frame) {
-  const ObservationModel model(frame.features->camera(), config_.depth);
-  for (const KeyframeId id : {reference_, newest_keyframe_}) {
-    const Keyframe* keyframe = map_.keyframe(id);
-    if (keyframe == nullptr) continue;
-    frame.camera_from_map = last_map_from_camera().inverse();
-    if (match_keyframe(map_, *keyframe, config_.matching, frame) < config_.relocalization.min_matches)
-      continue;
-    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
-  }
-  return false;
-}
-
-int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
-  const ObservationModel model(frame.features->camera(), config_.depth);
-  const LocalMap local = select_local_map(map_, frame, config_.map, ++mark_);
-  if (local.reference == kNoId) return 0;
-  for (const PointId id : frame.points)
-    if (MapPoint* point = map_.point(id)) ++point->visible;
-  const int seen = frame.matches();
-  const PointMatches more =
-      match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
-  const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
-  for (const PointId id : frame.points)
-    if (MapPoint* point = map_.point(id)) ++point->found;
-  changed_ |= change_.update(seen + more.expected, inliers);
-  reference_ = local.reference;
-  return inliers;
-}
-
-bool Tracker::relocalize(TrackedFrame& frame) {
-  const ObservationModel model(frame.features->camera(), config_.depth);
-  const RelocalizationTools tools{model, pyramid_, config_.matching, config_.pose, config_.relocalization};
-  const auto candidates = places_.query(static_descriptors(*frame.features),
-                                        static_cast<std::size_t>(config_.relocalization.candidates));
-  const auto localized = [&](const vision::PlaceCandidate& candidate) {
-    return relocalize_against(map_, candidate.id, tools, frame);
-  };
-  if (std::ranges::none_of(candidates, localized)) return false;
-  refine_with_local_map(frame, config_.matching.lost_window_factor);
-  return frame.static_matches() >= config_.relocalization.min_inliers;
-}
-
-int Tracker::track_from_last(TrackedFrame& frame) {
-  if (!last_) return 0;
-  int inliers = 0;
-  if (estimate_from_last_frame(frame))
-    inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
-  if (inliers >= config_.quality.min_inliers) return inliers;
-  TrackedFrame second = frame;
-  const KeyframeId reference = reference_;
-  if (estimate_from_keyframe(second)) {
-    const int again = refine_with_local_map(second, config_.matching.lost_window_factor);
-    if (again > inliers) {
-      frame = std::move(second);
-      return again;
-    }
-  }
-  reference_ = reference;
-  return inliers;
-}
-
-State Tracker::track_motion(TrackedFrame& frame) {
-  const QualityConfig& quality = config_.quality;
-  const int inliers = track_from_last(frame);
-  if (inliers >= quality.min_inliers) return State::kTracking;
-  if (state_ != State::kWeak) weak_since_ns_ = frame.stamp_ns;
-  const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
-  if (inliers >= quality.min_inliers_weak && weak_s <= quality.weak_s) return State::kWeak;
-  return relocalize(frame) ? State::kRelocalised : State::kLost;
-}
-
-void Tracker::remember(TrackedFrame&& frame, State state) {
-  if (!has_pose(state)) {
-    last_.reset();
-    velocity_.reset();
-    return;
-  }
-  const Pose map_from_camera = frame.camera_from_map.inverse();
-  if (last_ && frame.stamp_ns > last_->frame.stamp_ns) {
-    const double gap = static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) / kNsPerSecond;
-    velocity_ = se3_log(frame.camera_from_map * last_map_from_camera()) / gap;
-  } else {
-    velocity_.reset();
-  }
-  const Pose reference_from_camera = map_.pose_of(reference_).inverse() * map_from_camera;
-  last_ = LastFrame{std::move(frame), images_, reference_, reference_from_camera};
 }
 
 }  // namespace rds::tracker

@@ -117,9 +117,14 @@ class Tracker {
   int track_from_last(TrackedFrame& frame);
   bool estimate_from_last_frame(TrackedFrame& frame);
   bool estimate_from_keyframe(TrackedFrame& frame);
+  [[nodiscard]] std::optional<Twist> motion_to(const TrackedFrame& frame) const;
+  [[nodiscard]] bool has_jumped(const TrackedFrame& frame) const;
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
+  [[nodiscard]] ShutterMotion shutter_motion(std::int64_t stamp_ns) const;
+  [[nodiscard]] double since_last_s(std::int64_t stamp_ns) const;
+  void note_found(int expected, int found, FoundShare& share, TrackedFrame& frame);
   [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame, bool movable_there) const;
   void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
@@ -138,8 +143,8 @@ class Tracker {
   double given_fx_ = 0;                 // px, of the newest picture
   KeyframeId calibrated_with_ = kNoId;  // the newest that calibration has learned from
   vision::PlaceIndex places_;
-  ChangeDetector change_;
-  ChangeDetector change_while_following_;
+  FoundShare found_by_matching_;
+  FoundShare found_by_following_;
   std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
   std::optional<LastFrame> last_;               // the last frame with a pose
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)

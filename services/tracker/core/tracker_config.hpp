@@ -128,6 +128,7 @@ struct QualityConfig {
   int min_features_to_start = 150;  // with depth, for the first keyframe
   int min_inliers = 30;             // below: weak
   int min_inliers_weak = 15;        // below: lost
+  double min_found_share = 0.25;    // of the usual share of expected points found; below: weak
   double weak_s = 1.0;              // of weak tracking in a row, then lost
   bool operator==(const QualityConfig&) const = default;
 };

@@ -64,12 +64,13 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
                          TrackedFrame& frame) {
   const FollowingConfig& config = config_.following;
   const bool allowed = follows_points() && (movable.empty() || config.while_movable);
-  if (!allowed || state_ != State::kTracking || !last_) return false;
+  const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
+  if (!allowed || !located || !last_) return false;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
   frame.stamp_ns = picture.stamp_ns;
   frame.camera_from_map = align_with_last(picture, movable);
-  frame.motion = {velocity_.value_or(Twist::Zero()), calibration_.readout_s()};
+  frame.motion = shutter_motion(picture.stamp_ns);
   const ObservationModel model(picture.camera, config_.depth);
   FollowedPoints followed = follow_points(map_, points_to_follow(local),
                                           {picture, *images_, movable, frame.camera_from_map, frame.motion},
@@ -82,8 +83,10 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
   for (const PointId id : followed.looked_for) ++map_.point(id)->visible;
   for (const PointId id : frame.points)
     if (MapPoint* point = map_.point(id)) ++point->found;
-  changed_ |= change_while_following_.update(static_cast<int>(followed.looked_for.size()), inliers);
+  note_found(static_cast<int>(followed.looked_for.size()), inliers, found_by_following_, frame);
+  if (frame.found_share < config_.quality.min_found_share || has_jumped(frame)) return false;
   reference_ = local.reference;
+  state_ = State::kTracking;
   return true;
 }
 

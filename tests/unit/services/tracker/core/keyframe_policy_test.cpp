@@ -76,17 +76,17 @@ TEST(ViewChange, CountsTurnsAndStepsByHowFarTheSceneIs) {
   EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 4, config), 0.5, 1e-9);
 }
 
-TEST(ChangeDetector, SeesASuddenDropOfFoundPoints) {
-  ChangeDetector detector(0.35);
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(detector.update(500, 300));
-  EXPECT_FALSE(detector.update(500, 250));
-  EXPECT_TRUE(detector.update(500, 120));
+TEST(FoundShare, TellsADropFromItsRunningMean) {
+  FoundShare share;
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(share.update(500, 300), 1, 1e-9);
+  EXPECT_NEAR(share.update(500, 150), 0.5, 1e-9);
+  EXPECT_NEAR(share.update(500, 285), 1, 1e-9);  // the mean has gone down a little
 }
 
-TEST(ChangeDetector, TakesNoNoticeOfTooFewPoints) {
-  ChangeDetector detector(0.35);
-  detector.update(500, 300);
-  EXPECT_FALSE(detector.update(10, 0));
+TEST(FoundShare, TakesNoNoticeOfTooFewPoints) {
+  FoundShare share;
+  share.update(500, 300);
+  EXPECT_EQ(share.update(10, 0), 1);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_F(SparseImageAlignment, AMotionOfItselfIsNone) {
 TEST_F(SparseImageAlignment, WhatHidesAThirdOfThePictureDoesNotMatterMuch) {
   image::RgbdFrame hidden = test::picture_of_wall(moved, 1);
   hidden.color.pixels(cv::Rect(0, 0, 107, 240)).setTo(cv::Scalar(40, 200, 90));
-  EXPECT_LT(error_px(align(pyramid_of(hidden)), moved.inverse()), 1.5);
+  EXPECT_LT(error_px(align(pyramid_of(hidden)), moved.inverse()), 2);
 }
 
 TEST_F(SparseImageAlignment, ABrighterPictureIsTheSame) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of Tracker that finds a frame's pose from its features: by motion, by a keyframe, by
+// relocalisation.
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "services/tracker/core/local_map.hpp"
+#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/se3.hpp"
+#include "services/tracker/core/tracker.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
+constexpr double kMaxBridgedGap = 2;      // s; beyond, the last frame says nothing about where the camera is
+constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
+constexpr int kEnoughInliers = 10;        // after it
+constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
+constexpr double kMaxSpeed = 5;           // m/s and …
+constexpr double kMaxTurnRate = 2 * std::numbers::pi;  // rad/s, of a camera that is carried or driven
+
+}  // namespace
+
+Pose Tracker::last_map_from_camera() const {
+  return last_ ? map_.pose_of(last_->reference) * last_->reference_from_camera : Pose::Identity();
+}
+
+Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
+  if (given_poses_)
+    if (const auto given = given_poses_(stamp_ns)) return given->inverse();
+  Pose last = last_map_from_camera().inverse();
+  const double gap = since_last_s(stamp_ns);
+  if (!velocity_ || gap <= 0 || gap > kMaxPredictedGap) return last;
+  return se3_exp(gap * *velocity_) * last;
+}
+
+/// Infinite where no frame had a pose yet.
+double Tracker::since_last_s(std::int64_t stamp_ns) const {
+  return last_ ? static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond
+               : std::numeric_limits<double>::infinity();
+}
+
+ShutterMotion Tracker::shutter_motion(std::int64_t stamp_ns) const {
+  const bool known = velocity_ && since_last_s(stamp_ns) <= kMaxPredictedGap;
+  return {known ? *velocity_ : Twist::Zero(), calibration_.readout_s()};
+}
+
+/// Mean velocity since the last frame with a pose; nullopt where that is too long ago.
+std::optional<Twist> Tracker::motion_to(const TrackedFrame& frame) const {
+  const double gap = since_last_s(frame.stamp_ns);
+  if (gap <= 0 || gap > kMaxPredictedGap) return std::nullopt;
+  return Twist(se3_log(frame.camera_from_map * last_map_from_camera()) / gap);
+}
+
+/// True where no camera can have moved from the last pose to this one.
+bool Tracker::has_jumped(const TrackedFrame& frame) const {
+  const auto motion = motion_to(frame);
+  return motion && (motion->head<3>().norm() > kMaxSpeed || motion->tail<3>().norm() > kMaxTurnRate);
+}
+
+bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const Pose predicted = expected_camera_from_map(frame.stamp_ns);
+  const Pose still = last_map_from_camera().inverse();
+  const double window = config_.matching.motion_window_px;
+  for (const auto& [guess, window_px] :
+       {std::pair{predicted, window}, {predicted, 2 * window}, {still, kWideWindow * window}}) {
+    frame.camera_from_map = guess;
+    if (match_last_frame(map_, last_->frame, model, pyramid_, config_.matching, window_px, frame) <
+        kEnoughMatches)
+      continue;
+    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
+  }
+  return false;
+}
+
+bool Tracker::estimate_from_keyframe(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  for (const KeyframeId id : {reference_, newest_keyframe_}) {
+    const Keyframe* keyframe = map_.keyframe(id);
+    if (keyframe == nullptr) continue;
+    frame.camera_from_map = last_map_from_camera().inverse();
+    if (match_keyframe(map_, *keyframe, config_.matching, frame) < config_.relocalization.min_matches)
+      continue;
+    if (optimize_frame(map_, model, pyramid_, config_.pose, frame) >= kEnoughInliers) return true;
+  }
+  return false;
+}
+
+int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const LocalMap local = select_local_map(map_, frame, config_.map, ++mark_);
+  if (local.reference == kNoId) return 0;
+  for (const PointId id : frame.points)
+    if (MapPoint* point = map_.point(id)) ++point->visible;
+  const int seen = frame.matches();
+  const PointMatches more =
+      match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
+  const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
+  for (const PointId id : frame.points)
+    if (MapPoint* point = map_.point(id)) ++point->found;
+  note_found(seen + more.expected, inliers, found_by_matching_, frame);
+  reference_ = local.reference;
+  return inliers;
+}
+
+void Tracker::note_found(int expected, int found, FoundShare& share, TrackedFrame& frame) {
+  frame.found_share = share.update(expected, found);
+  changed_ |= frame.found_share < 1 - config_.keyframe.changed_share;
+}
+
+bool Tracker::relocalize(TrackedFrame& frame) {
+  const ObservationModel model(frame.features->camera(), config_.depth);
+  const RelocalizationTools tools{model, pyramid_, config_.matching, config_.pose, config_.relocalization};
+  const auto candidates = places_.query(static_descriptors(*frame.features),
+                                        static_cast<std::size_t>(config_.relocalization.candidates));
+  const auto localized = [&](const vision::PlaceCandidate& candidate) {
+    return relocalize_against(map_, candidate.id, tools, frame);
+  };
+  if (std::ranges::none_of(candidates, localized)) return false;
+  refine_with_local_map(frame, config_.matching.lost_window_factor);
+  return frame.static_matches() >= config_.relocalization.min_inliers;
+}
+
+int Tracker::track_from_last(TrackedFrame& frame) {
+  if (since_last_s(frame.stamp_ns) > kMaxBridgedGap) return 0;
+  int inliers = 0;
+  if (estimate_from_last_frame(frame))
+    inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
+  if (inliers >= config_.quality.min_inliers) return inliers;
+  TrackedFrame second = frame;
+  const KeyframeId reference = reference_;
+  if (estimate_from_keyframe(second)) {
+    const int again = refine_with_local_map(second, config_.matching.lost_window_factor);
+    if (again > inliers) {
+      frame = std::move(second);
+      return again;
+    }
+  }
+  reference_ = reference;
+  return inliers;
+}
+
+State Tracker::track_motion(TrackedFrame& frame) {
+  const QualityConfig& quality = config_.quality;
+  const bool was_lost = state_ == State::kLost;
+  const int inliers = track_from_last(frame);
+  // Movable objects hide what is expected; then few found points say nothing against the pose.
+  const bool hidden = std::ranges::any_of(frame.features->all(), &Feature::movable);
+  const bool sees_enough = hidden || frame.found_share >= quality.min_found_share;
+  if (was_lost && inliers >= config_.relocalization.min_inliers) return State::kRelocalised;
+  if (!was_lost && inliers >= quality.min_inliers && sees_enough)
+    return has_jumped(frame) ? State::kRelocalised : State::kTracking;
+  if (state_ != State::kWeak) weak_since_ns_ = frame.stamp_ns;
+  const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
+  const bool weak_is_right = !was_lost && weak_s <= quality.weak_s && !has_jumped(frame);
+  if (weak_is_right && inliers >= quality.min_inliers_weak) return State::kWeak;
+  return relocalize(frame) ? State::kRelocalised : State::kLost;
+}
+
+void Tracker::remember(TrackedFrame&& frame, State state) {
+  if (!has_pose(state)) return;
+  velocity_ = state == State::kRelocalised ? std::nullopt : motion_to(frame);
+  const Pose reference_from_camera = map_.pose_of(reference_).inverse() * frame.camera_from_map.inverse();
+  last_ = LastFrame{std::move(frame), images_, reference_, reference_from_camera};
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs of the real processes on recordings that lose the camera on the way.
+#include <algorithm>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/run_support.hpp"
+#include "tests/support/disturbed_dataset.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/small_dataset.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::test {
+namespace {
+
+constexpr std::size_t kFindBackFrames = 10;
+constexpr double kMaxErrorRatio = 1.3;  // to the undisturbed run
+
+struct RunFigures {
+  std::vector<std::string> states;  // per frame
+  std::size_t poses = 0;            // lines of trajectory.txt
+  double ate_final_m = 0;
+};
+
+RunFigures figures_of(const std::filesystem::path& dataset, const std::filesystem::path& out) {
+  const ProcessResult result = run(dataset, out, {"--rate", "max", "--no-dynamics"});
+  if (result.status != 0) throw std::runtime_error(result.standard_error);
+  RunFigures figures;
+  std::istringstream frames(read_text(out / "frames.csv"));
+  std::string line;
+  std::getline(frames, line);
+  while (std::getline(frames, line)) {
+    const auto comma = line.find(',') + 1;
+    figures.states.push_back(line.substr(comma, line.find(',', comma) - comma));
+  }
+  std::istringstream trajectory(read_text(out / "trajectory.txt"));
+  while (std::getline(trajectory, line)) figures.poses += line.empty() || line.front() == '#' ? 0U : 1U;
+  figures.ate_final_m = score(dataset, out)["ate_final"].get<double>();
+  return figures;
+}
+
+std::size_t frames_in(const RunFigures& figures, const std::string& state) {
+  return static_cast<std::size_t>(std::ranges::count(figures.states, state));
+}
+
+/// TRACKING within ten frames from `first_usable` on, and to the end from there.
+void expect_found_back(const RunFigures& figures, std::size_t first_usable) {
+  ASSERT_GT(figures.states.size(), first_usable + kFindBackFrames);
+  const auto usable = figures.states.begin() + static_cast<std::ptrdiff_t>(first_usable);
+  const auto found = std::find(usable, figures.states.end(), "TRACKING");
+  EXPECT_LE(found - usable, static_cast<std::ptrdiff_t>(kFindBackFrames));
+  EXPECT_EQ(std::find(found, figures.states.end(), "LOST"), figures.states.end());
+}
+
+/// A frame that was not localised has no line in the trajectory.
+void expect_no_invented_pose(const RunFigures& figures) {
+  EXPECT_EQ(figures.poses + frames_in(figures, "LOST"), figures.states.size());
+}
+
+class DisturbedRun : public testing::Test {
+ protected:
+  RunFigures run_of(const std::string& dataset) {
+    return figures_of(place / dataset, place / (dataset + "_out"));
+  }
+  TemporaryFolder place;
+};
+
+TEST_F(DisturbedRun, BlackPicturesAreLostAndLeaveNoTrace) {
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  make_excerpt(shared() / "data/tum_fr1_rpy", place / "whole", 220, 240);
+  make_blacked_out(place / "whole", place / "black", {120, 30});
+  const RunFigures whole = run_of("whole");
+  const RunFigures black = run_of("black");
+  EXPECT_EQ(frames_in(whole, "LOST"), 0U);
+  for (std::size_t i = 120; i < 150; ++i) EXPECT_EQ(black.states.at(i), "LOST") << i;
+  expect_found_back(black, 150);
+  expect_no_invented_pose(black);
+  EXPECT_LE(black.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
+}
+
+TEST_F(DisturbedRun, FindsItselfAfterACut) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  make_excerpt(shared() / "data/7scenes_kitchen", place / "whole", 340);
+  make_cut(place / "whole", place / "cut", {250, 45});
+  const RunFigures whole = run_of("whole");
+  const RunFigures cut = run_of("cut");
+  EXPECT_EQ(cut.states.size() + 45, whole.states.size());
+  EXPECT_THAT(cut.states.at(250), testing::AnyOf("RELOCALISED", "LOST"));
+  expect_found_back(cut, 250);
+  expect_no_invented_pose(cut);
+  EXPECT_LE(cut.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
+}
+
+TEST_F(DisturbedRun, FindsItselfAfterAJumpToAPlaceSeenTenSecondsAgo) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  make_jump(shared() / "data/7scenes_kitchen", place / "whole", 14, 14, 14);
+  make_jump(shared() / "data/7scenes_kitchen", place / "jump", 14, 4, 8);
+  const RunFigures whole = run_of("whole");
+  const RunFigures jump = run_of("jump");
+  ASSERT_GT(jump.states.size(), whole.states.size() + 30);
+  EXPECT_THAT(jump.states.at(whole.states.size()), testing::AnyOf("RELOCALISED", "LOST"));
+  expect_found_back(jump, whole.states.size());
+  expect_no_invented_pose(jump);
+  EXPECT_LE(jump.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
+}
+
+}  // namespace
+}  // namespace rds::test

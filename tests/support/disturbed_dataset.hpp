@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace rds::test {
+
+/// Frames `first` … `first + count − 1` of a recording.
+struct FrameRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// A recording with links to another one's pictures, in which the range's colour pictures are black.
+/// @throws std::runtime_error
+void make_blacked_out(const std::filesystem::path& dataset, const std::filesystem::path& destination,
+                      FrameRange range);
+
+/// The same without the range's colour and depth pictures: the camera was elsewhere in between.
+/// @throws std::runtime_error
+void make_cut(const std::filesystem::path& dataset, const std::filesystem::path& destination,
+              FrameRange range);
+
+/// The same up to `until_s` after its start; then what it shows from `again_from_s` to `again_to_s` once
+/// more, time going on. @throws std::runtime_error
+void make_jump(const std::filesystem::path& dataset, const std::filesystem::path& destination, double until_s,
+               double again_from_s, double again_to_s);
+
+}  // namespace rds::test

@@ -226,7 +226,6 @@ LocalMappingJob job_of(Scene& s) {
   job.pyramid = s.pyramid;
   job.depth = s.config.depth;
   job.robust = s.config.pose;
-  job.calibrate_readout = true;
   return job;
 }
 

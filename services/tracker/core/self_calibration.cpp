@@ -13,9 +13,12 @@ namespace {
 
 constexpr Eigen::Index kImaging = 2;
 constexpr Eigen::Index kPose = 6;
-constexpr double kFreePose = 1e-2;        // information [1/m², 1/rad²] about every pose: next to none
-constexpr double kSignificant = 3;        // σ by which what was given must be off
-constexpr double kLongestReadout = 0.05;  // s, either way: a camera may hang upside down
+constexpr double kFreePose = 1e-2;            // information [1/m², 1/rad²] about every pose: next to none
+constexpr double kSignificant = 3;            // σ by which what was given must be off
+constexpr double kLargestFocalSigma = 0.015;  // of a bundle that is believed
+constexpr double kLargestFocalShare = 1.15;   // it may find, either way; more comes from things that move
+constexpr int kFewestBundles = 5;             // that were believed, before a focal length is called wrong
+constexpr double kLongestReadout = 0.05;      // s, either way: a camera may hang upside down
 
 /// Where a camera's pose starts among the unknowns; camera 0 is no unknown.
 Eigen::Index pose_at(std::size_t camera) {
@@ -83,6 +86,24 @@ ImagingEstimate ImagingEstimator::estimate(const Imaging& at) const {
   return {at - solver.solve(gradient), information};
 }
 
+namespace {
+
+bool is_believable_focal(const ImagingEstimate& found) {
+  const double variance = found.information.inverse()(1, 1);
+  return variance > 0 && variance < kLargestFocalSigma * kLargestFocalSigma &&
+         found.value(1) < kLargestFocalShare && found.value(1) > 1 / kLargestFocalShare;
+}
+
+/// The same estimate without what it says of the focal length.
+ImagingEstimate of_readout_only(ImagingEstimate found) {
+  Eigen::Matrix2d& information = found.information;
+  if (information(1, 1) > 0) information(0, 0) -= information(0, 1) * information(1, 0) / information(1, 1);
+  information(0, 1) = information(1, 0) = information(1, 1) = 0;
+  return found;
+}
+
+}  // namespace
+
 SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config)
     : config_(config), value_(config.readout_s, 1) {
   information_ = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
@@ -99,8 +120,11 @@ void SelfCalibration::begin_with_focal_scale(double scale) {
   focal_is_wrong_ = std::abs(scale - 1) > config_.tolerated_focal_error;
 }
 
-void SelfCalibration::update(const ImagingEstimate& found) {
-  if (!found.value.allFinite() || !found.information.allFinite()) return;
+void SelfCalibration::update(const ImagingEstimate& estimate) {
+  if (!estimate.value.allFinite() || !estimate.information.allFinite()) return;
+  const bool believed = is_believable_focal(estimate);
+  const ImagingEstimate found = believed ? estimate : of_readout_only(estimate);
+  focal_bundles_ += believed ? 1 : 0;
   const Eigen::Matrix2d old = config_.memory * information_;
   information_ = old + found.information;
   value_ = information_.llt().solve(old * value_ + found.information * found.value);
@@ -109,7 +133,8 @@ void SelfCalibration::update(const ImagingEstimate& found) {
   const Imaging error = (value_ - Imaging(config_.readout_s, 1)).cwiseAbs();
   const Imaging doubt = kSignificant * information_.inverse().diagonal().cwiseSqrt();
   readout_is_wrong_ |= config_.readout && error(0) > config_.tolerated_readout_error_s + doubt(0);
-  focal_is_wrong_ |= config_.focal_length && error(1) > config_.tolerated_focal_error + doubt(1);
+  focal_is_wrong_ |= config_.focal_length && focal_bundles_ >= kFewestBundles &&
+                     error(1) > config_.tolerated_focal_error + doubt(1);
 }
 
 }  // namespace rds::tracker

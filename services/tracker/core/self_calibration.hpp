@@ -63,7 +63,8 @@ class SelfCalibration {
   [[nodiscard]] double focal_scale() const { return focal_is_wrong_ ? value_(1) : 1; }
   /// Goes on from what was known when a map was saved; ignored if no camera can be off by that much.
   void begin_with_focal_scale(double scale);
-  void update(const ImagingEstimate& found);
+  /// A bundle that knows the focal length badly, or claims an impossible one, tells the readout time only.
+  void update(const ImagingEstimate& estimate);
 
  private:
   SelfCalibrationConfig config_;
@@ -71,6 +72,7 @@ class SelfCalibration {
   Eigen::Matrix2d information_;
   bool readout_is_wrong_ = false;
   bool focal_is_wrong_ = false;
+  int focal_bundles_ = 0;  // that told the focal length
 };
 
 }  // namespace rds::tracker

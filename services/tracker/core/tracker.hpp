@@ -94,6 +94,7 @@ class Tracker {
 
   /// False where poses are not estimated or nothing is to be followed.
   [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
+  [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
   KeyframeNeed track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,

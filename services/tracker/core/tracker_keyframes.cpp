@@ -173,10 +173,17 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   return job;
 }
 
+/// A keyframe that nobody has learned from, of a scene in which nothing is known to move.
+bool Tracker::teaches_calibration(KeyframeId id) const {
+  const Keyframe* keyframe = map_.keyframe(id);
+  const bool is_new = calibrated_with_ == kNoId || id > calibrated_with_;
+  return is_new && keyframe != nullptr && std::ranges::count(keyframe->movable, true) == 0;
+}
+
 void Tracker::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return;
   apply_mapping_result(map_, result);
-  if (calibrated_with_ == kNoId || result.keyframe > calibrated_with_) {  // else nothing new was seen
+  if (teaches_calibration(result.keyframe)) {
     calibration_.update(result.imaging);
     calibrated_with_ = result.keyframe;
   }

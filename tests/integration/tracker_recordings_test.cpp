@@ -74,11 +74,12 @@ TEST(TrackerRecordings, CameraThatComesBackInAKitchen) {
   EXPECT_LE(f.ate_final_m, 0.060);
 }
 
-/// For half a second people fill the picture: then a lost frame is right, and a pose would be invented.
+/// For up to two seconds people fill the picture: then a lost frame is right, and a pose would be invented
+/// (relocalising with 40 inliers instead of 50 gives 16 more poses, off by up to 0.3 m).
 TEST(TrackerRecordings, PeopleInTheKitchenKnownWithEveryFrame) {
   RDS_REQUIRE_DYNAMIC("kitchen_walkers");
   const Figures f = figures(dynamic_sequence("kitchen_walkers"), {.truth_boxes = true});
-  EXPECT_GE(f.tracked, 0.95);
+  EXPECT_GE(f.tracked, 0.93);
   EXPECT_LE(f.ate_live_m, 0.12);
   EXPECT_LE(f.ate_final_m, 0.11);
 }

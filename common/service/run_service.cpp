@@ -7,6 +7,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/concurrency/priority.hpp"
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
 #include "common/service/service.hpp"
@@ -89,6 +90,10 @@ int start(const std::string& name, const Options& options, const ServiceFactory&
 }
 
 }  // namespace
+
+void give_way(int nice) {
+  if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
+}
 
 int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory) {
   const sigset_t signals =

@@ -66,13 +66,18 @@ using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&, c
 /// @return 0 after a clean stop, 1 after a fault, 2 for bad usage or configuration.
 int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory);
 
-/// run_service() for a service whose configuration is read by `read(ConfigReader&, Config&)`.
+/// Lowers the priority of the process; says so where that is not allowed.
+void give_way(int nice);
+
+/// run_service() for a service whose configuration is read by `read(ConfigReader&, Config&)`; the process
+/// gives way to others by its `nice`.
 template <class ServiceType, class Config>
 int run_service(const std::string& name, int argc, char** argv) {
   return run_service(name, argc, argv, [](ServiceContext& context, config::ConfigReader& reader) {
     Config config;
     read(reader, config);
     reader.finish();
+    give_way(config.nice);
     return std::make_unique<ServiceType>(context, config);
   });
 }

@@ -4,6 +4,7 @@
 namespace rds::detector {
 
 void read(config::ConfigReader& reader, DetectorServiceConfig& config) {
+  reader.value("nice", config.nice, 0, 19);
   reader.value("lockstep", config.lockstep);
   reader.value("model_dir", config.model_dir);
   reader.value("detections_file", config.detections_file);

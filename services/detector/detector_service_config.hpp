@@ -9,6 +9,7 @@
 namespace rds::detector {
 
 struct DetectorServiceConfig {
+  int nice = 10;                // the tracker has the processor first
   bool lockstep = false;        // every keyframe is looked at; otherwise only the newest
   std::string model_dir;        // looked through before $RDS_SHARED/models and the user's cache
   std::string detections_file;  // boxes from a recording instead of the network

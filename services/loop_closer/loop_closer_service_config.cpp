@@ -4,6 +4,7 @@
 namespace rds::loop_closer {
 
 void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
+  reader.value("nice", config.nice, 0, 19);
   reader.value("lockstep", config.lockstep);
   reader.value("map_file", config.map_file);
   reader.value("localize_only", config.localize_only);

@@ -7,6 +7,7 @@
 namespace rds::loop_closer {
 
 struct LoopCloserServiceConfig {
+  int nice = 10;               // the tracker has the processor first
   bool lockstep = false;       // no keyframe is ever dropped
   std::string map_file;        // saved map whose keyframes it starts from; empty: none
   bool localize_only = false;  // keyframes are not listened to

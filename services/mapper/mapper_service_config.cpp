@@ -4,6 +4,7 @@
 namespace rds::mapper {
 
 void read(config::ConfigReader& reader, MapperServiceConfig& config) {
+  reader.value("nice", config.nice, 0, 19);
   reader.value("lockstep", config.lockstep);
   reader.value("expect_boxes", config.expect_boxes);
   reader.value("boxes_timeout_s", config.boxes_timeout_s, 0.0, 60.0, "s");

@@ -9,6 +9,7 @@
 namespace rds::mapper {
 
 struct MapperServiceConfig {
+  int nice = 10;                 // the tracker has the processor first
   bool lockstep = false;         // no keyframe is ever dropped, and none integrated without its boxes
   bool expect_boxes = true;      // a keyframe waits for its boxes …
   double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next rebuild

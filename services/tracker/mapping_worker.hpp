@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/concurrency/mailbox.hpp"
+#include "common/concurrency/priority.hpp"
 #include "services/tracker/core/local_mapping.hpp"
 
 namespace rds::tracker {
@@ -12,9 +13,11 @@ namespace rds::tracker {
 /// Runs local mapping jobs on a thread of its own, one at a time.
 class MappingWorker {
  public:
+  /// @param nice     by how much the thread gives way to others.
   /// @param results  gets the result of every job.
-  MappingWorker(const LocalMappingConfig& config, concurrency::Inbox<LocalMappingResult>& results)
+  MappingWorker(const LocalMappingConfig& config, int nice, concurrency::Inbox<LocalMappingResult>& results)
       : config_(config),
+        nice_(nice),
         results_(results),
         jobs_(mailbox_, 1),
         thread_([this](const std::stop_token& s) { run(s); }) {}
@@ -23,11 +26,13 @@ class MappingWorker {
 
  private:
   void run(const std::stop_token& stop) {
+    concurrency::give_way(nice_);
     while (mailbox_.wait(stop, [this] { return !jobs_.locked_empty(); }))
       if (const auto job = jobs_.try_pop()) results_.push(run_local_mapping(*job, config_));
   }
 
   LocalMappingConfig config_;
+  int nice_;
   concurrency::Inbox<LocalMappingResult>& results_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<LocalMappingJob> jobs_;

@@ -49,7 +49,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       boxes_inbox_(mailbox_, kMaxAnswers),
       poses_inbox_(mailbox_, kMaxAnswers),
       mapping_inbox_(mailbox_, 2),
-      mapping_worker_(config.tracker.local_mapping, mapping_inbox_),
+      mapping_worker_(config.tracker.local_mapping, config.mapping_nice, mapping_inbox_),
       boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
           "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
       poses_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(

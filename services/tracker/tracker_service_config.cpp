@@ -26,6 +26,8 @@ void read(config::ConfigReader& reader, LockstepConfig& config) {
 }  // namespace
 
 void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
+  reader.value("nice", config.nice, 0, 19);
+  reader.value("mapping_nice", config.mapping_nice, 0, 19);
   read(reader.section("camera"), config.camera);
   read(reader, config.lockstep);
   reader.value("dynamics", config.dynamics);

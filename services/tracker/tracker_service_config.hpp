@@ -33,6 +33,8 @@ struct LockstepConfig {
 };
 
 struct TrackerServiceConfig {
+  int nice = 0;           // of the process
+  int mapping_nice = 10;  // of local mapping's thread: tracking has the processor first
   CameraTopics camera;
   LockstepConfig lockstep;
   bool dynamics = true;          // boxes are used (and in lockstep waited for)

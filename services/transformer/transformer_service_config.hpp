@@ -9,6 +9,7 @@
 namespace rds::transformer {
 
 struct TransformerServiceConfig {
+  int nice = 10;  // the tracker has the processor first
   std::string camera_info_topic = "camera/color/camera_info";
   TransformerConfig transformer;
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kHalf = 4;
 constexpr int kSide = 2 * kHalf;
+constexpr float kArea = kSide * kSide;
 constexpr int kBordered = kSide + 2;
 constexpr int kIterations = 10;
 constexpr float kConverged = 0.02F;    // px
@@ -21,7 +22,6 @@ constexpr double kLargestScaling = 4;  // between the two pictures
 template <int Size>
 using Square = Eigen::Array<float, Size, Size, Eigen::RowMajor>;
 using Patch = Square<kSide>;
-using Row = Eigen::Array<float, 1, kSide>;
 
 int level_of(double scale, int levels) {
   return std::clamp(static_cast<int>(std::lround(std::log2(scale))), 0, levels - 1);
@@ -46,37 +46,20 @@ bool warp_patch(const PatchWarp& warp, int level, Square<kBordered>& patch) {
   return true;
 }
 
-/// 8×8 pixels around a place. @pre inside.
-void sample(const cv::Mat& image, const Eigen::Vector2f& place, Patch& values) {
-  const int x = static_cast<int>(place.x()) - kHalf;
-  const int y = static_cast<int>(place.y()) - kHalf;
-  const float fx = place.x() - std::floor(place.x());
-  const float fy = place.y() - std::floor(place.y());
-  using Bytes = Eigen::Map<const Eigen::Array<std::uint8_t, 1, kSide>>;
-  const auto row = [&](int r) -> Row {
-    const std::uint8_t* p = image.ptr<std::uint8_t>(y + r) + x;
-    return (1 - fx) * Bytes(p).cast<float>() + fx * Bytes(p + 1).cast<float>();
-  };
-  Row upper = row(0);
-  for (int r = 0; r < kSide; ++r) {
-    const Row lower = row(r + 1);
-    values.row(r) = (1 - fy) * upper + fy * lower;
-    upper = lower;
-  }
-}
-
 /// What stays the same over the iterations: the reference patch and its gradients, all without their mean, so
 /// that an offset of brightness falls out.
 class Template {
  public:
   explicit Template(const Square<kBordered>& patch)
-      : value_(centred(patch.block<kSide, kSide>(1, 1))),
+      : brightness_(patch.mean()),
+        value_(centred(patch.block<kSide, kSide>(1, 1))),
         gx_(centred(0.5F * (patch.block<kSide, kSide>(1, 2) - patch.block<kSide, kSide>(1, 0)))),
         gy_(centred(0.5F * (patch.block<kSide, kSide>(2, 1) - patch.block<kSide, kSide>(0, 1)))),
         norm_(std::sqrt(value_.square().sum())) {
     const float xy = (gx_ * gy_).sum();
     hessian_ << gx_.square().sum(), xy, xy, gy_.square().sum();
     inverse_hessian_ = hessian_.inverse();
+    value_by_gradient_ << (gx_ * value_).sum(), (gy_ * value_).sum();
   }
 
   [[nodiscard]] bool has_corner() const {
@@ -87,25 +70,29 @@ class Template {
     Eigen::Vector2f step;  // px, to where the picture looks more like the reference
     float correlation;
   };
-  /// Contrast is taken to the reference's first.
+  /// Contrast is taken to the reference's first. What the template is compared with needs no mean taken off:
+  /// the template has none.
   [[nodiscard]] Comparison compare(const Patch& seen) const {
-    const Patch contrast = centred(seen);
-    const float norm = std::sqrt(contrast.square().sum()) + 1e-3F;
+    const Patch shifted = seen - brightness_;  // near 0, so that squares keep their digits
+    const float sum = shifted.sum();
+    const float norm = std::sqrt(std::max(0.0F, shifted.square().sum() - sum * sum / kArea)) + 1e-3F;
     const float gain = std::clamp(norm_ / norm, 1 / kLargestGain, kLargestGain);
-    const Patch residual = gain * contrast - value_;
-    return {-inverse_hessian_ * Eigen::Vector2f((gx_ * residual).sum(), (gy_ * residual).sum()),
-            (contrast * value_).sum() / (norm * norm_ + 1e-3F)};
+    const Eigen::Vector2f by_gradient((gx_ * shifted).sum(), (gy_ * shifted).sum());
+    return {inverse_hessian_ * (value_by_gradient_ - gain * by_gradient),
+            (shifted * value_).sum() / (norm * norm_ + 1e-3F)};
   }
 
  private:
   static Patch centred(const Patch& values) { return values - values.mean(); }
 
+  float brightness_;
   Patch value_;
   Patch gx_;
   Patch gy_;
   float norm_;
   Eigen::Matrix2f hessian_;
   Eigen::Matrix2f inverse_hessian_;
+  Eigen::Vector2f value_by_gradient_;
 };
 
 }  // namespace
@@ -121,11 +108,10 @@ std::optional<AlignedPatch> align_feature(const PatchWarp& warp, const ImagePyra
   if (!reference.has_corner()) return std::nullopt;
   const Eigen::Vector2f expected = ImagePyramid::at_level(expected_px, level);
   Eigen::Vector2f place = expected;
-  Patch seen;
   for (int i = 0; i < kIterations; ++i) {
     if (!picture.contains(place, kHalf, level)) return std::nullopt;
-    sample(picture.level(level), place, seen);
-    const Template::Comparison comparison = reference.compare(seen);
+    const Template::Comparison comparison = reference.compare(
+        interpolate_square<kSide>(picture.level(level), place.x() - kHalf, place.y() - kHalf));
     place += comparison.step;
     if (!((place - expected).norm() <= static_cast<float>(max_shift))) return std::nullopt;
     if (comparison.step.norm() < kConverged)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -52,6 +53,30 @@ inline float interpolate(const cv::Mat& image, float x, float y) {
   const float upper = static_cast<float>(top[0]) + fx * static_cast<float>(top[1] - top[0]);
   const float lower = static_cast<float>(bottom[0]) + fx * static_cast<float>(bottom[1] - bottom[0]);
   return upper + fy * (lower - upper);
+}
+
+/// Bilinear values of Side × Side pixels of an 8-bit image, the first one at (x, y). @pre as interpolate(),
+/// for each of them.
+template <int Side>
+Eigen::Array<float, Side, Side, Eigen::RowMajor> interpolate_square(const cv::Mat& image, float x, float y) {
+  using Row = Eigen::Array<float, 1, Side>;
+  using Bytes = Eigen::Map<const Eigen::Array<std::uint8_t, 1, Side>>;
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const float fx = x - static_cast<float>(x0);
+  const float fy = y - static_cast<float>(y0);
+  const auto row = [&](int r) -> Row {
+    const std::uint8_t* p = image.ptr<std::uint8_t>(y0 + r) + x0;
+    return (1 - fx) * Bytes(p).template cast<float>() + fx * Bytes(p + 1).template cast<float>();
+  };
+  Eigen::Array<float, Side, Side, Eigen::RowMajor> values;
+  Row upper = row(0);
+  for (int r = 0; r < Side; ++r) {
+    const Row lower = row(r + 1);
+    values.row(r) = (1 - fy) * upper + fy * lower;
+    upper = lower;
+  }
+  return values;
 }
 
 }  // namespace rds::tracker

@@ -21,6 +21,7 @@ struct Expected {
 };
 
 bool is_hidden(const FollowingView& view, const Eigen::Vector2f& px, double depth_m) {
+  if (view.movable.empty()) return false;
   const float measured = depth_at(view.picture.depth, px, kAnyDepth);
   const auto hides = [&](const MovableRegion& region) {
     return covers(region, px, static_cast<float>(depth_m)) || (measured > 0 && covers(region, px, measured));
@@ -29,10 +30,10 @@ bool is_hidden(const FollowingView& view, const Eigen::Vector2f& px, double dept
 }
 
 std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-                             const ObservationModel& model, const ScalePyramid& pyramid) {
+                             const Eigen::Vector3d& camera_in_map, const ObservationModel& model,
+                             const ScalePyramid& pyramid) {
   const geometry::CameraModel& camera = view.picture.camera;
   const FeatureSet bounds(camera, {});
-  const Eigen::Vector3d camera_in_map = view.camera_from_map.inverse().translation();
   const Eigen::Vector2f largest(static_cast<float>(camera.width - 1) - kBorder,
                                 static_cast<float>(camera.height - 1) - kBorder);
   std::vector<Expected> all;
@@ -110,9 +111,10 @@ PatchWarp warp_of(const Keyframe& keyframe, const Feature& feature, const MapPoi
 }
 
 std::optional<Feature> find(const SlamMap& map, const Expected& expected, const FollowingView& view,
-                            const ScalePyramid& pyramid, const FollowingConfig& config) {
+                            const Eigen::Vector3d& camera_in_map, const ScalePyramid& pyramid,
+                            const FollowingConfig& config) {
   const MapPoint& point = *expected.point;
-  const Observation* seen = nearest_view(map, point, view.camera_from_map.inverse().translation());
+  const Observation* seen = nearest_view(map, point, camera_in_map);
   if (seen == nullptr) return std::nullopt;
   const Keyframe& keyframe = *map.keyframe(seen->keyframe);
   const Feature& known = (*keyframe.features)[seen->feature];
@@ -133,7 +135,8 @@ std::optional<Feature> find(const SlamMap& map, const Expected& expected, const 
 FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                              const ObservationModel& model, const ScalePyramid& pyramid,
                              const FollowingConfig& config) {
-  const auto expected = expect(map, points, view, model, pyramid);
+  const Eigen::Vector3d camera_in_map = view.camera_from_map.inverse().translation();
+  const auto expected = expect(map, points, view, camera_in_map, model, pyramid);
   FollowedPoints followed;
   int found = 0;
   for (const std::size_t i : spread(expected, view.picture.camera)) {
@@ -148,7 +151,7 @@ FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points
       continue;
     }
     followed.looked_for.push_back(expected[i].point->id);
-    if (const auto feature = find(map, expected[i], view, pyramid, config)) {
+    if (const auto feature = find(map, expected[i], view, camera_in_map, pyramid, config)) {
       ++found;
       followed.features.push_back(*feature);
       followed.points.push_back(expected[i].point->id);

@@ -2,7 +2,6 @@
 #include "services/tracker/core/sparse_image_alignment.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -25,41 +24,33 @@ constexpr float kHuber = 12;         // grey levels
 constexpr double kConverged = 2e-5;  // m and rad
 constexpr double kMinDepth = 0.05;   // m
 
+using Square = Eigen::Array<float, kSide, kSide, Eigen::RowMajor>;
+
 /// What a patch of the reference picture says at one level.
 struct ReferencePatch {
   Eigen::Vector3d point;
   Eigen::Vector2d seen_from_projected;  // px of the picture
-  std::array<float, kArea> value;
-  Eigen::Matrix<float, 6, kArea> by_motion;  // derivative of the value
+  Square value;
+  Square gx, gy;                               // derivatives of the value
+  Eigen::Matrix<float, 2, 6> place_by_motion;  // of its place, px of the level
 };
-
-/// Pixel i of a patch around a place.
-Eigen::Vector2f pixel(const Eigen::Vector2f& place, int i) {
-  const int row = i / kSide;
-  const int column = i % kSide;
-  return place + Eigen::Vector2i(column - kHalf, row - kHalf).cast<float>();
-}
 
 bool cut(const ImagePyramid& reference, const SeenPoint& seen, int level, const geometry::CameraModel& camera,
          ReferencePatch& patch) {
   const Eigen::Vector2f place = ImagePyramid::at_level(seen.image_px, level);
   if (!reference.contains(place, kHalf + 1, level)) return false;
-  const cv::Mat& image = reference.level(level);
   const Eigen::Vector3d& p = seen.in_reference;
   Eigen::Matrix<double, 3, 6> point_by_motion;
   point_by_motion << Eigen::Matrix3d::Identity(), -skew(p);
-  const Eigen::Matrix<float, 2, 6> place_by_motion =
-      (std::ldexp(1.0, -level) * camera.undistorted_by_point(p) * point_by_motion).cast<float>();
   patch.point = p;
   patch.seen_from_projected = seen.image_px.cast<double>() - camera.project(p);
-  for (int i = 0; i < kArea; ++i) {
-    const Eigen::Vector2f at = pixel(place, i);
-    patch.value[static_cast<std::size_t>(i)] = interpolate(image, at.x(), at.y());
-    const float gx = 0.5F * (interpolate(image, at.x() + 1, at.y()) - interpolate(image, at.x() - 1, at.y()));
-    const float gy = 0.5F * (interpolate(image, at.x(), at.y() + 1) - interpolate(image, at.x(), at.y() - 1));
-    patch.by_motion.col(i) =
-        gx * place_by_motion.row(0).transpose() + gy * place_by_motion.row(1).transpose();
-  }
+  patch.place_by_motion =
+      (std::ldexp(1.0, -level) * camera.undistorted_by_point(p) * point_by_motion).cast<float>();
+  const auto bordered =
+      interpolate_square<kSide + 2>(reference.level(level), place.x() - kHalf - 1, place.y() - kHalf - 1);
+  patch.value = bordered.block<kSide, kSide>(1, 1);
+  patch.gx = 0.5F * (bordered.block<kSide, kSide>(1, 2) - bordered.block<kSide, kSide>(1, 0));
+  patch.gy = 0.5F * (bordered.block<kSide, kSide>(2, 1) - bordered.block<kSide, kSide>(0, 1));
   return true;
 }
 
@@ -76,21 +67,27 @@ struct Equations {
   [[nodiscard]] float mean_difference() const { return differences / weights; }
 };
 
+/// A pixel's derivative is its gradient times the patch's place_by_motion, so that the pixels can be summed
+/// up in two dimensions before six.
 void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Mat& image, float offset,
          Equations& sum) {
-  for (int i = 0; i < kArea; ++i) {
-    const Eigen::Vector2f at = pixel(place, i);
-    const float difference = interpolate(image, at.x(), at.y()) - patch.value[static_cast<std::size_t>(i)];
-    const float residual = difference - offset;
-    const float size = std::abs(residual);
-    const float weight = size <= kHuber ? 1 : kHuber / size;
-    const Vector6f weighted = weight * patch.by_motion.col(i);
-    sum.hessian.noalias() += weighted * patch.by_motion.col(i).transpose();
-    sum.gradient.noalias() += residual * weighted;
-    sum.cost += size <= kHuber ? residual * residual : kHuber * (2 * size - kHuber);
-    sum.differences += weight * difference;
-    sum.weights += weight;
-  }
+  const Square difference =
+      interpolate_square<kSide>(image, place.x() - kHalf, place.y() - kHalf) - patch.value;
+  const Square residual = difference - offset;
+  const Square size = residual.abs();
+  const Square weight = kHuber / size.max(kHuber);
+  const Square quadratic = size.min(kHuber);
+  const Square weighted_gx = weight * patch.gx;
+  const Square weighted_gy = weight * patch.gy;
+  const float xy = (weighted_gx * patch.gy).sum();
+  Eigen::Matrix2f hessian;
+  hessian << (weighted_gx * patch.gx).sum(), xy, xy, (weighted_gy * patch.gy).sum();
+  const Eigen::Vector2f gradient((weighted_gx * residual).sum(), (weighted_gy * residual).sum());
+  sum.hessian.noalias() += patch.place_by_motion.transpose() * (hessian * patch.place_by_motion).eval();
+  sum.gradient.noalias() += patch.place_by_motion.transpose() * gradient;
+  sum.cost += (quadratic * (2 * size - quadratic)).sum();
+  sum.differences += (weight * difference).sum();
+  sum.weights += weight.sum();
   sum.pixels += kArea;
 }
 

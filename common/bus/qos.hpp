@@ -22,7 +22,8 @@ inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, 
 inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};
 inline constexpr Qos kDelta{.reliable = true, .depth = 64};
 inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1};
-/// For a reader of a latched topic that must see every message, not only the newest.
+/// For a reader of a latched topic that must see every message, not only the newest; so must one of a topic
+/// with two writers, whose newest messages displace each other in a history of one.
 inline constexpr Qos kLatchedEvery{.reliable = true, .transient_local = true, .depth = 100};
 
 }  // namespace rds::bus

@@ -35,7 +35,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   if (!config.localize_only) subscribe_to_keyframes();
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatched, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
+      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return images_inbox_.dropped(); });
 }

@@ -64,7 +64,7 @@ class TrackerService : public service::Service {
   std::stop_token stop_;
   std::uint64_t map_epoch_;
   Tracker tracker_;
-  std::optional<SlamMap> start_;  // the saved map that every map epoch begins with
+  std::optional<SavedMap> start_;  // the saved map that every map epoch begins with
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;

@@ -26,17 +26,17 @@ tl::expected<void, std::string> TrackerService::read_start(const std::filesystem
 
 void TrackerService::start_map() {
   if (!start_) return;
-  tracker_.start_from(SlamMap(*start_));
+  tracker_.start_from(SavedMap(*start_));
   spdlog::info("goes on in a map of {} keyframes and {} points", tracker_.map().keyframes(),
                tracker_.map().points());
 }
 
 service::CommandOutcome TrackerService::save(const std::string& folder) const {
   const SlamMap& map = tracker_.map();
-  const auto written =
-      map_file::write_map_file(map_file::service_file(folder, map_file::kTracker),
-                               {{map_file::kTracker, to_bytes(map, config_.tracker.extraction)},
-                                {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}});
+  const auto written = map_file::write_map_file(
+      map_file::service_file(folder, map_file::kTracker),
+      {{map_file::kTracker, to_bytes(map, tracker_.known_camera(), config_.tracker.extraction)},
+       {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}});
   if (!written) return {false, written.error()};
   return {true,
           fmt::format("{} keyframes and {} points written to {}", map.keyframes(), map.points(), folder)};

@@ -62,16 +62,16 @@ TEST(TrackerRecordings, TurningCameraInAnOffice) {
   RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
   const Figures f = figures(shared() / "data/tum_fr1_rpy");
   EXPECT_EQ(f.tracked, 1);
-  EXPECT_LE(f.ate_live_m, 0.045);
-  EXPECT_LE(f.ate_final_m, 0.040);
+  EXPECT_LE(f.ate_live_m, 0.024);
+  EXPECT_LE(f.ate_final_m, 0.018);
 }
 
 TEST(TrackerRecordings, CameraThatComesBackInAKitchen) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const Figures f = figures(shared() / "data/7scenes_kitchen");
   EXPECT_EQ(f.tracked, 1);
-  EXPECT_LE(f.ate_live_m, 0.065);
-  EXPECT_LE(f.ate_final_m, 0.060);
+  EXPECT_LE(f.ate_live_m, 0.050);
+  EXPECT_LE(f.ate_final_m, 0.045);
 }
 
 /// For up to two seconds people fill the picture: then a lost frame is right, and a pose would be invented
@@ -80,8 +80,8 @@ TEST(TrackerRecordings, PeopleInTheKitchenKnownWithEveryFrame) {
   RDS_REQUIRE_DYNAMIC("kitchen_walkers");
   const Figures f = figures(dynamic_sequence("kitchen_walkers"), {.truth_boxes = true});
   EXPECT_GE(f.tracked, 0.93);
-  EXPECT_LE(f.ate_live_m, 0.12);
-  EXPECT_LE(f.ate_final_m, 0.11);
+  EXPECT_LE(f.ate_live_m, 0.09);
+  EXPECT_LE(f.ate_final_m, 0.08);
 }
 
 TEST(TrackerRecordings, SameBytesTwice) {

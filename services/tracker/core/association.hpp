@@ -20,6 +20,7 @@ struct TrackedFrame {
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();
   ShutterMotion motion;        // that px and depth of the features are compensated for
+  double given_fx = 0;         // px, before calibration changed the camera; 0: it is as it is
   bool pose_is_given = false;  // and not to be estimated
   double found_share = 1;      // of the expected map points, relative to the usual (FoundShare)
 

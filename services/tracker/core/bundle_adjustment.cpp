@@ -88,12 +88,17 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
   Eigen::Vector3d shift_;
 };
 
-/// The camera of a keyframe with the focal length that is known by now; one of another kind stays as it is.
-geometry::CameraModel known_camera(geometry::CameraModel camera, const LocalMappingJob& job) {
-  const double scale = job.given_fx > 0 ? camera.fx / job.given_fx : 0;
-  if (scale > kLargestFocalError || scale < 1 / kLargestFocalError) return camera;
-  camera.fx *= job.focal_scale / scale;
-  camera.fy *= job.focal_scale / scale;
+bool is_calibrated(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
+  return keyframe.given_fx > 0 && keyframe.given_fx == job.given_fx;
+}
+
+/// The camera of a keyframe with the focal length that is known by now; another camera stays as it is.
+geometry::CameraModel known_camera(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
+  geometry::CameraModel camera = keyframe.features->camera();
+  if (!is_calibrated(keyframe, job)) return camera;
+  const double correction = job.focal_scale * job.given_fx / camera.fx;
+  camera.fx *= correction;
+  camera.fy *= correction;
   return camera;
 }
 
@@ -102,7 +107,7 @@ class LocalBundle {
   explicit LocalBundle(MappingScene& scene) : scene_(scene) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
-      models_.emplace_back(known_camera(k.features->camera(), scene.job()), scene.job().depth);
+      models_.emplace_back(known_camera(k, scene.job()), scene.job().depth);
     }
   }
 
@@ -213,7 +218,8 @@ class LocalBundle {
     d.by_pose = by_pose.leftCols<6>();
     d.by_point = by_point;
     d.by_imaging.col(0) = by_readout(o);
-    d.by_imaging.col(1) = models_[o.keyframe].by_focal_scale(p, measurement(o)) / scene_.job().focal_scale;
+    if (is_calibrated(scene_.job().keyframes[o.keyframe], scene_.job()))
+      d.by_imaging.col(1) = models_[o.keyframe].by_focal_scale(p, measurement(o)) / scene_.job().focal_scale;
     return d;
   }
 

@@ -27,7 +27,9 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
   if (losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
-  return facts.since_last_s >= longest - kJitter ? KeyframeNeed::kLook : KeyframeNeed::kNone;
+  if (facts.since_last_s < longest - kJitter) return KeyframeNeed::kNone;
+  const bool hidden = facts.movable_or_changed && facts.inliers < config.scarce_inliers;
+  return hidden ? KeyframeNeed::kMap : KeyframeNeed::kLook;
 }
 
 double FoundShare::update(int expected, int found) {

@@ -29,10 +29,10 @@ enum class KeyframeNeed : std::uint8_t {
   kMap    // a keyframe of the map
 };
 
-/// The map needs a frame whose view no keyframe has, or that sees less of the map than others there did. The
-/// detector, which looks at keyframes only, needs one often while the picture changes, seldom in a static
-/// scene.
-/// Source: Mur-Artal & Tardós 2017, §III-E; the paper, §III-A (keyframes allocate the detector's time).
+/// The map needs a frame whose view no keyframe has, or that sees less of the map than others there did; all
+/// it can get while movable objects hide nearly everything. The detector, which looks at keyframes only,
+/// needs one often while the picture changes, seldom in a static scene. Source: Mur-Artal & Tardós 2017,
+/// §III-E; the paper, §III-A (keyframes allocate the detector's time).
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config);
 
 /// The share of expected map points that is found. It drops when something enters the picture or covers the

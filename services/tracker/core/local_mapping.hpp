@@ -16,6 +16,7 @@ struct MappingKeyframe {
   std::vector<PointId> points;  // per feature; kNoId
   std::vector<bool> movable;    // per feature
   ShutterMotion motion;         // that px and depth of the features are compensated for
+  double given_fx = 0;          // px, before calibration changed the camera; 0: it is as it is
   bool fixed = false;           // holds the points, is not moved
 };
 
@@ -28,7 +29,7 @@ struct LocalMappingJob {
   std::vector<MapPoint> points;            // by ascending id
   double readout_s = 0;                    // of the camera, as far as known
   double focal_scale = 1;                  // the same, on the focal length it was given with
-  double given_fx = 0;                     // px; 0: every keyframe's camera is right
+  double given_fx = 0;                     // px, of the camera that these two are about
   ScalePyramid pyramid{1, 1};
   DepthConfig depth;
   PoseOptimizationConfig robust;  // χ² bounds

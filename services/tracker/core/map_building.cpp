@@ -69,6 +69,7 @@ Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthCo
                           const MapConfig& config) {
   Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
   keyframe.motion = frame.motion;
+  keyframe.given_fx = frame.given_fx;
   keyframe.pose_is_given = frame.pose_is_given;
   observe_matches(map, frame, keyframe);
   make_points(map, depth, config, keyframe);

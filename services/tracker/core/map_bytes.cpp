@@ -108,10 +108,12 @@ void get_point(ByteReader& reader, SlamMap& map) {
 
 }  // namespace
 
-map_file::Bytes to_bytes(const SlamMap& map, const ExtractionConfig& extraction) {
+map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const ExtractionConfig& extraction) {
   ByteWriter writer;
   writer.put(extraction.levels);
   writer.put(extraction.scale_factor);
+  writer.put(camera.given_fx);
+  writer.put(camera.focal_scale);
   writer.put_count(map.keyframes());
   map.all_keyframes().for_each([&](const Keyframe& keyframe) { put(writer, keyframe); });
   writer.put_count(map.points());
@@ -119,15 +121,18 @@ map_file::Bytes to_bytes(const SlamMap& map, const ExtractionConfig& extraction)
   return writer.take();
 }
 
-tl::expected<SlamMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
-                                                  std::span<const KeyframePose> poses,
-                                                  const TrackerConfig& config) {
+tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
+                                                   std::span<const KeyframePose> poses,
+                                                   const TrackerConfig& config) {
   ByteReader reader(bytes);
   const auto levels = reader.get<int>();
   const auto factor = reader.get<double>();
   if (levels != config.extraction.levels || factor != config.extraction.scale_factor)
     reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
                               factor, config.extraction.levels, config.extraction.scale_factor));
+  KnownCamera camera;
+  camera.given_fx = reader.get<double>();
+  camera.focal_scale = reader.get<double>();
   SlamMap map(config.map, ScalePyramid(config.extraction.levels, config.extraction.scale_factor));
   if (!poses.empty() && poses.back().id != poses.size() - 1) reader.refuse("keyframe poses with gaps");
   const std::size_t keyframes = reader.get_count(kKeyframeBytes);
@@ -141,7 +146,7 @@ tl::expected<SlamMap, std::string> map_from_bytes(std::span<const std::uint8_t> 
   if (const auto read = reader.finish(); !read) return tl::unexpected(read.error());
   for (KeyframeId id = 0; id < map.next_keyframe_id(); ++id) map.update_covisibility(id);
   map.hold_keyframes();
-  return map;
+  return SavedMap{std::move(map), camera};
 }
 
 }  // namespace rds::tracker

@@ -7,13 +7,13 @@
 #include <tl/expected.hpp>
 
 #include "common/map_file/byte_writer.hpp"
-#include "services/tracker/core/slam_map.hpp"
+#include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
 
-/// What of a map cannot be computed again: keyframes with their features, map points and who sees what. Poses
-/// are kept apart, as SlamMap::keyframe_poses() gives them.
-map_file::Bytes to_bytes(const SlamMap& map, const ExtractionConfig& extraction);
+/// What of a map cannot be computed again: what is known of the camera, keyframes with their features, map
+/// points and who sees what. Poses are kept apart, as SlamMap::keyframe_poses() gives them.
+map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const ExtractionConfig& extraction);
 
 /// The map that these bytes and poses describe, all its keyframes held. Ids of keyframes stay; those of
 /// points count anew. Covisibility and what is known of each point's appearance are computed from the
@@ -21,8 +21,8 @@ map_file::Bytes to_bytes(const SlamMap& map, const ExtractionConfig& extraction)
 ///
 /// @return or what is wrong with the bytes: cut short, another pyramid of features, indices of what is not
 /// there.
-tl::expected<SlamMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
-                                                  std::span<const KeyframePose> poses,
-                                                  const TrackerConfig& config);
+tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
+                                                   std::span<const KeyframePose> poses,
+                                                   const TrackerConfig& config);
 
 }  // namespace rds::tracker

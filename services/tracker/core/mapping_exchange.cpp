@@ -63,7 +63,7 @@ LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId id, const LocalM
     const bool is_fixed =
         k == 0 || keyframe.pose_is_given || fixed.contains(k) || (!held && k == *all.begin());
     job.keyframes.push_back({k, keyframe.map_from_camera, keyframe.features, keyframe.points,
-                             keyframe.movable, keyframe.motion, is_fixed});
+                             keyframe.movable, keyframe.motion, keyframe.given_fx, is_fixed});
   }
   for (const PointId p : points) job.points.push_back(*map.point(p));
   return job;

@@ -18,6 +18,7 @@ constexpr double kSignificant = 3;            // σ by which what was given must
 constexpr double kLargestFocalSigma = 0.015;  // of a bundle that is believed
 constexpr double kLargestFocalShare = 1.15;   // it may find, either way; more comes from things that move
 constexpr int kFewestBundles = 5;             // that were believed, before a focal length is called wrong
+constexpr double kLargestFocalError = 1.4;    // factor, either way
 constexpr double kLongestReadout = 0.05;      // s, either way: a camera may hang upside down
 
 /// Where a camera's pose starts among the unknowns; camera 0 is no unknown.
@@ -34,6 +35,20 @@ struct Part {
   Eigen::Index size;
   Eigen::Matrix<double, 3, 6> by_point;  // Jpᵀ J
 };
+
+bool is_believable_focal(const ImagingEstimate& found) {
+  const double variance = found.information.inverse()(1, 1);
+  return variance > 0 && variance < kLargestFocalSigma * kLargestFocalSigma &&
+         found.value(1) < kLargestFocalShare && found.value(1) > 1 / kLargestFocalShare;
+}
+
+/// The same estimate without what it says of the focal length.
+ImagingEstimate of_readout_only(ImagingEstimate found) {
+  Eigen::Matrix2d& information = found.information;
+  if (information(1, 1) > 0) information(0, 0) -= information(0, 1) * information(1, 0) / information(1, 1);
+  information(0, 1) = information(1, 0) = information(1, 1) = 0;
+  return found;
+}
 
 }  // namespace
 
@@ -86,24 +101,6 @@ ImagingEstimate ImagingEstimator::estimate(const Imaging& at) const {
   return {at - solver.solve(gradient), information};
 }
 
-namespace {
-
-bool is_believable_focal(const ImagingEstimate& found) {
-  const double variance = found.information.inverse()(1, 1);
-  return variance > 0 && variance < kLargestFocalSigma * kLargestFocalSigma &&
-         found.value(1) < kLargestFocalShare && found.value(1) > 1 / kLargestFocalShare;
-}
-
-/// The same estimate without what it says of the focal length.
-ImagingEstimate of_readout_only(ImagingEstimate found) {
-  Eigen::Matrix2d& information = found.information;
-  if (information(1, 1) > 0) information(0, 0) -= information(0, 1) * information(1, 0) / information(1, 1);
-  information(0, 1) = information(1, 0) = information(1, 1) = 0;
-  return found;
-}
-
-}  // namespace
-
 SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config)
     : config_(config), value_(config.readout_s, 1) {
   information_ = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
@@ -115,7 +112,8 @@ SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config)
 }
 
 void SelfCalibration::begin_with_focal_scale(double scale) {
-  if (!config_.focal_length || scale < 1 / kLargestFocalError || scale > kLargestFocalError) return;
+  const bool possible = scale >= 1 / kLargestFocalError && scale <= kLargestFocalError;
+  if (!config_.focal_length || !possible) return;
   value_(1) = scale;
   focal_is_wrong_ = std::abs(scale - 1) > config_.tolerated_focal_error;
 }

@@ -26,7 +26,7 @@ struct ObservationDerivatives {
   Eigen::Vector3d residual;
   Eigen::Matrix<double, 3, 6> by_pose;
   Eigen::Matrix3d by_point;
-  Eigen::Matrix<double, 3, 2> by_imaging;
+  Eigen::Matrix<double, 3, 2> by_imaging = Eigen::Matrix<double, 3, 2>::Zero();
 };
 
 /// One Gauss-Newton step of a bundle in which points, poses and imaging are free, for the imaging alone.
@@ -48,8 +48,11 @@ class ImagingEstimator {
   Eigen::VectorXd gradient_;  // likewise
 };
 
-/// Beyond this factor, either way, it is another camera.
-inline constexpr double kLargestFocalError = 1.4;
+/// What tells a camera again, and what was found out about it.
+struct KnownCamera {
+  double given_fx = 0;  // px; 0: none was seen
+  double focal_scale = 1;
+};
 
 /// What is known of the camera's imaging: the mean of what bundles found, weighted with how much they could
 /// tell and with older ones slowly forgotten.

@@ -53,6 +53,7 @@ struct Keyframe {
   std::int64_t stamp_ns = 0;
   Pose map_from_camera = Pose::Identity();
   ShutterMotion motion;        // that px and depth of the features are compensated for
+  double given_fx = 0;         // px, before calibration changed the camera; 0: it is as it is
   bool pose_is_given = false;  // and held by bundle adjustment
   std::shared_ptr<const FeatureSet> features;
   std::shared_ptr<const ImagePyramid> images;  // null if points are not followed, and in a map that was saved

@@ -23,12 +23,6 @@ bool is_usable(const image::RgbdFrame& frame) {
          (depth_type == CV_16UC1 || depth_type == CV_32FC1) && frame.depth.metres_per_unit > 0;
 }
 
-double newest_focal_length(const SlamMap& map) {
-  double fx = 0;
-  map.all_keyframes().for_each([&](const Keyframe& k) { fx = k.features->camera().fx; });
-  return fx;
-}
-
 std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
   std::vector<KeypointVerdict> all;
   all.reserve(frame.features->size());
@@ -56,10 +50,12 @@ void Tracker::reset() {
   *this = Tracker(config_, std::move(given_poses_));
 }
 
-void Tracker::start_from(SlamMap&& map) {
+void Tracker::start_from(SavedMap&& saved) {
   reset();
-  map_ = std::move(map);
+  map_ = std::move(saved.map);
   if (map_.keyframes() == 0) return;
+  given_fx_ = saved.camera.given_fx;
+  calibration_.begin_with_focal_scale(saved.camera.focal_scale);
   map_.all_keyframes().for_each(
       [&](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
   state_ = State::kLost;
@@ -79,6 +75,7 @@ void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRe
   extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
   frame.motion = shutter_motion(picture.stamp_ns);
+  frame.given_fx = given_fx_;
   set_features(picture, std::move(features), frame);
   frame.clear_matches();
   result.times.extract_us = microseconds_since(start);
@@ -94,8 +91,7 @@ void Tracker::set_features(const image::RgbdFrame& picture, std::vector<Feature>
 
 /// The picture (its pixels shared) with the focal length that is known by now.
 image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
-  if (given_fx_ == 0 && map_.keyframes() > 0)
-    calibration_.begin_with_focal_scale(newest_focal_length(map_) / given.camera.fx);
+  if (given.camera.fx != given_fx_) calibration_ = SelfCalibration(config_.self_calibration);  // another one
   given_fx_ = given.camera.fx;
   image::RgbdFrame picture = given;
   picture.camera.fx *= calibration_.focal_scale();

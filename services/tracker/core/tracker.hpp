@@ -28,6 +28,12 @@ namespace rds::tracker {
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 
+/// A map to go on in, and the camera it was made with.
+struct SavedMap {
+  SlamMap map;
+  KnownCamera camera;
+};
+
 /// RGB-D tracking against a map of ORB features that it builds.
 ///
 /// Owned by one thread. Local mapping is a pure function on a snapshot: take_mapping_job() after a keyframe,
@@ -62,7 +68,7 @@ class Tracker {
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
-  void start_from(SlamMap&& map);
+  void start_from(SavedMap&& saved);
 
   /// Every keyframe since the last reset, by id, also those that are culled or never were in the map; without
   /// those of a map that it started from.
@@ -72,6 +78,7 @@ class Tracker {
   [[nodiscard]] std::size_t known_places() const { return places_.size(); }
   /// What is known of the camera beyond what it was given with.
   [[nodiscard]] const SelfCalibration& calibration() const { return calibration_; }
+  [[nodiscard]] KnownCamera known_camera() const { return {given_fx_, calibration_.focal_scale()}; }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
@@ -141,7 +148,7 @@ class Tracker {
   OrbExtractor extractor_;
   SlamMap map_;
   SelfCalibration calibration_;
-  double given_fx_ = 0;                 // px, of the newest picture
+  double given_fx_ = 0;                 // px, of the newest picture; another one is another camera
   KeyframeId calibrated_with_ = kNoId;  // the newest that calibration has learned from
   vision::PlaceIndex places_;
   FoundShare found_by_matching_;

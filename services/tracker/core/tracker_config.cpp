@@ -65,6 +65,7 @@ void read(config::ConfigReader& r, KeyframeConfig& c) {
   r.value("reference_ratio", c.reference_ratio, 0.0, 1.0);
   r.value("min_close_tracked", c.min_close_tracked, 0, 10000);
   r.value("min_close_new", c.min_close_new, 0, 10000);
+  r.value("scarce_inliers", c.scarce_inliers, 0, 10000);
   r.value("max_rotation_rad", c.max_rotation_rad, 0.01, 3.2, "rad");
   r.value("max_translation_m", c.max_translation_m, 0.01, 10.0, "m");
   r.value("known_after_s", c.known_after_s, 0.0, 1e6, "s");

@@ -160,8 +160,9 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
 }
 
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
-  if (map_.keyframe(mapping_centre_) == nullptr) return std::nullopt;
-  LocalMappingJob job = make_mapping_job(map_, std::exchange(mapping_centre_, kNoId), config_.local_mapping);
+  const KeyframeId centre = std::exchange(mapping_centre_, kNoId);
+  if (map_.keyframe(centre) == nullptr) return std::nullopt;  // none is due, or it was culled
+  LocalMappingJob job = make_mapping_job(map_, centre, config_.local_mapping);
   job.revision = revision_;
   job.readout_s = calibration_.readout_s();
   job.focal_scale = calibration_.focal_scale();

@@ -66,7 +66,7 @@ Recorder::Recorder(bus::Participant& bus) {
   subscriptions_.push_back(bus.subscribe<rds_msgs::msg::PredictedBoxes>(
       "rds/predicted_boxes", bus::kStream, [this](const auto& m) { on_boxes(*m); }));
   subscriptions_.push_back(bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatched, [this](const auto& m) { on_poses(*m); }));
+      "rds/keyframe/poses", bus::kLatchedEvery, [this](const auto& m) { on_poses(*m); }));
   subscriptions_.push_back(bus.subscribe<vision_msgs::msg::Detection2DArray>(
       "rds/detections", bus::kStream, [this](const auto& m) { on_detections(*m); }));
   subscriptions_.push_back(bus.subscribe<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched,

@@ -113,8 +113,8 @@ void Session::play(const std::stop_token& stop) {
 bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
   overlay_->add_picture(index, frame);
   if (options_.lockstep()) {
-    complete_ &=
-        recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit) || stop.stop_requested();
+    expect(recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit),
+           fmt::format("frame {}: not answered within {} s", index, kAcknowledgeLimit.count()), stop);
     if (fleet_->alive(kMapper) && !options_.localize_only)
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
@@ -142,8 +142,11 @@ void Session::drain(const std::stop_token& stop) {
   const std::string final_poses = ask(kTracker, "finish", "", stop);
   const auto json = nlohmann::json::parse(final_poses, nullptr, false);
   if (json.is_object()) {
-    complete_ &=
-        recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), stop, kAcknowledgeLimit);
+    const auto revision = json.value("poses_revision", std::uint64_t{0});
+    expect(recorder_.wait_poses(revision, stop, kAcknowledgeLimit),
+           fmt::format("the final keyframe poses (revision {}) did not arrive within {} s", revision,
+                       kAcknowledgeLimit.count()),
+           stop);
     keyframes_in_map_ = json.value("keyframes_in_map", std::uint64_t{0});
   }
   map_description_ = ask(kMapper, "finish", final_poses, stop);
@@ -157,9 +160,14 @@ void Session::save_map(const std::stop_token& stop) {
     if (fleet_->alive(service)) ask(service, "save", folder_.path().string(), stop);
   if (stop.stop_requested()) return;
   const auto merged = map_file::merge_service_files(folder_.path(), folder_.path() / map_file::kMapFile);
-  if (merged) return;
+  if (!merged) expect(false, merged.error(), stop);
+}
+
+/// What does not hold is said, and the run is not complete; of a run that is stopped nothing is expected.
+void Session::expect(bool holds, const std::string& otherwise, const std::stop_token& stop) {
+  if (holds || stop.stop_requested()) return;
   complete_ = false;
-  fmt::print(stderr, "{}\n", merged.error());
+  fmt::print(stderr, "{}\n", otherwise);
 }
 
 /// @return the answer; empty, and the run is not complete, if the command failed.
@@ -168,9 +176,7 @@ std::string Session::ask(const std::string& service, const std::string& verb, co
   fleet_->watch();
   const auto reply = commander_.ask(service, verb, argument, stop, kFinishLimit);
   if (reply && reply->success) return reply->message;
-  complete_ = false;
-  if (!stop.stop_requested())
-    fmt::print(stderr, "{} {}: {}\n", service, verb, reply ? reply->message : "no answer");
+  expect(false, fmt::format("{} {}: {}", service, verb, reply ? reply->message : "no answer"), stop);
   return {};
 }
 

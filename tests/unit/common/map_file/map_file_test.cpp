@@ -60,9 +60,9 @@ TEST(MapFile, SaysWhichFileAndWhatWasExpected) {
   test::write_text(file, "# Octomap OcTree file");
   EXPECT_THAT(fault(), testing::AllOf(HasSubstr(file.string()), HasSubstr("is not a saved map, expected")));
   Bytes bytes = to_bytes(kSections);
-  bytes[8] = 2;
+  bytes[8] = 1;
   write_bytes(file, bytes);
-  EXPECT_THAT(fault(), HasSubstr("has format version 2, expected 1"));
+  EXPECT_THAT(fault(), HasSubstr("has format version 1, expected 2"));
   bytes = to_bytes(kSections);
   bytes.pop_back();
   write_bytes(file, bytes);

@@ -15,10 +15,15 @@ image::DepthImage wall() {
   return depth;
 }
 
-TEST(DepthAt, IsThatOfTheNearestPixel) {
+/// The same with another depth [mm] at one pixel.
+image::DepthImage wall_with(int x, int y, int depth_mm) {
   image::DepthImage depth = wall();
-  depth.values.at<std::uint16_t>(7, 5) = 2010;
-  EXPECT_FLOAT_EQ(depth_at(depth, {5.4F, 6.6F}, kFar), 2.01F);
+  depth.values.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(depth_mm);
+  return depth;
+}
+
+TEST(DepthAt, IsThatOfTheNearestPixel) {
+  EXPECT_FLOAT_EQ(depth_at(wall_with(5, 7, 2010), {5.4F, 6.6F}, kFar), 2.01F);
 }
 
 TEST(DepthAt, AtAnEdgeIsThatOfTheSurfaceInFront) {
@@ -30,14 +35,11 @@ TEST(DepthAt, AtAnEdgeIsThatOfTheSurfaceInFront) {
 }
 
 TEST(DepthAt, NoiseIsNoEdge) {
-  image::DepthImage depth = wall();
-  depth.values.at<std::uint16_t>(10, 9) = 1960;
-  EXPECT_FLOAT_EQ(depth_at(depth, {10, 10}, kFar), 2.0F);
+  EXPECT_FLOAT_EQ(depth_at(wall_with(9, 10, 1960), {10, 10}, kFar), 2.0F);
 }
 
 TEST(DepthAt, IsZeroWithoutMeasurementOrTooFarAway) {
-  image::DepthImage depth = wall();
-  depth.values.at<std::uint16_t>(10, 10) = 0;
+  const image::DepthImage depth = wall_with(10, 10, 0);
   EXPECT_EQ(depth_at(depth, {10, 10}, kFar), 0);
   EXPECT_EQ(depth_at(depth, {3, 3}, 1.9), 0);
 }

@@ -41,6 +41,15 @@ TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
 
+TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 0.2;
+  facts.inliers = facts.reference_points = 60;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+  facts.movable_or_changed = true;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+}
+
 TEST(KeyframePolicy, NeedsDepth) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 5;

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/map_bytes.hpp"
 
-#include <gmock/gmock.h>
-
-#include "services/tracker/core/tracker.hpp"
-#include "tests/unit/services/tracker/core/synthetic_scene.hpp"
+#include "tests/unit/services/tracker/core/tracker_scene.hpp"
 
 namespace rds::tracker {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kFrameNs = 66'000'000;
+const KnownCamera kCamera{test::small_camera().fx, 1};
+
+using test::kFrameNs;
+using test::truth;
 
 TrackerConfig small_config(bool localize_only = false) {
-  TrackerConfig config;
-  config.extraction.features = 500;
-  config.extraction.levels = 4;
+  TrackerConfig config = test::small_config();
   config.localize_only = localize_only;
   return config;
-}
-
-Pose truth(int frame) {
-  return test::pose(0.015 * frame, 0.004 * frame, 0.01 * frame, 0.004 * frame);
 }
 
 FrameResult step(Tracker& tracker, int frame, std::int64_t stamp_ns) {
@@ -35,11 +29,15 @@ class SavedTracker : public ::testing::Test {
   static void SetUpTestSuite() {
     Tracker tracker(small_config());
     for (int i = 0; i < 12; ++i) step(tracker, i, 1'000'000'000'000 + i * kFrameNs);
-    bytes = to_bytes(tracker.map(), small_config().extraction);
+    bytes = bytes_of(tracker.map());
     poses = tracker.map().keyframe_poses();
   }
 
-  static SlamMap load() {
+  static map_file::Bytes bytes_of(const SlamMap& map) {
+    return to_bytes(map, kCamera, small_config().extraction);
+  }
+
+  static SavedMap load() {
     auto map = map_from_bytes(bytes, poses, small_config());
     if (!map) throw std::runtime_error(map.error());
     return std::move(*map);
@@ -56,25 +54,24 @@ class SavedTracker : public ::testing::Test {
 };
 
 TEST_F(SavedTracker, TheSameBytesComeOutOfALoadedMap) {
-  const SlamMap map = load();
+  const SlamMap map = load().map;
   EXPECT_GT(map.keyframes(), 1U);
   EXPECT_GT(map.points(), 200U);
-  EXPECT_EQ(to_bytes(map, small_config().extraction), bytes);
+  EXPECT_EQ(bytes_of(map), bytes);
   for (const KeyframePose& k : poses) EXPECT_EQ(map.pose_of(k.id).matrix(), k.map_from_camera.matrix());
   EXPECT_FALSE(map.keyframe(0)->covisible.empty());
 }
 
 TEST_F(SavedTracker, CulledKeyframesKeepIdAndPose) {
-  SlamMap map = load();
+  SlamMap map = load().map;
   const KeyframeId culled = map.next_keyframe_id() - 1;
   const Pose pose = map.pose_of(culled);
   map.cull_keyframe(culled);
-  const auto again =
-      map_from_bytes(to_bytes(map, small_config().extraction), map.keyframe_poses(), small_config());
+  const auto again = map_from_bytes(bytes_of(map), map.keyframe_poses(), small_config());
   ASSERT_TRUE(again) << again.error();
-  EXPECT_EQ(again->keyframe(culled), nullptr);
-  EXPECT_TRUE(again->pose_of(culled).isApprox(pose, 1e-12));
-  EXPECT_EQ(again->next_keyframe_id(), culled + 1);
+  EXPECT_EQ(again->map.keyframe(culled), nullptr);
+  EXPECT_TRUE(again->map.pose_of(culled).isApprox(pose, 1e-12));
+  EXPECT_EQ(again->map.next_keyframe_id(), culled + 1);
 }
 
 TEST_F(SavedTracker, IsLostUntilItFindsItselfAndCountsOn) {
@@ -127,7 +124,7 @@ TEST_F(SavedTracker, LocalizeOnlyLeavesTheMapAndStillChoosesKeyframes) {
   EXPECT_EQ(shown.front(), poses.size());
   EXPECT_EQ(tracker.keyframe_poses().size(), shown.size());
   tracker.retract_movable(shown.front(), std::vector<MovableRegion>{{{0, 0, 320, 240}, 0.5F, 4}});
-  EXPECT_EQ(to_bytes(tracker.map(), small_config().extraction), bytes);
+  EXPECT_EQ(bytes_of(tracker.map()), bytes);
 }
 
 TEST_F(SavedTracker, LocalizeOnlyWithoutAMapInventsNone) {
@@ -138,7 +135,7 @@ TEST_F(SavedTracker, LocalizeOnlyWithoutAMapInventsNone) {
 
 TEST_F(SavedTracker, AnEmptyMapStartsAtTheOrigin) {
   const Tracker nothing(small_config());
-  auto map = map_from_bytes(to_bytes(nothing.map(), small_config().extraction), {}, small_config());
+  auto map = map_from_bytes(bytes_of(nothing.map()), {}, small_config());
   ASSERT_TRUE(map) << map.error();
   Tracker tracker(small_config());
   tracker.start_from(std::move(*map));
@@ -160,6 +157,30 @@ TEST_F(SavedTracker, AlteredBytesDoNoHarm) {
       step(tracker, 6, 0);
     }
   }
+}
+
+TEST_F(SavedTracker, WhatIsKnownOfTheCameraIsKnownAgainUnlessItIsAnother) {
+  const KnownCamera camera{test::small_camera().fx, 0.97};
+  auto saved = map_from_bytes(to_bytes(load().map, camera, small_config().extraction), poses, small_config());
+  ASSERT_TRUE(saved) << saved.error();
+  Tracker tracker(small_config());
+  tracker.start_from(std::move(*saved));
+  step(tracker, 6, 0);
+  EXPECT_EQ(tracker.known_camera().focal_scale, 0.97);
+  image::RgbdFrame of_another = test::picture_of_wall(truth(7), kFrameNs);
+  of_another.camera.fx *= 1.05;
+  tracker.track(of_another, {});
+  EXPECT_EQ(tracker.known_camera().given_fx, of_another.camera.fx);
+  EXPECT_EQ(tracker.known_camera().focal_scale, 1);
+}
+
+TEST_F(SavedTracker, KeyframesOfAnotherCameraKeepTheirs) {
+  Tracker tracker = start();
+  for (int i = 2; i < 16; ++i) step(tracker, i, i * kFrameNs);
+  const auto job = tracker.take_mapping_job();
+  ASSERT_TRUE(job);
+  for (const MappingKeyframe& k : job->keyframes)
+    EXPECT_EQ(k.given_fx, k.id < poses.size() ? 0 : test::small_camera().fx) << k.id;
 }
 
 TEST_F(SavedTracker, SaysWhatDoesNotFit) {

@@ -88,6 +88,7 @@ class MovingKeyframes {
       Keyframe& keyframe =
           map_.add_keyframe(k, truth, std::make_shared<FeatureSet>(believed, view.features->all()));
       keyframe.motion.velocity = velocity;
+      keyframe.given_fx = believed.fx;
       for (std::uint32_t f = 0; f < view.point.size(); ++f) {
         PointId& p = ids[view.point[f]];
         if (p == kNoId)
@@ -133,6 +134,12 @@ ImagingEstimate measured(double readout_s, double focal_scale, double sigma) {
   return {{readout_s, focal_scale}, Eigen::Vector2d(1e6, 1 / (sigma * sigma)).asDiagonal()};
 }
 
+SelfCalibration after(int updates, const ImagingEstimate& estimate) {
+  SelfCalibration calibration(SelfCalibrationConfig{});
+  for (int i = 0; i < updates; ++i) calibration.update(estimate);
+  return calibration;
+}
+
 TEST(SelfCalibrationTest, GoesTowardsWhatHasMoreInformation) {
   SelfCalibration calibration(SelfCalibrationConfig{});
   EXPECT_EQ(calibration.readout_s(), 0);
@@ -143,26 +150,18 @@ TEST(SelfCalibrationTest, GoesTowardsWhatHasMoreInformation) {
 }
 
 TEST(SelfCalibrationTest, AGlobalShutterStaysOne) {
-  SelfCalibration calibration(SelfCalibrationConfig{});
-  for (int i = 0; i < 50; ++i) calibration.update(measured(0.0008, 1, 0.01));
+  SelfCalibration calibration = after(50, measured(0.0008, 1, 0.01));
   EXPECT_EQ(calibration.readout_s(), 0);
 }
 
 TEST(SelfCalibrationTest, TheGivenFocalLengthHoldsUntilItIsKnownToBeWrong) {
-  SelfCalibration right(SelfCalibrationConfig{});
-  for (int i = 0; i < 50; ++i) right.update(measured(0, 0.992, 0.001));
-  EXPECT_EQ(right.focal_scale(), 1);
-  SelfCalibration unsure(SelfCalibrationConfig{});
-  unsure.update(measured(0, 0.95, 0.03));
-  EXPECT_EQ(unsure.focal_scale(), 1);
-  SelfCalibration wrong(SelfCalibrationConfig{});
-  for (int i = 0; i < 50; ++i) wrong.update(measured(0, 0.95, 0.005));
-  EXPECT_NEAR(wrong.focal_scale(), 0.95, 1e-3);
+  EXPECT_EQ(after(50, measured(0, 0.992, 0.001)).focal_scale(), 1);
+  EXPECT_EQ(after(1, measured(0, 0.95, 0.03)).focal_scale(), 1);
+  EXPECT_NEAR(after(50, measured(0, 0.95, 0.005)).focal_scale(), 0.95, 1e-3);
 }
 
 TEST(SelfCalibrationTest, ABundleThatHardlyKnowsIsNotBelieved) {
-  SelfCalibration calibration(SelfCalibrationConfig{});
-  for (int i = 0; i < 200; ++i) calibration.update(measured(0.02, 0.9, 0.02));
+  SelfCalibration calibration = after(200, measured(0.02, 0.9, 0.02));
   EXPECT_EQ(calibration.focal_scale(), 1);
   EXPECT_NEAR(calibration.readout_s(), 0.02, 1e-3);
 }
@@ -187,8 +186,7 @@ TEST(SelfCalibrationTest, GoesOnFromASavedMapUnlessItIsAnotherCameras) {
 }
 
 TEST(SelfCalibrationTest, StaysPossible) {
-  SelfCalibration calibration(SelfCalibrationConfig{});
-  for (int i = 0; i < 30; ++i) calibration.update(measured(7, 9, 0.001));
+  SelfCalibration calibration = after(30, measured(7, 9, 0.001));
   EXPECT_EQ(calibration.readout_s(), 0.05);
   EXPECT_EQ(calibration.focal_scale(), 1);  // no bundle that claims 9 is believed
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -9,6 +9,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/concurrency/helper_thread.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/tracker.hpp"
@@ -63,6 +64,7 @@ class TrackerService : public service::Service {
   TrackerServiceConfig config_;
   std::stop_token stop_;
   std::uint64_t map_epoch_;
+  concurrency::HelperThread helper_;  // of the worker
   Tracker tracker_;
   std::optional<SavedMap> start_;  // the saved map that every map epoch begins with
   MovableObjects objects_;

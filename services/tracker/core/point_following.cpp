@@ -11,6 +11,7 @@ namespace {
 constexpr float kBorder = 8;       // px of the picture that a patch needs around it
 constexpr double kAnyDepth = 1e3;  // m
 constexpr float kCell = 32;        // px, side of the parts of the picture that points are spread over
+constexpr std::size_t kPointsPerPart = 32;
 
 /// A map point that the picture should show.
 struct Expected {
@@ -130,31 +131,46 @@ std::optional<Feature> find(const SlamMap& map, const Expected& expected, const 
   return feature;
 }
 
+Feature hidden_feature(const Eigen::Vector2f& image_px) {
+  Feature feature;
+  feature.px = feature.image_px = image_px;
+  feature.movable = true;
+  feature.matchable = false;
+  return feature;
+}
+
 }  // namespace
 
 FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                              const ObservationModel& model, const ScalePyramid& pyramid,
-                             const FollowingConfig& config) {
+                             const FollowingConfig& config, const RunParts& run_parts) {
   const Eigen::Vector3d camera_in_map = view.camera_from_map.inverse().translation();
   const auto expected = expect(map, points, view, camera_in_map, model, pyramid);
+  const auto order = spread(expected, view.picture.camera);
+  std::vector<std::optional<Feature>> found(order.size());
   FollowedPoints followed;
-  int found = 0;
-  for (const std::size_t i : spread(expected, view.picture.camera)) {
-    if (found == config.points) break;
-    if (expected[i].hidden) {
-      Feature feature;
-      feature.px = feature.image_px = expected[i].image_px;
-      feature.movable = true;
-      feature.matchable = false;
-      followed.features.push_back(feature);
-      followed.points.push_back(kNoId);
-      continue;
-    }
-    followed.looked_for.push_back(expected[i].point->id);
-    if (const auto feature = find(map, expected[i], view, camera_in_map, pyramid, config)) {
-      ++found;
-      followed.features.push_back(*feature);
-      followed.points.push_back(expected[i].point->id);
+  auto wanted = static_cast<std::size_t>(config.points);
+  for (std::size_t begin = 0; begin < order.size() && wanted > 0;) {
+    // No more than are wanted at least have to be looked for.
+    const std::size_t end = std::min(order.size(), begin + wanted);
+    run_parts((end - begin + kPointsPerPart - 1) / kPointsPerPart, [&](std::size_t part) {
+      const std::size_t first = begin + part * kPointsPerPart;
+      for (std::size_t i = first; i < std::min(end, first + kPointsPerPart); ++i)
+        if (const Expected& e = expected[order[i]]; !e.hidden)
+          found[i] = find(map, e, view, camera_in_map, pyramid, config);
+    });
+    for (; begin < end; ++begin) {
+      const Expected& e = expected[order[begin]];
+      if (e.hidden) {
+        followed.features.push_back(hidden_feature(e.image_px));
+        followed.points.push_back(kNoId);
+        continue;
+      }
+      followed.looked_for.push_back(e.point->id);
+      if (!found[begin]) continue;
+      --wanted;
+      followed.features.push_back(*found[begin]);
+      followed.points.push_back(e.point->id);
     }
   }
   return followed;

@@ -7,6 +7,7 @@
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/association.hpp"
 #include "services/tracker/core/image_pyramid.hpp"
+#include "services/tracker/core/run_parts.hpp"
 
 namespace rds::tracker {
 
@@ -32,6 +33,6 @@ struct FollowedPoints {
 /// whose patch looks otherwise there is hidden or gone and is left out.
 FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                              const ObservationModel& model, const ScalePyramid& pyramid,
-                             const FollowingConfig& config);
+                             const FollowingConfig& config, const RunParts& run_parts = run_in_turn);
 
 }  // namespace rds::tracker

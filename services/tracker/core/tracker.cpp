@@ -38,16 +38,17 @@ std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses)
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts run_parts)
     : config_(config),
       given_poses_(std::move(given_poses)),
+      run_parts_(std::move(run_parts)),
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
-      extractor_(config.extraction),
+      extractor_(config.extraction, run_parts_),
       map_(config.map, pyramid_),
       calibration_(config.self_calibration) {}
 
 void Tracker::reset() {
-  *this = Tracker(config_, std::move(given_poses_));
+  *this = Tracker(config_, std::move(given_poses_), std::move(run_parts_));
 }
 
 void Tracker::start_from(SavedMap&& saved) {
@@ -66,7 +67,7 @@ void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRe
   const auto start = Clock::now();
   std::vector<Feature> features;
   features.reserve(static_cast<std::size_t>(config_.extraction.features));
-  OrbExtractor::MovableTest is_movable;
+  MovableTest is_movable;
   if (!movable.empty())
     is_movable = [&](const Eigen::Vector2f& px) {
       const float depth = depth_at(picture.depth, px, config_.depth.max_depth_m);

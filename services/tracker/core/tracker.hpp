@@ -45,7 +45,9 @@ struct SavedMap {
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
-  explicit Tracker(const TrackerConfig& config, GivenPoses given_poses = {});
+  /// @param run_parts    runs what can be done at the same time.
+  explicit Tracker(const TrackerConfig& config, GivenPoses given_poses = {},
+                   RunParts run_parts = run_in_turn);
 
   /// Tracks the next picture.
   ///
@@ -144,6 +146,7 @@ class Tracker {
 
   TrackerConfig config_;
   GivenPoses given_poses_;
+  RunParts run_parts_;
   ScalePyramid pyramid_;
   OrbExtractor extractor_;
   SlamMap map_;

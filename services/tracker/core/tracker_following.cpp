@@ -74,7 +74,7 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
   const ObservationModel model(picture.camera, config_.depth);
   FollowedPoints followed = follow_points(map_, points_to_follow(local),
                                           {picture, *images_, movable, frame.camera_from_map, frame.motion},
-                                          model, pyramid_, config);
+                                          model, pyramid_, config, run_parts_);
   set_features(picture, std::move(followed.features), frame);
   frame.points = std::move(followed.points);
   const int found = frame.matches();

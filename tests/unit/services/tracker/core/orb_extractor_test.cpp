@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/concurrency/helper_thread.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker {
@@ -18,7 +19,7 @@ cv::Mat wall() {
   return gray;
 }
 
-std::vector<Feature> extract(const cv::Mat& gray, const OrbExtractor::MovableTest& is_movable = {}) {
+std::vector<Feature> extract(const cv::Mat& gray, const MovableTest& is_movable = {}) {
   OrbExtractor extractor(ExtractionConfig{});
   std::vector<Feature> features;
   extractor.extract(gray, is_movable, features);
@@ -48,6 +49,18 @@ TEST(OrbExtractor, GivesTheSameBytesWhateverTheNumberOfThreads) {
   const auto four = extract(gray);
   cv::setNumThreads(threads);
   EXPECT_TRUE(std::ranges::equal(one, four, same));
+}
+
+TEST(OrbExtractor, GivesTheSameBytesWithAHelper) {
+  concurrency::HelperThread helper;
+  OrbExtractor helped(ExtractionConfig{},
+                      [&](std::size_t count, const auto& part) { helper.run(count, part); });
+  const auto left = [](const Eigen::Vector2f& px) { return px.x() < 120; };
+  std::vector<Feature> features;
+  for (int i = 0; i < 5; ++i) {
+    helped.extract(wall(), left, features);
+    EXPECT_TRUE(std::ranges::equal(features, extract(wall(), left), same));
+  }
 }
 
 TEST(OrbExtractor, DoesNotRememberThePictureBefore) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/concurrency/helper_thread.hpp"
 #include "services/tracker/core/map_building.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
@@ -36,9 +37,10 @@ class PointFollowing : public ::testing::Test {
     map.all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
   }
 
-  FollowedPoints follow(std::span<const MovableRegion> movable = {}) {
+  FollowedPoints follow(std::span<const MovableRegion> movable = {},
+                        const RunParts& run_parts = run_in_turn) {
     return follow_points(map, all, {picture, images, movable, camera.inverse(), {}},
-                         ObservationModel(picture.camera, DepthConfig{}), pyramid, config);
+                         ObservationModel(picture.camera, DepthConfig{}), pyramid, config, run_parts);
   }
 
   double offset_px(const FollowedPoints& followed, std::size_t i) {
@@ -75,6 +77,23 @@ TEST_F(PointFollowing, CorrectsAPoseThatIsTwoPixelsOff) {
   std::size_t exact = 0;
   for (std::size_t i = 0; i < followed.points.size(); ++i) exact += offset_px(followed, i) < 0.5 ? 1 : 0;
   EXPECT_GT(static_cast<double>(exact), 0.8 * static_cast<double>(followed.points.size()));
+}
+
+TEST_F(PointFollowing, FindsTheSameWithAHelper) {
+  concurrency::HelperThread helper;
+  const auto with_helper = [&](std::size_t count, const auto& part) { helper.run(count, part); };
+  const std::vector<MovableRegion> movable{
+      {.box_px = {50, 60, 130, 200}, .min_depth_m = 0, .max_depth_m = 9}};
+  for (const int points : {0, 30, 130, 400}) {
+    config.points = points;
+    const FollowedPoints alone = follow(movable);
+    const FollowedPoints helped = follow(movable, with_helper);
+    EXPECT_EQ(alone.points, helped.points);
+    EXPECT_EQ(alone.looked_for, helped.looked_for);
+    ASSERT_EQ(alone.features.size(), helped.features.size());
+    for (std::size_t i = 0; i < alone.features.size(); ++i)
+      EXPECT_EQ(alone.features[i].image_px, helped.features[i].image_px);
+  }
 }
 
 TEST_F(PointFollowing, StopsAtTheBudgetAndSpreadsIt) {

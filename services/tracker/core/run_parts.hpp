@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace rds::tracker {
+
+/// Calls part(0) … part(count − 1), each once, in any order, also at the same time, and returns when all are
+/// done. Parts are independent of each other, so that results do not depend on who runs them where.
+using RunParts = std::function<void(std::size_t count, const std::function<void(std::size_t)>& part)>;
+
+/// RunParts on the calling thread.
+inline void run_in_turn(std::size_t count, const std::function<void(std::size_t)>& part) {
+  for (std::size_t i = 0; i < count; ++i) part(i);
+}
+
+}  // namespace rds::tracker

@@ -90,12 +90,12 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   const auto project_started = Clock::now();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += microseconds_since(project_started);
-  start_mapping();
   const std::uint32_t total_us = microseconds_since(started);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
+  start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
 }

@@ -103,6 +103,7 @@ image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
 FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> movable) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
+  index_newest_keyframe();
   if (!is_usable(given)) return result;
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();

@@ -58,7 +58,9 @@ class Tracker {
   FrameResult track(const image::RgbdFrame& given, std::span<const MovableRegion> movable);
 
   /// Snapshot around the newest keyframe, or around the reference keyframe where a calm frame only was
-  /// looked at; nullopt if there is neither since the last call.
+  /// looked at; nullopt if there is neither since the last call. Best called when the frame's result is on
+  /// its way: also does what else a keyframe needs and its own frame does not wait for (else the next call
+  /// does).
   std::optional<LocalMappingJob> take_mapping_job();
   /// Moves keyframes and points; removes, fuses and adds observations. What has changed since the snapshot
   /// is left alone.
@@ -77,7 +79,7 @@ class Tracker {
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
   /// Keyframes that a lost camera can find itself by.
-  [[nodiscard]] std::size_t known_places() const { return places_.size(); }
+  [[nodiscard]] std::size_t known_places() const { return places_.size() + (unindexed_ != kNoId ? 1 : 0); }
   /// What is known of the camera beyond what it was given with.
   [[nodiscard]] const SelfCalibration& calibration() const { return calibration_; }
   [[nodiscard]] KnownCamera known_camera() const { return {given_fx_, calibration_.focal_scale()}; }
@@ -138,6 +140,7 @@ class Tracker {
   [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame, bool movable_there) const;
   void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
+  void index_newest_keyframe();
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
   void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
@@ -166,7 +169,8 @@ class Tracker {
   std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
   std::optional<std::int64_t> last_keyframe_ns_;  // stamp, of those shown too
   KeyframeId followed_view_ = kNoId;  // keyframe with the view nearest to the last followed frame's
-  int covered_at_view_ = 0;  // cells of the picture with followed points when that became the nearest
+  int covered_at_view_ = 0;       // cells of the picture with followed points when that became the nearest
+  KeyframeId unindexed_ = kNoId;  // keyframe that is not in places_ yet
   KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;

@@ -153,13 +153,20 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   followed_view_ = kNoId;
   changed_ = false;
   result.keyframe = keyframe_data(map_, keyframe);
-  places_.add(keyframe.id, static_descriptors(*frame.features));
+  unindexed_ = keyframe.id;
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, config_.map, recent_points_);
   mapping_centre_ = keyframe.id;
 }
 
+/// Makes the newest keyframe a place that a lost camera can find itself by.
+void Tracker::index_newest_keyframe() {
+  if (const Keyframe* keyframe = map_.keyframe(std::exchange(unindexed_, kNoId)))
+    places_.add(keyframe->id, static_descriptors(*keyframe->features));
+}
+
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
+  index_newest_keyframe();
   const KeyframeId centre = std::exchange(mapping_centre_, kNoId);
   if (map_.keyframe(centre) == nullptr) return std::nullopt;  // none is due, or it was culled
   LocalMappingJob job = make_mapping_job(map_, centre, config_.local_mapping);
@@ -183,6 +190,7 @@ bool Tracker::teaches_calibration(KeyframeId id) const {
 
 void Tracker::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return;
+  index_newest_keyframe();
   apply_mapping_result(map_, result);
   if (teaches_calibration(result.keyframe)) {
     calibration_.update(result.imaging);

@@ -52,7 +52,11 @@ Eigen::Vector2d CameraModel::undistort(const Eigen::Vector2d& pixel) const {
   if (!has_distortion()) return pixel;
   const Eigen::Vector2d observed((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   Eigen::Vector2d p = observed;  // fixed-point iteration: p = observed − (distort(p) − p)
-  for (int i = 0; i < kUndistortIterations; ++i) p += observed - distort(distortion, p);
+  for (int i = 0; i < kUndistortIterations; ++i) {
+    const Eigen::Vector2d before = p;
+    p += observed - distort(distortion, p);
+    if (p == before) break;
+  }
   return {fx * p.x() + cx, fy * p.y() + cy};
 }
 

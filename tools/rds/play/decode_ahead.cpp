@@ -3,13 +3,21 @@
 
 #include <utility>
 
+#include "common/concurrency/priority.hpp"
+
 namespace rds::play {
+namespace {
+
+constexpr int kNice = 10;  // a camera takes no processor time from the services
+
+}  // namespace
 
 DecodeAhead::DecodeAhead(const image::TumDataset& dataset, std::size_t first, std::size_t last, bool loop)
     : dataset_(dataset),
       thread_([this, first, last, loop](const std::stop_token& stop) { decode(stop, first, last, loop); }) {}
 
 void DecodeAhead::decode(const std::stop_token& stop, std::size_t first, std::size_t last, bool loop) {
+  concurrency::give_way(kNice);
   std::size_t pass = 0;
   do {
     for (std::size_t i = first; i < last; ++i)

@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "common/concurrency/helper_thread.hpp"
 #include "services/tracker/core/feature_alignment.hpp"
 #include "services/tracker/core/local_map.hpp"
 #include "services/tracker/core/map_building.hpp"
@@ -68,9 +69,10 @@ struct Scene {
   }
 
   [[nodiscard]] FollowedPoints follow(std::span<const PointId> ids, const image::RgbdFrame& frame,
-                                      const ImagePyramid& images) const {
+                                      const ImagePyramid& images,
+                                      const RunParts& run_parts = run_in_turn) const {
     return follow_points(*map, ids, {frame, images, {}, last_camera_from_map, {}}, model, pyramid,
-                         config.following);
+                         config.following, run_parts);
   }
 
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {
@@ -160,6 +162,18 @@ void orb_extraction(benchmark::State& state) {
 }
 BENCHMARK(orb_extraction)->Unit(benchmark::kMicrosecond);
 
+void orb_extraction_with_helper(benchmark::State& state) {
+  concurrency::HelperThread helper;
+  OrbExtractor extractor(ExtractionConfig{},
+                         [&](std::size_t count, const auto& part) { helper.run(count, part); });
+  std::vector<Feature> features;
+  measure(state, [&](Scene& s) {
+    extractor.extract(s.next_images->level(0), {}, features);
+    return features.size();
+  });
+}
+BENCHMARK(orb_extraction_with_helper)->Unit(benchmark::kMicrosecond)->UseRealTime();
+
 void sparse_alignment(benchmark::State& state) {
   std::vector<SeenPoint> seen;
   measure(state, [&](Scene& s) {
@@ -177,6 +191,13 @@ void point_following(benchmark::State& state) {
   measure(state, [](Scene& s) { return s.follow(s.points, s.next, *s.next_images); });
 }
 BENCHMARK(point_following)->Unit(benchmark::kMicrosecond);
+
+void point_following_with_helper(benchmark::State& state) {
+  concurrency::HelperThread helper;
+  const RunParts on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
+  measure(state, [&](Scene& s) { return s.follow(s.points, s.next, *s.next_images, on_both); });
+}
+BENCHMARK(point_following_with_helper)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 void feature_alignment_of_a_point(benchmark::State& state) {
   std::size_t i = 0;

@@ -107,7 +107,7 @@ struct MapConfig {
 
 /// Local mapping: fusion of map points and local bundle adjustment.
 struct LocalMappingConfig {
-  int free_keyframes = 8;       // moved by bundle adjustment, the new one included
+  int free_keyframes = 15;      // moved by bundle adjustment, the new one included
   int fixed_keyframes = 12;     // also see the points and hold them
   int max_points = 1600;        // of one job, most observed first
   int iterations = 4;           // of each of the two passes

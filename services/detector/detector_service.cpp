@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/detector/detector_service.hpp"
 
-#include <chrono>
 #include <limits>
 
 #include <spdlog/spdlog.h>
@@ -21,8 +20,10 @@ std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config
     return std::make_unique<RecordedSource>(config.detections_file, config.detector.depth);
   }
   const Network network = load_network(config.detector.network, model_folders(config.model_dir));
-  spdlog::info("network {}", network.description.name);
-  return std::make_unique<NetworkSource>(network, config.detector);
+  auto source = std::make_unique<NetworkSource>(network, config.detector);
+  spdlog::info("network {}, computed by {}, threads: {}", network.description.name, source->library(),
+               config.detector.threads);
+  return source;
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
       subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
           "rds/keyframe/images", bus::kKeyframeImages,
-          [this](Keyframe m) { keyframes_.push(std::move(m)); })) {
+          [this](Keyframe m) { keyframes_.push({std::move(m)}); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }
@@ -43,24 +44,26 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
 void DetectorService::run(const std::stop_token& stop) {
   while (mailbox_.wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
-    const auto keyframe = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest();
-    if (keyframe && !paused_)
-      look_at(*keyframe);
-    else if (keyframe && lockstep_)  // the tracker waits
-      publish({}, *keyframe);
+    const auto arrival = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest();
+    if (arrival && !paused_)
+      look_at(*arrival);
+    else if (arrival && lockstep_)  // the tracker waits
+      publish({}, arrival->keyframe);
   }
 }
 
-void DetectorService::look_at(const Keyframe& keyframe) {
+void DetectorService::look_at(const Arrival& arrival) {
   const auto started = std::chrono::steady_clock::now();
-  const auto frame = messages::to_rgbd_frame(keyframe);
+  const auto frame = messages::to_rgbd_frame(arrival.keyframe);
   if (!frame) return context_.diagnostics.reject("rds/keyframe/images", frame.error());
   std::vector<messages::ImageDetection> found;
   for (const Detection& d : source_->detections(*frame))
     found.push_back({.label = d.label, .score = d.score, .box = d.box, .depth_m = d.depth_m});
-  publish(found, keyframe);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
-  context_.diagnostics.latency("detect").add_ms(took.count());
+  publish(found, arrival.keyframe);
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  const auto done = std::chrono::steady_clock::now();
+  context_.diagnostics.latency("detect").add_ms(Milliseconds(done - started).count());
+  context_.diagnostics.latency("lag").add_ms(Milliseconds(done - arrival.time).count());
 }
 
 void DetectorService::publish(const std::vector<messages::ImageDetection>& found, const Keyframe& keyframe) {

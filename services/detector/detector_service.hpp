@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,13 +27,17 @@ class DetectorService : public service::Service {
 
  private:
   using Keyframe = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
-  void look_at(const Keyframe& keyframe);
+  struct Arrival {
+    Keyframe keyframe;
+    std::chrono::steady_clock::time_point time = std::chrono::steady_clock::now();
+  };
+  void look_at(const Arrival& arrival);
   void publish(const std::vector<messages::ImageDetection>& found, const Keyframe& keyframe);
 
   bool lockstep_;
   bool paused_ = false;
   std::unique_ptr<DetectionSource> source_;
-  concurrency::Inbox<Keyframe> keyframes_;
+  concurrency::Inbox<Arrival> keyframes_;
   bus::Publisher<vision_msgs::msg::Detection2DArray> detections_;
   bus::Subscription subscription_;  // last: its callback fills the inbox
 };

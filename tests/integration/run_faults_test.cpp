@@ -41,6 +41,8 @@ TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
   EXPECT_EQ(summary["processes"][GetParam()]["restarts"], 1);
   EXPECT_EQ(summary["frames"]["played"], 120);
   EXPECT_GT(summary["frames"]["tracked"].get<int>(), GetParam() == "rds-tracker" ? 40 : 110);
+  EXPECT_GT(summary["detector"]["lag_ms"]["median"].get<double>(), 0);
+  EXPECT_LT(summary["detector"]["lag_ms"]["p99"].get<double>(), 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),

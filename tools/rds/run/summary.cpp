@@ -53,6 +53,18 @@ ordered_json processes_json(const SummaryInput& in) {
   return processes;
 }
 
+/// How far the detector is behind: from the arrival of a keyframe to its boxes, and keyframes never looked
+/// at.
+ordered_json detector_json(const SummaryInput& in) {
+  const auto text = in.status.find("rds-detector");
+  if (text == in.status.end()) return nullptr;
+  const auto status = nlohmann::json::parse(text->second, nullptr, false);
+  if (!status.is_object() || !status.contains("figures")) return nullptr;
+  const auto figure = [&](const char* name) { return std::stod(status["figures"].value(name, "0")); };
+  return {{"lag_ms", {{"median", figure("lag p50 [ms]")}, {"p99", figure("lag p99 [ms]")}}},
+          {"keyframes_skipped", static_cast<std::uint64_t>(figure("keyframes skipped"))}};
+}
+
 /// Messages and bytes written per topic, by all services; what is dropped anywhere is dropped.
 ordered_json topics_json(const SummaryInput& in) {
   std::map<std::string, std::array<std::uint64_t, 3>> topics;
@@ -103,6 +115,7 @@ ordered_json summarize(const SummaryInput& in) {
   if (in.ate_final_m) json["ate_final"] = rounded(*in.ate_final_m);
   json["bus"] = ordered_json::object();
   for (const auto& [name, used] : in.usage) json["bus"][name] = bus::name_of(in.options.vendor_of(name));
+  if (const ordered_json detector = detector_json(in); !detector.is_null()) json["detector"] = detector;
   json["processes"] = processes_json(in);
   json["topics"] = topics_json(in);
   return json;

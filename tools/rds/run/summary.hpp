@@ -30,8 +30,8 @@ struct SummaryInput {
   std::optional<double> ate_final_m;
 };
 
-/// frames in, tracked, lost and dropped; times; keyframes; loops; CPU and memory per process; traffic per
-/// topic; ATE.
+/// frames in, tracked, lost and dropped; times; keyframes; loops; the detector's lag; CPU and memory per
+/// process; traffic per topic; ATE.
 nlohmann::ordered_json summarize(const SummaryInput& input);
 
 /// Quantile (0 … 1) by linear interpolation between ranks; 0 for no values.

@@ -53,7 +53,7 @@ set_up_python() {
   say "[2/3] PyPI packages: installing into .venv"
   rm -rf "$venv"
   long_step venv quiet /usr/bin/python3 -m venv "$venv"
-  long_step pip quiet "$venv/bin/pip" install --no-input -r "$root/tools/requirements.txt"
+  long_step pip quiet "$venv/bin/pip" install --no-input --no-deps -r "$root/tools/requirements.txt"
   echo "$wanted" >"$venv/requirements.sha256"
 }
 

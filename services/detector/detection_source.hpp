@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
@@ -26,6 +27,7 @@ class NetworkSource : public DetectionSource {
   std::vector<Detection> detections(const image::RgbdFrame& frame) override {
     return detector_.detect(frame.color, frame.depth);
   }
+  [[nodiscard]] std::string library() const { return detector_.library(); }
 
  private:
   Detector detector_;

@@ -25,14 +25,27 @@ std::vector<std::string> names_where(Predicate wanted) {
   return names;
 }
 
-/// Time of one picture [ms], after the detector's own first computation.
-double time_of_one_picture_ms(const std::string& name, const ModelFolders& folders) {
-  detector::Detector detector(detector::load_network(name, folders));
+/// Computes one picture by a back end and says how long that took, after the detector's own first
+/// computation.
+std::string time_of_one_picture(const detector::Network& network, const std::string& backend) {
+  detector::DetectorConfig config;
+  config.backend = backend;
+  detector::Detector detector(network, config);
   const image::ColorImage grey{cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(128)), image::ChannelOrder::kBgr,
                                nullptr};
   const auto start = std::chrono::steady_clock::now();
   static_cast<void>(detector.detect(grey));
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  return fmt::format("{:.1f} ms ({})", took.count(), detector.library());
+}
+
+/// The same for each back end, the one that is used by default first.
+std::string times_of_one_picture(const std::string& name, const ModelFolders& folders) {
+  const detector::Network network = detector::load_network(name, folders);
+  std::vector<std::string> times;
+  for (const std::string& backend : detector::backends())
+    times.push_back(time_of_one_picture(network, backend));
+  return fmt::format("{}", fmt::join(times, ", "));
 }
 
 /// Options that outlive the callbacks they belong to.
@@ -79,8 +92,8 @@ void check_models(std::ostream& out, const std::vector<std::string>& names, cons
   std::string first_fault;
   for (const std::string& name : wanted) {
     try {
-      fmt::print(out, "{}: ok, {:.1f} ms per picture on one thread\n", name,
-                 time_of_one_picture_ms(name, folders));
+      const std::string times = times_of_one_picture(name, folders);
+      fmt::print(out, "{}: ok, a picture on one thread takes {}\n", name, times);
     } catch (const std::runtime_error& e) {
       fmt::print(out, "{}: not usable\n", name);
       if (first_fault.empty()) first_fault = e.what();

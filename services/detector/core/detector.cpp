@@ -28,9 +28,9 @@ class ThreadScope {
   int before_;
 };
 
-std::unique_ptr<InferenceBackend> open_backend(const Network& network) {
+std::unique_ptr<InferenceBackend> open_backend(const Network& network, const DetectorConfig& config) {
   try {
-    return make_opencv_backend(network.weights);
+    return make_backend(config.backend, network.weights, config.threads);
   } catch (const DetectorError& e) {
     throw DetectorError(
         fmt::format("{} ({}): {}", network.description.name, network.description.file, e.what()));
@@ -48,7 +48,7 @@ SuppressionConfig suppression(const NetworkDescription& network, const DetectorC
 }  // namespace
 
 Detector::Detector(const Network& network, const DetectorConfig& config)
-    : Detector(network.description, open_backend(network), config) {}
+    : Detector(network.description, open_backend(network, config), config) {}
 
 Detector::Detector(const NetworkDescription& description, std::unique_ptr<InferenceBackend> backend,
                    const DetectorConfig& config)

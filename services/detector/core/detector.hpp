@@ -20,8 +20,8 @@ struct Network {
 
 /// Finds objects in single pictures. Not thread-safe.
 ///
-/// The same picture and number of threads give the same detections, bit by bit; another
-/// DetectorConfig::threads changes the last digits, because OpenCV then divides its sums at other places.
+/// The same picture, back end and number of threads give the same detections, bit by bit; another
+/// DetectorConfig::threads may change the last digits, because sums are then divided at other places.
 class Detector {
  public:
   /// Reads the network and computes it once on an empty picture.
@@ -41,6 +41,8 @@ class Detector {
                                               const image::DepthImage& depth);
 
   [[nodiscard]] const NetworkDescription& network() const { return description_; }
+  /// The inference library and its version.
+  [[nodiscard]] std::string library() const { return backend_->library(); }
 
  private:
   void check_outputs();

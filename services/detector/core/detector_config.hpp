@@ -11,6 +11,7 @@ namespace rds::detector {
 /// Settings of the detector; what belongs to one network is in its NetworkDescription.
 struct DetectorConfig {
   std::string network;         // name of the network; empty: the best one whose file is found
+  std::string backend;         // inference library: openvino or opencv; empty: the first of backends()
   int threads = 1;             // of the inference library
   double score_threshold = 0;  // 0: the network's own
   double other_label_iou =

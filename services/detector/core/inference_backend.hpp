@@ -15,7 +15,7 @@ struct NamedTensor {
   cv::Mat values;  // CV_32F, continuous, N-dimensional
 };
 
-/// Runs one network. The only seam to an inference library; a second library is a second implementation.
+/// Runs one network. The only seam to an inference library; each library is one implementation.
 class InferenceBackend {
  public:
   InferenceBackend() = default;
@@ -27,12 +27,30 @@ class InferenceBackend {
   /// @return every output of the network; valid until the next call.
   /// @throws DetectorError if the network cannot be computed.
   virtual std::vector<NamedTensor> infer(const cv::Mat& input) = 0;
+
+  /// The library and its version.
+  [[nodiscard]] virtual std::string library() const = 0;
 };
 
-/// OpenCV's DNN module on the CPU.
+/// Names of the back ends that this program holds, the default first: openvino where it was found when this
+/// was built, and opencv always.
+std::vector<std::string> backends();
+
+/// @param name     one of backends(); empty: the first.
+/// @param onnx     content of the ONNX file.
+/// @param threads  of the library, for this network.
+/// @throws DetectorError if the library is not built in or cannot read the network.
+std::unique_ptr<InferenceBackend> make_backend(const std::string& name, std::span<const unsigned char> onnx,
+                                               int threads);
+
+/// OpenCV's DNN module on the CPU. It computes on as many threads as cv::setNumThreads() says at the time.
 ///
-/// @param onnx  content of the ONNX file.
-/// @throws DetectorError if that is no network OpenCV can read.
+/// @throws DetectorError if `onnx` is no network OpenCV can read.
 std::unique_ptr<InferenceBackend> make_opencv_backend(std::span<const unsigned char> onnx);
+
+/// OpenVINO on the CPU, in single precision, so that it finds what OpenCV finds. Only where it is built in.
+///
+/// @throws DetectorError if `onnx` is no network OpenVINO can read.
+std::unique_ptr<InferenceBackend> make_openvino_backend(std::span<const unsigned char> onnx, int threads);
 
 }  // namespace rds::detector

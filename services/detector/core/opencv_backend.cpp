@@ -39,6 +39,8 @@ class OpenCvBackend final : public InferenceBackend {
     return outputs;
   }
 
+  [[nodiscard]] std::string library() const override { return "OpenCV " CV_VERSION; }
+
  private:
   cv::dnn::Net net_;
   std::vector<std::string> names_;

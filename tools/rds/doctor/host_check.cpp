@@ -153,7 +153,8 @@ Finding check_networks() {
     return {Verdict::kFault, "networks",
             "none found: people are not detected; `rds models fetch` brings one"};
   return {Verdict::kGood, "networks",
-          fmt::format("{} found, {} is used", found, detector::default_network(folders))};
+          fmt::format("{} found, {} is used, computed by {}", found, detector::default_network(folders),
+                      detector::backends().front())};
 }
 
 Finding check_vendor(bus::Vendor vendor) {

@@ -7,15 +7,18 @@ namespace rds::detector {
 namespace {
 
 TEST(DetectorConfig, NamesValuesOutOfRange) {
-  config::ConfigReader reader(YAML::Load("{threads: 0, depth: {central_part: 2}}"), "detector.yaml");
+  config::ConfigReader reader(YAML::Load("{threads: 0, backend: abacus, depth: {central_part: 2}}"),
+                              "detector.yaml");
   DetectorConfig config;
   read(reader, config);
   try {
     reader.finish();
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
-    EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("threads: 0, expected 1 … 64"),
-                                           ::testing::HasSubstr("depth.central_part: 2")));
+    EXPECT_THAT(e.what(),
+                ::testing::AllOf(::testing::HasSubstr("threads: 0, expected 1 … 64"),
+                                 ::testing::HasSubstr("backend: abacus, expected openvino, opencv, or empty"),
+                                 ::testing::HasSubstr("depth.central_part: 2")));
   }
 }
 

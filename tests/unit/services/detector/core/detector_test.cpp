@@ -22,6 +22,7 @@ class FixedAnswer final : public InferenceBackend {
       std::ranges::copy(rows_[i], values.ptr<float>(static_cast<int>(i)));
     return {{"output", values}};
   }
+  [[nodiscard]] std::string library() const override { return "fixed answers"; }
 
  private:
   std::vector<std::vector<float>> rows_;
@@ -104,7 +105,25 @@ TEST(Detector, RefusesANetworkThatDoesNotFitItsDescription) {
 TEST(Detector, RefusesBytesThatAreNoNetwork) {
   for (const std::string bytes : {"", "x", "this is not ONNX, only a sentence", "\x08\x07\x12\x03"}) {
     const Network network{description(), {bytes.begin(), bytes.end()}};
-    EXPECT_THROW(Detector{network}, DetectorError) << bytes;
+    for (const std::string& backend : backends()) {
+      DetectorConfig config;
+      config.backend = backend;
+      EXPECT_THROW(Detector(network, config), DetectorError) << bytes << " by " << backend;
+    }
+  }
+}
+
+TEST(Detector, NamesTheBackEndsThatItHas) {
+  const auto names = backends();
+  EXPECT_EQ(names.back(), "opencv");
+  DetectorConfig config;
+  config.backend = "abacus";
+  try {
+    static_cast<void>(Detector({description(), {}}, config));
+    FAIL() << "an unknown back end was accepted";
+  } catch (const DetectorError& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("backend 'abacus' is not built into this program"),
+                                HasSubstr(names.front())));
   }
 }
 

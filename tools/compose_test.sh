@@ -3,7 +3,7 @@
 # compose_test.sh [--build] [VENDOR...]: starts compose/compose.yaml, plays a recording, and sees a map arrive outside the
 # containers, on each vendor (default: fastdds cyclonedds). Needs what tools/test.sh has built; stops what it started.
 #
-# --build     compiles in the image instead of taking build/release/bin.
+# --build     compiles in the image instead of taking build/release/bin and lib.
 # RDS_SHARED  folder with recordings; without it a short sequence is rendered.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

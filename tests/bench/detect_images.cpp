@@ -90,6 +90,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--out", options.out, "file instead of the standard output");
   app.add_option("--model-dir", options.model_dir, "folder that is searched for networks first");
+  app.add_option("--precision", options.detector.precision, "f32 or bf16")
+      ->check(CLI::IsMember({"f32", "bf16"}));
   app.add_option("--backend", options.detector.backend, "inference library: openvino or opencv");
   app.add_option("--score", options.detector.score_threshold, "lowest score; 0: the network's own")
       ->check(CLI::Range(0., 1.));

@@ -137,6 +137,8 @@ int main(int argc, char** argv) {
   app.add_option("dataset", options.dataset, "TUM folder with people.json")->required();
   app.add_option("--every", options.every, "only every n-th frame")->check(CLI::PositiveNumber);
   app.add_option("--model-dir", options.model_dir, "folder that is searched for networks first");
+  app.add_option("--precision", options.detector.precision, "f32 or bf16")
+      ->check(CLI::IsMember({"f32", "bf16"}));
   app.add_option("--backend", options.detector.backend, "inference library: openvino or opencv");
   app.add_option("--score", options.detector.score_threshold, "lowest score; 0: the network's own")
       ->check(CLI::Range(0., 1.));

@@ -26,10 +26,8 @@ rds::image::ColorImage picture() {
   return {pixels, rds::image::ChannelOrder::kBgr, nullptr};
 }
 
-void detect(benchmark::State& state, const NetworkDescription& network, const std::string& backend) {
+void detect(benchmark::State& state, const NetworkDescription& network, DetectorConfig config) {
   try {
-    DetectorConfig config;
-    config.backend = backend;
     config.threads = static_cast<int>(state.range(0));
     Detector detector(load_network(network, model_folders()), config);
     const auto photo = picture();
@@ -46,17 +44,27 @@ void input(benchmark::State& state, const NetworkDescription& network) {
   for (auto _ : state) benchmark::DoNotOptimize(make_input(network.input, place, photo));
 }
 
+void register_detect(const NetworkDescription& network, const std::string& backend,
+                     const std::string& precision) {
+  DetectorConfig config;
+  config.backend = backend;
+  config.precision = precision;
+  const std::string name = fmt::format("detect/{}/{}/{}", network.name, backend, precision);
+  benchmark::RegisterBenchmark(name.c_str(), detect, network, config)
+      ->Arg(1)
+      ->Arg(2)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
 /// Networks are known at run time only.
 const bool kRegistered = [] {
   for (const NetworkDescription& network : shipped_networks()) {
     if (!find_file(network, model_folders())) continue;
-    for (const std::string& backend : backends())
-      benchmark::RegisterBenchmark(("detect/" + network.name + "/" + backend).c_str(), detect, network,
-                                   backend)
-          ->Arg(1)
-          ->Arg(2)
-          ->Unit(benchmark::kMillisecond)
-          ->UseRealTime();
+    for (const std::string& backend : backends()) {
+      register_detect(network, backend, "f32");
+      if (backend == "openvino") register_detect(network, backend, "bf16");
+    }
     benchmark::RegisterBenchmark(("input/" + network.name).c_str(), input, network)
         ->Unit(benchmark::kMicrosecond);
   }

@@ -30,7 +30,7 @@ class ThreadScope {
 
 std::unique_ptr<InferenceBackend> open_backend(const Network& network, const DetectorConfig& config) {
   try {
-    return make_backend(config.backend, network.weights, config.threads);
+    return make_backend(config, network.weights);
   } catch (const DetectorError& e) {
     throw DetectorError(
         fmt::format("{} ({}): {}", network.description.name, network.description.file, e.what()));

@@ -9,6 +9,7 @@ void read(config::ConfigReader& reader, DetectorConfig& config) {
   if (!config.backend.empty() && config.backend != "openvino" && config.backend != "opencv")
     reader.violation("backend", config.backend,
                      "expected openvino, opencv, or empty for the faster one built in");
+  reader.choice("precision", config.precision, {"f32", "bf16"});
   reader.value("threads", config.threads, 1, 64);
   reader.value("score_threshold", config.score_threshold, 0.0, 1.0);
   reader.value("other_label_iou", config.other_label_iou, 0.0, 1.0);

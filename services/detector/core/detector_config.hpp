@@ -10,10 +10,11 @@ namespace rds::detector {
 
 /// Settings of the detector; what belongs to one network is in its NetworkDescription.
 struct DetectorConfig {
-  std::string network;         // name of the network; empty: the best one whose file is found
-  std::string backend;         // inference library: openvino or opencv; empty: the first of backends()
-  int threads = 1;             // of the inference library
-  double score_threshold = 0;  // 0: the network's own
+  std::string network;            // name of the network; empty: the best one whose file is found
+  std::string backend;            // inference library: openvino or opencv; empty: the first of backends()
+  std::string precision = "f32";  // of the computation: f32, or bf16 (openvino only)
+  int threads = 1;                // of the inference library
+  double score_threshold = 0;     // 0: the network's own
   double other_label_iou =
       0.85;  // of two boxes with different labels that overlap by more, the worse is dropped; 1: never
   int max_boxes = 100;  // per picture, the best

@@ -15,14 +15,20 @@ using Onnx = std::span<const unsigned char>;
 
 struct Backend {
   const char* name;
-  std::unique_ptr<InferenceBackend> (*make)(Onnx onnx, int threads);
+  std::unique_ptr<InferenceBackend> (*make)(Onnx onnx, const DetectorConfig& config);
 };
+
+std::unique_ptr<InferenceBackend> make_opencv(Onnx onnx, const DetectorConfig& config) {
+  if (config.precision != "f32")
+    throw DetectorError(fmt::format("precision {}: backend 'opencv' computes in f32 only", config.precision));
+  return make_opencv_backend(onnx);
+}
 
 constexpr std::array kBuiltIn{
 #ifdef RDS_HAS_OPENVINO
     Backend{"openvino", make_openvino_backend},
 #endif
-    Backend{"opencv", [](Onnx onnx, int /*threads*/) { return make_opencv_backend(onnx); }},
+    Backend{"opencv", make_opencv},
 };
 
 }  // namespace
@@ -33,13 +39,13 @@ std::vector<std::string> backends() {
   return names;
 }
 
-std::unique_ptr<InferenceBackend> make_backend(const std::string& name, Onnx onnx, int threads) {
-  if (name.empty()) return kBuiltIn.front().make(onnx, threads);
-  const auto* backend = std::ranges::find(kBuiltIn, name, &Backend::name);
+std::unique_ptr<InferenceBackend> make_backend(const DetectorConfig& config, Onnx onnx) {
+  if (config.backend.empty()) return kBuiltIn.front().make(onnx, config);
+  const auto* backend = std::ranges::find(kBuiltIn, config.backend, &Backend::name);
   if (backend == kBuiltIn.end())
-    throw DetectorError(fmt::format("backend '{}' is not built into this program, expected one of: {}", name,
-                                    fmt::join(backends(), ", ")));
-  return backend->make(onnx, threads);
+    throw DetectorError(fmt::format("backend '{}' is not built into this program, expected one of: {}",
+                                    config.backend, fmt::join(backends(), ", ")));
+  return backend->make(onnx, config);
 }
 
 }  // namespace rds::detector

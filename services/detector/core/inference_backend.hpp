@@ -8,6 +8,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "services/detector/core/detector_config.hpp"
+
 namespace rds::detector {
 
 struct NamedTensor {
@@ -36,21 +38,25 @@ class InferenceBackend {
 /// was built, and opencv always.
 std::vector<std::string> backends();
 
-/// @param name     one of backends(); empty: the first.
-/// @param onnx     content of the ONNX file.
-/// @param threads  of the library, for this network.
-/// @throws DetectorError if the library is not built in or cannot read the network.
-std::unique_ptr<InferenceBackend> make_backend(const std::string& name, std::span<const unsigned char> onnx,
-                                               int threads);
+/// @param config  its backend (one of backends(); empty: the first), threads and precision.
+/// @param onnx    content of the ONNX file.
+/// @throws DetectorError if the library is not built in, does not compute in that precision, or cannot read
+/// the network.
+std::unique_ptr<InferenceBackend> make_backend(const DetectorConfig& config,
+                                               std::span<const unsigned char> onnx);
 
 /// OpenCV's DNN module on the CPU. It computes on as many threads as cv::setNumThreads() says at the time.
 ///
 /// @throws DetectorError if `onnx` is no network OpenCV can read.
 std::unique_ptr<InferenceBackend> make_opencv_backend(std::span<const unsigned char> onnx);
 
-/// OpenVINO on the CPU, in single precision, so that it finds what OpenCV finds. Only where it is built in.
+/// OpenVINO on the CPU. Only where it is built in.
 ///
+/// @param config  its threads, and its precision: "f32", so that it finds what OpenCV finds, or "bf16", which
+/// is
+///                faster where the processor has it.
 /// @throws DetectorError if `onnx` is no network OpenVINO can read.
-std::unique_ptr<InferenceBackend> make_openvino_backend(std::span<const unsigned char> onnx, int threads);
+std::unique_ptr<InferenceBackend> make_openvino_backend(std::span<const unsigned char> onnx,
+                                                        const DetectorConfig& config);
 
 }  // namespace rds::detector

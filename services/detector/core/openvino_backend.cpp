@@ -21,19 +21,19 @@ std::string name_and_version() {
   return "OpenVINO " + build.substr(0, build.find('-'));
 }
 
-/// One picture at a time on `threads` threads, which the system places; in single precision on every
-/// processor.
-ov::AnyMap settings(int threads) {
+/// One picture at a time, on threads that the system places. The precision is said, because OpenVINO by
+/// itself takes the processor's fastest.
+ov::AnyMap settings(const DetectorConfig& config) {
   return {ov::hint::performance_mode(ov::hint::PerformanceMode::LATENCY),
-          ov::hint::inference_precision(ov::element::f32), ov::hint::enable_cpu_pinning(false),
-          ov::inference_num_threads(threads), ov::num_streams(1)};
+          ov::hint::inference_precision(config.precision == "bf16" ? ov::element::bf16 : ov::element::f32),
+          ov::hint::enable_cpu_pinning(false), ov::inference_num_threads(config.threads), ov::num_streams(1)};
 }
 
-ov::CompiledModel compile(std::span<const unsigned char> onnx, int threads) {
+ov::CompiledModel compile(std::span<const unsigned char> onnx, const DetectorConfig& config) {
   try {
     ov::Core core;
     const std::string content(onnx.begin(), onnx.end());
-    return core.compile_model(core.read_model(content, ov::Tensor()), "CPU", settings(threads));
+    return core.compile_model(core.read_model(content, ov::Tensor()), "CPU", settings(config));
   } catch (const std::exception& e) {
     throw DetectorError(fmt::format("the network is not an ONNX graph that {} can compute: {}",
                                     name_and_version(), reason(e)));
@@ -42,8 +42,8 @@ ov::CompiledModel compile(std::span<const unsigned char> onnx, int threads) {
 
 class OpenVinoBackend final : public InferenceBackend {
  public:
-  OpenVinoBackend(std::span<const unsigned char> onnx, int threads)
-      : network_(compile(onnx, threads)), request_(network_.create_infer_request()) {}
+  OpenVinoBackend(std::span<const unsigned char> onnx, const DetectorConfig& config)
+      : network_(compile(onnx, config)), request_(network_.create_infer_request()) {}
 
   std::vector<NamedTensor> infer(const cv::Mat& input) override {
     try {
@@ -76,8 +76,9 @@ class OpenVinoBackend final : public InferenceBackend {
 
 }  // namespace
 
-std::unique_ptr<InferenceBackend> make_openvino_backend(std::span<const unsigned char> onnx, int threads) {
-  return std::make_unique<OpenVinoBackend>(onnx, threads);
+std::unique_ptr<InferenceBackend> make_openvino_backend(std::span<const unsigned char> onnx,
+                                                        const DetectorConfig& config) {
+  return std::make_unique<OpenVinoBackend>(onnx, config);
 }
 
 }  // namespace rds::detector

@@ -127,6 +127,18 @@ TEST(Detector, NamesTheBackEndsThatItHas) {
   }
 }
 
+TEST(Detector, RefusesAPrecisionThatItsBackEndDoesNotHave) {
+  DetectorConfig config;
+  config.backend = "opencv";
+  config.precision = "bf16";
+  try {
+    static_cast<void>(Detector({description(), {}}, config));
+    FAIL() << "OpenCV was asked for bf16";
+  } catch (const DetectorError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("precision bf16: backend 'opencv' computes in f32 only"));
+  }
+}
+
 TEST(Detector, LeavesOpenCvsNumberOfThreadsAlone) {
   cv::setNumThreads(2);
   const int before = cv::getNumThreads();

@@ -35,6 +35,7 @@ constexpr std::array kBuiltIn{
 
 std::vector<std::string> backends() {
   std::vector<std::string> names;
+  names.reserve(kBuiltIn.size());
   for (const Backend& backend : kBuiltIn) names.emplace_back(backend.name);
   return names;
 }

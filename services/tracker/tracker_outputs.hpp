@@ -15,8 +15,8 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/PredictedBoxes.h"
 #include "rds_msgs/msg/TrackingState.h"
+#include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
-#include "services/tracker/movable_objects.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
 namespace rds::tracker {

@@ -53,6 +53,14 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
       percentile(times.snapshot, .5), percentile(times.apply, .5), percentile(times.apply, 1));
 }
 
+void print_removal(const rds::test::RemovalFigures& removal) {
+  if (removal.frames == 0) return;
+  const double n = removal.frames;
+  fmt::print(
+      "removed of people {:.4f} of the rest {:.4f}; features on people {:.4f} of those used; {} frames\n",
+      removal.people / n, removal.rest / n, removal.features / n, removal.frames);
+}
+
 int run(const Options& options) {
   const auto dataset = rds::image::TumDataset::open(options.dataset);
   if (!dataset) throw std::runtime_error(dataset.error());
@@ -69,6 +77,7 @@ int run(const Options& options) {
   write(options.out, sequence.optimized());
   write(options.out + ".live", sequence.live());
   print_figures(sequence);
+  print_removal(sequence.removal());
   return 0;
 }
 
@@ -87,6 +96,10 @@ int main(int argc, char** argv) {
   app.add_option("--start", options.start, "first frame");
   app.add_option("--frames", options.frames, "number of frames, 0 for all");
   app.add_flag("--truth-boxes", options.sequence.truth_boxes, "give people.json's boxes with every frame");
+  app.add_option("--detections", options.sequence.detections,
+                 "detections of every frame (detect_images); keyframes get theirs, late");
+  app.add_option("--pictures", options.sequence.pictures, "existing folder for pictures of what is removed");
+  app.add_flag("--masks", options.sequence.masks, "compare what is removed with masks/");
   app.add_flag("--late-boxes", options.sequence.late_boxes,
                "retract people.json's boxes from keyframes, late");
   app.add_flag("--no-mapping", options.sequence.no_mapping, "no local mapping");

@@ -10,6 +10,7 @@
 
 #include "common/geometry/trajectory.hpp"
 #include "common/image/tum_dataset.hpp"
+#include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::test {
@@ -18,6 +19,9 @@ struct TrackerSequenceOptions {
   std::size_t mapping_latency = 3;  // frames until a local mapping result is applied
   std::size_t box_latency = 2;      // frames until late boxes are applied
   bool truth_boxes = false;         // people.json's boxes are given with every frame
+  std::string detections;           // detections.jsonl with every frame: keyframes get theirs, late
+  bool masks = false;               // compares with masks/
+  std::string pictures;             // folder for pictures of what is removed, every tenth frame
   bool late_boxes = false;          // people.json's boxes are taken back from keyframes
   bool no_mapping = false;
   bool verbose = false;  // one line per frame on stdout
@@ -28,6 +32,14 @@ struct TrackerTimes {
   std::vector<double> total;         // per frame
   std::vector<double> extract_wall;  // per frame; by the clock
   std::vector<double> mapping, snapshot, apply;
+};
+
+/// What was removed, compared with masks/, over the frames with people.
+struct RemovalFigures {
+  int frames = 0;
+  double people = 0;    // sums over frames: share of the people's pixels that was removed,
+  double rest = 0;      // … of all others,
+  double features = 0;  // and of the features that support the pose the share that lies on people
 };
 
 /// The tracker core over a recording, in lockstep, without bus, threads and loop closer.
@@ -46,6 +58,7 @@ class TrackerSequence {
   [[nodiscard]] std::vector<geometry::StampedPose> optimized() const;
   [[nodiscard]] const TrackerTimes& times() const { return times_; }
   [[nodiscard]] const std::map<int, int>& frames_by_state() const { return states_; }
+  [[nodiscard]] const RemovalFigures& removal() const { return removal_; }
   [[nodiscard]] int keyframes_made() const { return keyframes_; }
   [[nodiscard]] const tracker::Tracker& tracker() const { return tracker_; }
 
@@ -55,13 +68,29 @@ class TrackerSequence {
     std::uint64_t reference;
     geometry::Pose reference_from_camera;
   };
+  struct Detected {
+    geometry::Box2 box;
+    std::string label;
+    float score;
+    double depth_m;
+  };
   struct DueBoxes {
     std::size_t at;
     std::size_t frame;
     std::uint64_t keyframe;
+    geometry::Pose map_from_camera;
+    geometry::CameraModel camera;
   };
+  static std::vector<std::vector<Detected>> read_detections(const std::string& file);
 
   void record(std::size_t i, const tracker::FrameResult& result);
+  void draw_removal(const image::RgbdFrame& frame, std::size_t i,
+                    const std::vector<tracker::MovableRegion>& regions,
+                    const tracker::FrameResult& result) const;
+  void compare_removal(std::size_t i, const tracker::FrameResult& result);
+  void apply_boxes(const DueBoxes& due);
+  [[nodiscard]] std::vector<tracker::MovableRegion> regions(std::size_t i,
+                                                            const image::RgbdFrame& frame) const;
   void apply_due(std::size_t i);
   void run_mapping(std::size_t i);
 
@@ -70,7 +99,10 @@ class TrackerSequence {
   tracker::TrackerConfig config_;
   tracker::Tracker tracker_;
   std::vector<std::vector<tracker::MovableRegion>> boxes_;  // by frame
+  std::vector<std::vector<Detected>> detections_;           // by frame
+  tracker::MovableObjects objects_;
   std::deque<DueBoxes> due_boxes_;
+  RemovalFigures removal_;
   std::optional<tracker::LocalMappingResult> result_;
   std::size_t result_due_ = 0;
   std::vector<geometry::StampedPose> live_;

@@ -8,16 +8,8 @@
 #include "common/geometry/camera_model.hpp"
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/feature.hpp"
-#include "services/tracker/core/movable_region.hpp"
 
 namespace rds::tracker {
-
-/// True if a feature at this pixel of the picture is in the region: inside the box, and its depth in the
-/// interval or unknown (0).
-inline bool covers(const MovableRegion& region, const Eigen::Vector2f& image_px, float depth_m) {
-  return region.box_px.contains(image_px.x(), image_px.y()) &&
-         (depth_m <= 0 || (depth_m >= region.min_depth_m && depth_m <= region.max_depth_m));
-}
 
 /// The features of one picture with a grid for look-up by place. Immutable once built; shared by frame,
 /// keyframe and mapping jobs.

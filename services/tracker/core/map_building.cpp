@@ -112,15 +112,13 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
   return culled;
 }
 
-void retract_movable(SlamMap& map, KeyframeId id, std::span<const MovableRegion> regions,
-                     const DepthConfig& depth, const MapConfig& config) {
+void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, const DepthConfig& depth,
+                     const MapConfig& config) {
   Keyframe* keyframe = map.keyframe(id);
-  if (keyframe == nullptr || regions.empty()) return;
+  if (keyframe == nullptr || !movable.any()) return;
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
     const Feature& f = (*keyframe->features)[i];
-    if (!std::ranges::any_of(regions,
-                             [&](const MovableRegion& r) { return covers(r, f.image_px, f.depth_m); }))
-      continue;
+    if (!movable.covers(f.image_px)) continue;
     keyframe->movable[i] = true;
     const MapPoint* point = map.point(keyframe->points[i]);
     if (point == nullptr) continue;

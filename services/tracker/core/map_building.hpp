@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/tracker/core/association.hpp"
+#include "services/tracker/core/removal/movable_mask.hpp"
 
 namespace rds::tracker {
 
@@ -31,7 +32,7 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
 /// points there, and never makes points of these features again. In their place it makes points of its other
 /// features, as insert_keyframe() does: the nearest ones may all have been on people. Unknown keyframes are
 /// ignored.
-void retract_movable(SlamMap& map, KeyframeId keyframe, std::span<const MovableRegion> regions,
-                     const DepthConfig& depth, const MapConfig& config);
+void retract_movable(SlamMap& map, KeyframeId keyframe, const MovableMask& movable, const DepthConfig& depth,
+                     const MapConfig& config);
 
 }  // namespace rds::tracker

@@ -8,9 +8,8 @@
 namespace rds::tracker {
 namespace {
 
-constexpr float kBorder = 8;       // px of the picture that a patch needs around it
-constexpr double kAnyDepth = 1e3;  // m
-constexpr float kCell = 32;        // px, side of the parts of the picture that points are spread over
+constexpr float kBorder = 8;  // px of the picture that a patch needs around it
+constexpr float kCell = 32;   // px, side of the parts of the picture that points are spread over
 constexpr std::size_t kPointsPerPart = 32;
 
 /// A map point that the picture should show.
@@ -20,15 +19,6 @@ struct Expected {
   int level;
   bool hidden;  // by something movable
 };
-
-bool is_hidden(const FollowingView& view, const Eigen::Vector2f& px, double depth_m) {
-  if (view.movable.empty()) return false;
-  const float measured = depth_at(view.picture.depth, px, kAnyDepth);
-  const auto hides = [&](const MovableRegion& region) {
-    return covers(region, px, static_cast<float>(depth_m)) || (measured > 0 && covers(region, px, measured));
-  };
-  return std::ranges::any_of(view.movable, hides);
-}
 
 std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                              const Eigen::Vector3d& camera_in_map, const ObservationModel& model,
@@ -46,7 +36,7 @@ std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points
     const Eigen::Vector2f px =
         project_rolling(camera, view.motion, view.camera_from_map * point->position).cast<float>();
     if ((px.array() >= kBorder).all() && (px.array() <= largest.array()).all())
-      all.push_back({point, px, projected->level, is_hidden(view, px, projected->depth)});
+      all.push_back({point, px, projected->level, view.movable.covers(px)});
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/association.hpp"
 #include "services/tracker/core/image_pyramid.hpp"
+#include "services/tracker/core/removal/movable_mask.hpp"
 #include "services/tracker/core/run_parts.hpp"
 
 namespace rds::tracker {
@@ -15,7 +16,7 @@ namespace rds::tracker {
 struct FollowingView {
   const image::RgbdFrame& picture;
   const ImagePyramid& images;               // of the picture
-  std::span<const MovableRegion> movable;   // where static points are hidden
+  const MovableMask& movable;               // where static points are hidden
   Pose camera_from_map = Pose::Identity();  // near to the truth: features are a few pixels off at most
   ShutterMotion motion;
 };

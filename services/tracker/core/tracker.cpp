@@ -11,6 +11,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kLastingObservers = 3;  // keyframes and …
+constexpr std::uint32_t kLastingFound = 8;    // frames that saw a point that lasts
+
 std::int64_t microseconds_since(Clock::time_point start) {
   return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
 }
@@ -44,6 +47,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts r
       run_parts_(std::move(run_parts)),
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction, run_parts_),
+      cut_(config.removal, config.depth.max_depth_m),
       map_(config.map, pyramid_),
       calibration_(config.self_calibration) {}
 
@@ -62,17 +66,13 @@ void Tracker::start_from(SavedMap&& saved) {
   state_ = State::kLost;
 }
 
-void Tracker::extract(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                      TrackedFrame& frame, FrameResult& result) {
+void Tracker::extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
+                      FrameResult& result) {
   const auto start = Clock::now();
   std::vector<Feature> features;
   features.reserve(static_cast<std::size_t>(config_.extraction.features));
   MovableTest is_movable;
-  if (!movable.empty())
-    is_movable = [&](const Eigen::Vector2f& px) {
-      const float depth = depth_at(picture.depth, px, config_.depth.max_depth_m);
-      return std::ranges::any_of(movable, [&](const MovableRegion& r) { return covers(r, px, depth); });
-    };
+  if (movable.any()) is_movable = [&](const Eigen::Vector2f& px) { return movable.covers(px); };
   extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
   frame.motion = shutter_motion(picture.stamp_ns);
@@ -100,7 +100,34 @@ image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
   return picture;
 }
 
-FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> movable) {
+/// Where the camera is by the last frame's points or by the motion model; nullopt where neither says
+/// anything.
+std::optional<Pose> Tracker::guess_pose(const image::RgbdFrame& picture) const {
+  if (given_poses_) {
+    const auto given = given_poses_(picture.stamp_ns);
+    return given ? std::optional(given->inverse()) : std::nullopt;
+  }
+  if (!last_ || !has_pose(state_)) return std::nullopt;
+  return follows_points() ? align_with_last(picture) : expected_camera_from_map(picture.stamp_ns);
+}
+
+/// Points around the last frame, in the camera frame, that have been found where they are for long.
+std::vector<Eigen::Vector3f> Tracker::lasting_points(const Pose& camera_from_map) {
+  std::vector<Eigen::Vector3f> points;
+  if (!last_) return points;
+  const auto take = [&](PointId id) {
+    const MapPoint* point = map_.point(id);
+    if (point == nullptr || point->observations.size() < kLastingObservers || point->found < kLastingFound ||
+        2 * point->found < point->visible)
+      return;
+    points.push_back((camera_from_map * point->position).cast<float>());
+  };
+  std::ranges::for_each(last_->frame.points, take);
+  std::ranges::for_each(select_local_map(map_, last_->frame, config_.map, ++mark_).points, take);
+  return points;
+}
+
+FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
   index_newest_keyframe();
@@ -108,14 +135,18 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();
   look_at(picture);
+  const auto guess = guess_pose(picture);
+  const MovableMask movable =
+      cut_.cut(given, guess, regions, guess ? lasting_points(*guess) : std::vector<Eigen::Vector3f>());
   TrackedFrame frame;
-  const KeyframeNeed need = follow_map(picture, movable, frame)
+  const KeyframeNeed need = follow_map(picture, guess, movable, frame)
                                 ? follow_with_keyframe(picture, movable, frame, result)
                                 : track_features(picture, movable, frame, result);
   result.state = state_;
   result.features = static_cast<unsigned>(frame.features->size());
   result.dynamic_features =
       static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
+  result.verdicts = verdicts(frame);
   if (has_pose(state_)) {
     result.inliers = static_cast<unsigned>(frame.matches());
     if (need != KeyframeNeed::kNone) add_keyframe(need, frame, result);
@@ -123,7 +154,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
     result.reference_keyframe_id = reference_;
     result.reference_from_camera = map_.pose_of(reference_).inverse() * result.map_from_camera;
   }
-  result.verdicts = verdicts(frame);
+  result.movable = movable;
   remember(std::move(frame), state_);
   result.times.track_us = microseconds_since(start) - result.times.extract_us;
   return result;
@@ -137,7 +168,7 @@ void Tracker::look_at(const image::RgbdFrame& picture) {
 }
 
 /// Extracts features and finds the pose from them. @return what else the frame is to become.
-KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, const MovableMask& movable,
                                      TrackedFrame& frame, FrameResult& result) {
   extract(picture, movable, frame, result);
   if (given_poses_)
@@ -147,7 +178,7 @@ KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, std::span<
   else
     state_ = track_motion(frame);
   if (!has_pose(state_) || result.keyframe) return KeyframeNeed::kNone;
-  return keyframe_need(frame, !movable.empty());
+  return keyframe_need(frame, movable.any());
 }
 
 void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {

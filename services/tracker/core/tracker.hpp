@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include "services/tracker/core/local_mapping.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
 #include "services/tracker/core/point_following.hpp"
+#include "services/tracker/core/removal/movable_cut.hpp"
 #include "services/tracker/core/rolling_shutter.hpp"
 #include "services/tracker/core/se3.hpp"
 #include "services/tracker/core/self_calibration.hpp"
@@ -98,6 +100,10 @@ class Tracker {
     KeyframeId reference = kNoId;
     Pose reference_from_camera = Pose::Identity();
   };
+  struct KeyframeDepth {
+    KeyframeId keyframe = kNoId;
+    cv::Mat1f cells_m;
+  };
   struct KnownView {
     KeyframeId keyframe = kNoId;
     double change = std::numeric_limits<double>::infinity();  // from there, as view_change() says
@@ -108,18 +114,19 @@ class Tracker {
   [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
-  KeyframeNeed track_features(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+  [[nodiscard]] std::optional<Pose> guess_pose(const image::RgbdFrame& picture) const;
+  [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Pose& camera_from_map);
+  KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,
                               TrackedFrame& frame, FrameResult& result);
-  void extract(const image::RgbdFrame& picture, std::span<const MovableRegion> movable, TrackedFrame& frame,
+  void extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
                FrameResult& result);
   void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
                     TrackedFrame& frame) const;
-  [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture,
-                                     std::span<const MovableRegion> movable) const;
+  [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
   [[nodiscard]] std::vector<PointId> points_to_follow(const LocalMap& local) const;
-  bool follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                  TrackedFrame& frame);
-  KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
+  bool follow_map(const image::RgbdFrame& picture, const std::optional<Pose>& guess,
+                  const MovableMask& movable, TrackedFrame& frame);
+  KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
                                     TrackedFrame& frame, FrameResult& result);
   void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
   void initialize(TrackedFrame& frame, FrameResult& result);
@@ -152,6 +159,7 @@ class Tracker {
   RunParts run_parts_;
   ScalePyramid pyramid_;
   OrbExtractor extractor_;
+  MovableCut cut_;
   SlamMap map_;
   SelfCalibration calibration_;
   double given_fx_ = 0;                 // px, of the newest picture; another one is another camera
@@ -175,6 +183,7 @@ class Tracker {
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;
   std::uint64_t mark_ = 0;
+  std::deque<KeyframeDepth> depth_of_keyframes_;  // of those whose boxes may still come
   std::vector<PointId> recent_points_;
 };
 

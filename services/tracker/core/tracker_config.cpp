@@ -117,6 +117,7 @@ void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("self_calibration"), config.self_calibration);
   read(reader.section("pose"), config.pose);
   read(reader.section("following"), config.following);
+  read(reader.section("removal"), config.removal);
   read(reader.section("matching"), config.matching);
   read(reader.section("keyframe"), config.keyframe);
   read(reader.section("map"), config.map);

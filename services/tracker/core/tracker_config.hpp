@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/config/config_reader.hpp"
+#include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
 
@@ -140,6 +141,7 @@ struct TrackerConfig {
   SelfCalibrationConfig self_calibration;
   PoseOptimizationConfig pose;
   FollowingConfig following;
+  RemovalConfig removal;
   MatchingConfig matching;
   KeyframeConfig keyframe;
   MapConfig map;

@@ -32,7 +32,7 @@ int covered_cells(const TrackedFrame& frame) {
 }  // namespace
 
 /// Pose from how the last frame's points look now.
-Pose Tracker::align_with_last(const image::RgbdFrame& picture, std::span<const MovableRegion> movable) const {
+Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
   const Pose last_map_from_camera = this->last_map_from_camera();
   const Pose last_camera_from_map = last_map_from_camera.inverse();
   std::vector<SeenPoint> seen;
@@ -41,8 +41,7 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture, std::span<const M
     if (point == nullptr) continue;
     const Feature& f = (*last_->frame.features)[i];
     const Eigen::Vector3d p = last_camera_from_map * point->position;
-    const auto hides = [&](const MovableRegion& r) { return covers(r, f.image_px, f.depth_m); };
-    if (p.z() > kMinDepth && std::ranges::none_of(movable, hides)) seen.push_back({f.image_px, p});
+    if (p.z() > kMinDepth) seen.push_back({f.image_px, p});
   }
   Pose expected = expected_camera_from_map(picture.stamp_ns);
   if (seen.size() < kEnoughToAlign) return expected;
@@ -60,16 +59,16 @@ std::vector<PointId> Tracker::points_to_follow(const LocalMap& local) const {
   return ids;
 }
 
-bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const MovableRegion> movable,
-                         TrackedFrame& frame) {
+bool Tracker::follow_map(const image::RgbdFrame& picture, const std::optional<Pose>& guess,
+                         const MovableMask& movable, TrackedFrame& frame) {
   const FollowingConfig& config = config_.following;
-  const bool allowed = follows_points() && (movable.empty() || config.while_movable);
+  const bool allowed = follows_points() && (!movable.any() || config.while_movable);
   const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
-  if (!allowed || !located || !last_) return false;
+  if (!allowed || !located || !guess) return false;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
   frame.stamp_ns = picture.stamp_ns;
-  frame.camera_from_map = align_with_last(picture, movable);
+  frame.camera_from_map = *guess;
   frame.motion = shutter_motion(picture.stamp_ns);
   const ObservationModel model(picture.camera, config_.depth);
   FollowedPoints followed = follow_points(map_, points_to_follow(local),
@@ -92,15 +91,14 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, std::span<const Movabl
 
 /// If the map needs the frame, extracts features where the pose is known.
 /// @return what the frame is to become.
-KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture,
-                                           std::span<const MovableRegion> movable, TrackedFrame& frame,
-                                           FrameResult& result) {
+KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
+                                           TrackedFrame& frame, FrameResult& result) {
   if (!last_keyframe_ns_) return KeyframeNeed::kNone;
   const KnownView view = nearest_view(frame);
   const int covered = covered_cells(frame);
   if (view.keyframe != followed_view_) covered_at_view_ = covered;
   followed_view_ = view.keyframe;
-  KeyframeFacts facts = keyframe_facts(frame, !movable.empty(), covered, view.change);
+  KeyframeFacts facts = keyframe_facts(frame, movable.any(), covered, view.change);
   facts.reference_points = covered_at_view_;
   const KeyframeNeed need = tracker::keyframe_need(facts, config_.keyframe);
   if (need != KeyframeNeed::kMap) return need;

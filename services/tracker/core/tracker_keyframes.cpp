@@ -11,7 +11,8 @@
 namespace rds::tracker {
 namespace {
 
-constexpr std::size_t kWellObserved = 2;  // keyframes, of a point that the reference keyframe can rely on
+constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
+constexpr std::size_t kWellObserved = 2;    // keyframes, of a point that the reference keyframe can rely on
 
 double seconds(std::int64_t duration_ns) {
   constexpr double kNsPerSecond = 1e9;
@@ -157,6 +158,8 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, config_.map, recent_points_);
   mapping_centre_ = keyframe.id;
+  depth_of_keyframes_.push_back({keyframe.id, cut_.latest_depth()});
+  if (depth_of_keyframes_.size() > kAwaitingBoxes) depth_of_keyframes_.pop_front();
 }
 
 /// Makes the newest keyframe a place that a lost camera can find itself by.
@@ -203,12 +206,16 @@ void Tracker::apply(const LocalMappingResult& result) {
 void Tracker::apply(const PoseGraphCorrection& correction) {
   if (given_poses_) return;
   apply_correction(map_, correction.poses);
+  cut_.forget();
   ++revision_;
 }
 
 void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
   const PointId first_new = map_.next_point_id();
-  tracker::retract_movable(map_, keyframe_id, regions, config_.depth, config_.map);
+  const auto depth = std::ranges::find(depth_of_keyframes_, keyframe_id, &KeyframeDepth::keyframe);
+  if (depth == depth_of_keyframes_.end()) return;
+  tracker::retract_movable(map_, keyframe_id, cut_.cut_late(depth->cells_m, regions), config_.depth,
+                           config_.map);
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
 }
 

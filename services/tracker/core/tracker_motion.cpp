@@ -163,6 +163,7 @@ State Tracker::track_motion(TrackedFrame& frame) {
 
 void Tracker::remember(TrackedFrame&& frame, State state) {
   if (!has_pose(state)) return;
+  cut_.remember(frame.camera_from_map.inverse());
   velocity_ = state == State::kRelocalised ? std::nullopt : motion_to(frame);
   const Pose reference_from_camera = map_.pose_of(reference_).inverse() * frame.camera_from_map.inverse();
   last_ = LastFrame{std::move(frame), images_, reference_, reference_from_camera};

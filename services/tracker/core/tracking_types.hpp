@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "services/tracker/core/removal/movable_mask.hpp"
 #include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker {
@@ -69,6 +70,7 @@ struct FrameResult {
   unsigned dynamic_features = 0;  // of these on movable objects
   unsigned inliers = 0;           // map points that support the pose
   StageTimes times;
+  MovableMask movable;                    // whose features were dropped
   std::optional<KeyframeData> keyframe;   // if the frame became one
   std::vector<KeypointVerdict> verdicts;  // one per feature
 };

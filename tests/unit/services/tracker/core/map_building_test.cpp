@@ -71,25 +71,25 @@ TEST_F(MapBuilding, RedundantKeyframesGoTheFirstAndTheNewestStay) {
 TEST_F(MapBuilding, LateBoxesTakeBackWhatTheKeyframeMadeInThem) {
   add(Pose::Identity());
   const Keyframe& second = add(test::pose(0.3, 0, 0));
-  const std::vector<MovableRegion> regions{{{0, 0, 160, 240}, 1.5F, 2.5F}};
+  const MovableMask movable = test::mask_of({0, 0, 160, 240});
   std::vector<PointId> made, older, outside;
   for (std::size_t f = 0; f < second.points.size(); ++f) {
     const Feature& feature = (*second.features)[f];
-    auto& list = !covers(regions[0], feature.image_px, feature.depth_m) ? outside
+    auto& list = !movable.covers(feature.image_px)                      ? outside
                  : map.point(second.points[f])->created_by == second.id ? made
                                                                         : older;
     list.push_back(second.points[f]);
   }
   ASSERT_FALSE(older.empty());
   ASSERT_FALSE(outside.empty());
-  retract_movable(map, second.id, regions, DepthConfig{}, MapConfig{});
+  retract_movable(map, second.id, movable, DepthConfig{}, MapConfig{});
   for (const PointId p : made) EXPECT_EQ(map.point(p), nullptr);
   for (const PointId p : older) {
     ASSERT_NE(map.point(p), nullptr);
     EXPECT_EQ(map.point(p)->observations.size(), 1U);
   }
   for (const PointId p : outside) EXPECT_NE(map.point(p), nullptr);
-  retract_movable(map, 99, regions, DepthConfig{}, MapConfig{});  // unknown: ignored
+  retract_movable(map, 99, movable, DepthConfig{}, MapConfig{});  // unknown: ignored
 }
 
 }  // namespace

@@ -37,8 +37,7 @@ class PointFollowing : public ::testing::Test {
     map.all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
   }
 
-  FollowedPoints follow(std::span<const MovableRegion> movable = {},
-                        const RunParts& run_parts = run_in_turn) {
+  FollowedPoints follow(const MovableMask& movable = {}, const RunParts& run_parts = run_in_turn) {
     return follow_points(map, all, {picture, images, movable, camera.inverse(), {}},
                          ObservationModel(picture.camera, DepthConfig{}), pyramid, config, run_parts);
   }
@@ -82,8 +81,7 @@ TEST_F(PointFollowing, CorrectsAPoseThatIsTwoPixelsOff) {
 TEST_F(PointFollowing, FindsTheSameWithAHelper) {
   concurrency::HelperThread helper;
   const auto with_helper = [&](std::size_t count, const auto& part) { helper.run(count, part); };
-  const std::vector<MovableRegion> movable{
-      {.box_px = {50, 60, 130, 200}, .min_depth_m = 0, .max_depth_m = 9}};
+  const MovableMask movable = test::mask_of({50, 60, 80, 140});
   for (const int points : {0, 30, 130, 400}) {
     config.points = points;
     const FollowedPoints alone = follow(movable);
@@ -107,7 +105,7 @@ TEST_F(PointFollowing, StopsAtTheBudgetAndSpreadsIt) {
 }
 
 TEST_F(PointFollowing, DoesNotLookWhereSomethingMovableHides) {
-  const std::vector<MovableRegion> left{{{0, 0, 160, 240}, 0.5F, 4}};
+  const MovableMask left = test::mask_of({0, 0, 160, 240});
   const FollowedPoints followed = follow(left);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < followed.points.size(); ++i) {
@@ -118,11 +116,6 @@ TEST_F(PointFollowing, DoesNotLookWhereSomethingMovableHides) {
     hidden += followed.features[i].movable ? 1 : 0;
   }
   EXPECT_GT(hidden, 30U);
-}
-
-TEST_F(PointFollowing, SomethingBehindThePointsHidesNothing) {
-  const std::vector<MovableRegion> behind{{{0, 0, 320, 240}, 3.0F, 4}};
-  EXPECT_EQ(follow(behind).points, follow().points);
 }
 
 TEST_F(PointFollowing, FindsNothingOfWhatIsCovered) {

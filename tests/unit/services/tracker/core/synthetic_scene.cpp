@@ -97,6 +97,13 @@ image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp
   return frame;
 }
 
+MovableMask mask_of(const cv::Rect& px) {
+  const geometry::CameraModel camera = small_camera();
+  cv::Mat1b cells(camera.height, camera.width, std::uint8_t{0});
+  cells(px).setTo(255);
+  return {cells, 1};
+}
+
 image::RgbdFrame dark_picture(std::int64_t stamp_ns) {
   image::RgbdFrame frame = picture_of_wall(Pose::Identity(), stamp_ns);
   frame.color.pixels.setTo(0);

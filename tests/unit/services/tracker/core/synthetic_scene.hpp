@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
+#include "services/tracker/core/removal/movable_mask.hpp"
 #include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker::test {
@@ -21,6 +22,9 @@ Twist quick_motion();
 /// What a camera sees of a wall with random texture at z = 2 m; depth in metres.
 image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
                                  const geometry::CameraModel& camera = small_camera());
+
+/// A mask of the small camera's picture that covers these pixels.
+MovableMask mask_of(const cv::Rect& px);
 
 /// The same camera with its lens covered.
 image::RgbdFrame dark_picture(std::int64_t stamp_ns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/movable_objects.hpp"
+#include "services/tracker/core/prediction/movable_objects.hpp"
 
 namespace rds::tracker {
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/removal/box_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "services/tracker/core/removal/background_planes.hpp"
+#include "services/tracker/core/removal/surface_growth.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr double kHardlyMeasured = 0.3;  // share of a box's cells that have a depth
+constexpr int kPlaneStride = 2;          // cells, between those that are asked for planes
+constexpr double kThickness_m = 0.25;    // in front of and behind what has moved
+constexpr int kHoleRadius = 3;           // cells around a cell without depth that are asked
+
+cv::Rect cells_of(const geometry::Box2& box, const GridGeometry& grid, double margin_px) {
+  const double cell = grid.cell_px();
+  const int x0 = static_cast<int>(std::floor((box.x0 - margin_px) / cell));
+  const int y0 = static_cast<int>(std::floor((box.y0 - margin_px) / cell));
+  const int x1 = static_cast<int>(std::ceil((box.x1 + margin_px) / cell));
+  const int y1 = static_cast<int>(std::ceil((box.y1 + margin_px) / cell));
+  return cv::Rect(x0, y0, x1 - x0, y1 - y0) & cv::Rect({0, 0}, grid.size());
+}
+
+/// Where the depths of a thing in these cells can be, that far around them.
+GrowthLimits around(const geometry::Box2& box, const GridGeometry& grid, double margin_m,
+                    const MovableRegion& region, const RemovalConfig& config) {
+  const double middle_m = std::max(0.3, (region.min_depth_m + region.max_depth_m) / 2.0);
+  return {cells_of(box, grid, grid.camera().fx * margin_m / middle_m), region.min_depth_m, region.max_depth_m,
+          config.step_m};
+}
+
+void cut_box(const cv::Mat1f& depth_m, const GridGeometry& grid, const MovableRegion& region,
+             const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
+  const cv::Rect box = cells_of(region.box_px, grid, 0);
+  if (box.empty()) return;
+  const int measured = cv::countNonZero(depth_m(box));
+  if (measured < kHardlyMeasured * box.area()) mask(box).setTo(255, depth_m(box) == 0);
+  cv::Mat1f in_front = depth_m.clone();
+  in_front.setTo(0, background);
+  const auto surfaces = surfaces_within(in_front, around(region.box_px, grid, 0, region, config));
+  const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
+  for (const auto& surface : surfaces) {
+    if (static_cast<double>(surface.size()) < config.min_component * static_cast<double>(surfaces[0].size()))
+      break;
+    for (const cv::Point& cell : surface) mask(cell) = 255;
+    grow_surface(in_front, cv::Mat1b(), reach, surface, mask);
+  }
+}
+
+}  // namespace
+
+void cut_boxes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
+               const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
+  for (const MovableRegion& region : regions) cut_box(depth_m, grid, region, background, config, mask);
+}
+
+void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
+                 cv::Mat1b suspect, cv::Mat1b& background, cv::Mat1b& wide) {
+  fill_boxes(grid, regions, suspect);
+  std::vector<cv::Point> outside;
+  for (int r = 0; r < depth_m.rows; r += kPlaneStride)
+    for (int c = 0; c < depth_m.cols; c += kPlaneStride)
+      if (depth_m(r, c) > 0 && (suspect(r, c) == 0 || background(r, c) != 0)) outside.emplace_back(c, r);
+  for (const Plane& plane : find_planes(depth_m, grid, outside))
+    for (int r = 0; r < depth_m.rows; ++r)
+      for (int c = 0; c < depth_m.cols; ++c)
+        if (depth_m(r, c) > 0 && lies_on(plane, depth_m, grid, {c, r})) {
+          background(r, c) = 255;
+          if (plane.wide) wide(r, c) = 255;
+        }
+}
+
+void cut_around(const cv::Mat1f& depth_m, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+                const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
+  std::vector<float> depths;
+  depths.reserve(cells.size());
+  for (const cv::Point& cell : cells) depths.push_back(depth_m(cell));
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const cv::Rect box = cv::boundingRect(cells);
+  const int px = grid.cell_px();
+  const MovableRegion region{{static_cast<double>(box.x * px), static_cast<double>(box.y * px),
+                              static_cast<double>(box.br().x * px), static_cast<double>(box.br().y * px)},
+                             static_cast<float>(*middle - kThickness_m),
+                             static_cast<float>(*middle + kThickness_m)};
+  cv::Mat1f in_front = depth_m.clone();
+  in_front.setTo(0, background);
+  for (const cv::Point& cell : cells) mask(cell) = 255;
+  grow_surface(in_front, cv::Mat1b(), around(region.box_px, grid, config.reach_m, region, config), cells,
+               mask);
+}
+
+void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask) {
+  for (const MovableRegion& region : regions) mask(cells_of(region.box_px, grid, 0)).setTo(255);
+}
+
+void close_and_widen(const cv::Mat1f& depth_m, cv::Mat1b& mask) {
+  const cv::Size window(2 * kHoleRadius + 1, 2 * kHoleRadius + 1);
+  cv::Mat1b known;
+  cv::compare(depth_m, 0, known, cv::CMP_GT);
+  cv::Mat1f known_around;
+  cv::Mat1f marked_around;
+  cv::boxFilter(known, known_around, CV_32F, window, {-1, -1}, false);
+  cv::boxFilter(mask & known, marked_around, CV_32F, window, {-1, -1}, false);
+  mask.setTo(255, (depth_m == 0) & (marked_around * 2 > known_around) & (known_around > 0));
+  cv::dilate(mask, mask, cv::Mat());
+}
+
+}  // namespace rds::tracker

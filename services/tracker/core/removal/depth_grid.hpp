@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "common/geometry/camera_model.hpp"
+#include "common/image/rgbd_frame.hpp"
+
+namespace rds::tracker {
+
+/// How a camera's pictures are divided into square cells, some 160 across.
+class GridGeometry {
+ public:
+  GridGeometry() = default;
+  explicit GridGeometry(const geometry::CameraModel& camera);
+
+  [[nodiscard]] const geometry::CameraModel& camera() const { return camera_; }
+  [[nodiscard]] int cell_px() const { return cell_px_; }
+  [[nodiscard]] cv::Size size() const { return size_; }
+  /// Ray (x, y, 1) through the middle of a cell.
+  [[nodiscard]] const Eigen::Vector3f& ray(int column, int row) const {
+    return rays_[static_cast<std::size_t>(row * size_.width + column)];
+  }
+  /// The cell in which a point in the camera frame shows, to about a third of a cell; outside the picture
+  /// (-1, -1).
+  [[nodiscard]] cv::Point cell_of(const Eigen::Vector3f& point_in_camera) const {
+    const cv::Point outside(-1, -1);
+    if (!(point_in_camera.z() > kNearest_m)) return outside;
+    const float per_m = 1 / point_in_camera.z();
+    const int x = static_cast<int>((point_in_camera.x() * per_m - table_corner_.x()) * table_per_ray_);
+    const int y = static_cast<int>((point_in_camera.y() * per_m - table_corner_.y()) * table_per_ray_);
+    const bool inside = x >= 0 && y >= 0 && x < cell_table_.cols && y < cell_table_.rows;
+    return inside ? cv::Point(cell_table_(y, x)[0], cell_table_(y, x)[1]) : outside;
+  }
+
+ private:
+  geometry::CameraModel camera_;
+  int cell_px_ = 1;
+  cv::Size size_;
+  static constexpr float kNearest_m = 0.1F;
+
+  void make_cell_table();
+
+  std::vector<Eigen::Vector3f> rays_;
+  cv::Mat_<cv::Vec2s> cell_table_;  // cells by ray, so that distortion costs nothing
+  Eigen::Vector2f table_corner_ = Eigen::Vector2f::Zero();
+  float table_per_ray_ = 0;
+};
+
+/// Depth [m] of what stands nearest in each cell; 0 where nothing was measured or all is beyond max_depth_m.
+cv::Mat1f depth_in_cells(const image::DepthImage& depth, const GridGeometry& grid, double max_depth_m);
+
+}  // namespace rds::tracker

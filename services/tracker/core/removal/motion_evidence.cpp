@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/removal/motion_evidence.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <opencv2/imgproc.hpp>
+
+#include "services/tracker/core/removal/surface_growth.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::max();
+constexpr int kThinnest = 5;        // cells across, of a thing
+constexpr int kWitnesses = 2;       // earlier pictures
+constexpr double kSameShare = 0.4;  // of motion_step_m: so near is the same surface
+
+/// Depth [m] of what an earlier picture saw and was not movable, where it shows now; kNothing elsewhere.
+cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
+                         const geometry::Pose& camera_from_map) {
+  const Eigen::Isometry3f here_from_past = (camera_from_map * past.map_from_camera).cast<float>();
+  cv::Mat1f here(grid.size(), kNothing);
+  for (int r = 0; r < here.rows; ++r)
+    for (int c = 0; c < here.cols; ++c) {
+      const float z = past.depth_m(r, c);
+      if (!(z > 0) || (!past.mask.empty() && past.mask(r, c) != 0)) continue;
+      const Eigen::Vector3f p = here_from_past * (z * grid.ray(c, r));
+      const cv::Point cell = grid.cell_of(p);
+      if (cell.x < 0) continue;
+      float& shown = here(cell);
+      shown = std::min(shown, p.z());
+    }
+  return here;
+}
+
+void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfig& config,
+           MotionEvidence& evidence) {
+  cv::Mat1f nearest;
+  cv::erode(before, nearest, cv::Mat());
+  cv::Mat1f farthest = before.clone();
+  farthest.setTo(0, before == kNothing);
+  cv::dilate(farthest, farthest, cv::Mat());
+  for (int r = 0; r < depth_m.rows; ++r)
+    for (int c = 0; c < depth_m.cols; ++c) {
+      const float z = depth_m(r, c);
+      if (z <= 0 || farthest(r, c) <= 0) continue;
+      const float step = static_cast<float>(config.motion_step_m) * std::max(1.0F, z * z);
+      const float same = static_cast<float>(kSameShare) * step;
+      if (z < nearest(r, c) - step && before(r, c) != kNothing)
+        evidence.arrived(r, c) = static_cast<std::uint8_t>(std::min(255, evidence.arrived(r, c) + 1));
+      else if (z > nearest(r, c) - same && z < farthest(r, c) + same)
+        evidence.standing(r, c) = 255;
+    }
+}
+
+}  // namespace
+
+MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
+                                 const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
+                                 const RemovalConfig& config) {
+  MotionEvidence evidence{cv::Mat1b(grid.size(), std::uint8_t{0}), cv::Mat1b(grid.size(), std::uint8_t{0})};
+  for (const SeenCells& seen : past)
+    judge(depth_m, seen_from_here(seen, grid, camera_from_map), config, evidence);
+  // One earlier picture alone may be wrong: where others saw the place too, they have to agree.
+  cv::threshold(evidence.arrived, evidence.arrived,
+                std::min<double>(kWitnesses, static_cast<double>(past.size())) - 0.5, 255, cv::THRESH_BINARY);
+  evidence.standing.setTo(0, evidence.arrived);
+  return evidence;
+}
+
+std::vector<std::vector<cv::Point>> arrivals(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
+                                             const RemovalConfig& config) {
+  cv::Mat1b arrived;
+  cv::morphologyEx(evidence.arrived, arrived, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
+  const int moved = cv::countNonZero(arrived);
+  const int judged = moved + cv::countNonZero(evidence.standing);
+  if (moved > config.max_motion_share * judged) return {};
+  cv::Mat1f candidates = depth_m.clone();
+  candidates.setTo(0, ~arrived);
+  const GrowthLimits whole{cv::Rect({0, 0}, depth_m.size()), 0, kNothing, config.step_m};
+  auto things = surfaces_within(candidates, whole);
+  const double least = config.min_motion_share * static_cast<double>(depth_m.total());
+  std::erase_if(things, [&](const auto& cells) { return static_cast<double>(cells.size()) < least; });
+  return things;
+}
+
+}  // namespace rds::tracker

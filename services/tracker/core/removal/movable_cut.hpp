@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "common/geometry/pose.hpp"
+#include "services/tracker/core/movable_region.hpp"
+#include "services/tracker/core/removal/motion_evidence.hpp"
+#include "services/tracker/core/removal/movable_mask.hpp"
+#include "services/tracker/core/removal/removal_config.hpp"
+
+namespace rds::tracker {
+
+/// Says from picture to picture which cells show something movable.
+///
+/// Three sources: the objects in predicted boxes, cut out by depth; what stands where nothing stood before
+/// (a mover that no network knows, an arm out of its box); and what was cut from the last picture, carried to
+/// this one, for as long as carry_s without support by the others. Owned by one thread.
+class MovableCut {
+ public:
+  MovableCut(const RemovalConfig& config, double max_depth_m) : config_(config), max_depth_m_(max_depth_m) {}
+
+  /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
+  /// @param camera_from_map  of the picture, near to the truth; nullopt if not known: then boxes only.
+  MovableMask cut(const image::RgbdFrame& picture, const std::optional<geometry::Pose>& camera_from_map,
+                  std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
+  /// The pose of the picture that was cut last. Pictures without are not compared with.
+  void remember(const geometry::Pose& map_from_camera);
+  /// The same picture's depth in cells, for cut_keyframe() when its boxes come.
+  [[nodiscard]] cv::Mat1f latest_depth() const { return now_.depth_m; }
+  /// The objects in late boxes of an earlier picture.
+  [[nodiscard]] MovableMask cut_late(const cv::Mat1f& depth_m, std::span<const MovableRegion> regions) const;
+  /// The map has moved: earlier pictures say nothing any more.
+  void forget();
+
+ private:
+  struct Now {
+    std::int64_t stamp_ns = 0;
+    cv::Mat1f depth_m;
+    cv::Mat1b mask;           // without rim
+    cv::Mat1f unsupported_s;  // for how long, where the mask is set
+    bool any = false;         // is set somewhere
+    MovableMask widened;
+  };
+
+  using Things = std::vector<std::vector<cv::Point>>;
+
+  [[nodiscard]] Things things_that_moved(const geometry::Pose& camera_from_map) const;
+  void mark(std::span<const MovableRegion> regions, const Things& moved,
+            std::span<const Eigen::Vector3f> lasting, const std::optional<geometry::Pose>& camera_from_map,
+            const Now& last);
+  void keep_lasting(std::span<const Eigen::Vector3f> lasting, cv::Mat1b& background) const;
+  void carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background);
+  [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
+
+  RemovalConfig config_;
+  double max_depth_m_;
+  GridGeometry grid_;
+  Now now_;
+  std::optional<geometry::Pose> last_pose_;              // map_from_camera of now_
+  std::deque<std::pair<std::int64_t, SeenCells>> past_;  // by stamp
+};
+
+}  // namespace rds::tracker

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/removal/surface_growth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rds::tracker {
+namespace {
+
+const std::array<cv::Point, 4> kNeighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+bool is_within(const cv::Mat1f& depth_m, const GrowthLimits& limits, const cv::Point& cell) {
+  if (!limits.cells.contains(cell)) return false;
+  const float z = depth_m(cell);
+  return z > 0 && z >= limits.min_depth_m && z <= limits.max_depth_m;
+}
+
+}  // namespace
+
+bool one_surface(float depth_a_m, float depth_b_m, double step_m) {
+  const float nearer = std::min(depth_a_m, depth_b_m);
+  return std::abs(depth_a_m - depth_b_m) <= static_cast<float>(step_m) * std::max(1.0F, nearer * nearer);
+}
+
+void grow_surface(const cv::Mat1f& depth_m, const cv::Mat1b& closed, const GrowthLimits& limits,
+                  std::vector<cv::Point> seeds, cv::Mat1b& mask) {
+  while (!seeds.empty()) {
+    const cv::Point cell = seeds.back();
+    seeds.pop_back();
+    for (const cv::Point& step : kNeighbours) {
+      const cv::Point next = cell + step;
+      if (!is_within(depth_m, limits, next) || mask(next) != 0 || (!closed.empty() && closed(next) != 0))
+        continue;
+      if (!one_surface(depth_m(cell), depth_m(next), limits.step_m)) continue;
+      mask(next) = 255;
+      seeds.push_back(next);
+    }
+  }
+}
+
+std::vector<std::vector<cv::Point>> surfaces_within(const cv::Mat1f& depth_m, const GrowthLimits& limits) {
+  cv::Mat1b seen(depth_m.size(), std::uint8_t{0});
+  std::vector<std::vector<cv::Point>> surfaces;
+  for (int r = limits.cells.y; r < limits.cells.br().y; ++r)
+    for (int c = limits.cells.x; c < limits.cells.br().x; ++c) {
+      if (seen(r, c) != 0 || !is_within(depth_m, limits, {c, r})) continue;
+      std::vector<cv::Point>& surface = surfaces.emplace_back();
+      surface.emplace_back(c, r);
+      seen(r, c) = 255;
+      for (std::size_t i = 0; i < surface.size(); ++i)
+        for (const cv::Point& step : kNeighbours) {
+          const cv::Point next = surface[i] + step;
+          if (!is_within(depth_m, limits, next) || seen(next) != 0) continue;
+          if (!one_surface(depth_m(surface[i]), depth_m(next), limits.step_m)) continue;
+          seen(next) = 255;
+          surface.push_back(next);
+        }
+    }
+  std::ranges::stable_sort(surfaces, std::ranges::greater{}, &std::vector<cv::Point>::size);
+  return surfaces;
+}
+
+}  // namespace rds::tracker

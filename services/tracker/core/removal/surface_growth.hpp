@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace rds::tracker {
+
+/// Where a surface may go on to.
+struct GrowthLimits {
+  cv::Rect cells;  // inside the grid
+  float min_depth_m = 0;
+  float max_depth_m = 0;
+  double step_m = 0.05;  // between neighbours, 1 m away; grows with depth squared, as noise does
+};
+
+/// True if two neighbouring cells with these depths [m] can show one surface.
+bool one_surface(float depth_a_m, float depth_b_m, double step_m);
+
+/// Marks (255) in `mask` all cells within the limits that `seeds` (cells marked in `mask` already) are
+/// connected with, except where `closed` is not 0.
+void grow_surface(const cv::Mat1f& depth_m, const cv::Mat1b& closed, const GrowthLimits& limits,
+                  std::vector<cv::Point> seeds, cv::Mat1b& mask);
+
+/// The connected surfaces among the cells within the limits, the largest first.
+std::vector<std::vector<cv::Point>> surfaces_within(const cv::Mat1f& depth_m, const GrowthLimits& limits);
+
+}  // namespace rds::tracker

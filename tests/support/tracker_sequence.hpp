@@ -19,9 +19,9 @@ struct TrackerSequenceOptions {
   std::size_t mapping_latency = 3;  // frames until a local mapping result is applied
   std::size_t box_latency = 2;      // frames until late boxes are applied
   bool truth_boxes = false;         // people.json's boxes are given with every frame
-  std::string detections;           // detections.jsonl with every frame: keyframes get theirs, late
+  std::string detections{};         // detections.jsonl with every frame: keyframes get theirs, late
   bool masks = false;               // compares with masks/
-  std::string pictures;             // folder for pictures of what is removed, every tenth frame
+  std::string pictures{};           // folder for pictures of what is removed, every tenth frame
   bool late_boxes = false;          // people.json's boxes are taken back from keyframes
   bool no_mapping = false;
   bool verbose = false;  // one line per frame on stdout

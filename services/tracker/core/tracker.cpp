@@ -138,6 +138,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const auto guess = guess_pose(picture);
   const MovableMask movable =
       cut_.cut(given, guess, regions, guess ? lasting_points(*guess) : std::vector<Eigen::Vector3f>());
+  movable_there_ = movable.any() || !regions.empty();
   TrackedFrame frame;
   const KeyframeNeed need = follow_map(picture, guess, movable, frame)
                                 ? follow_with_keyframe(picture, movable, frame, result)
@@ -178,7 +179,7 @@ KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, const Mova
   else
     state_ = track_motion(frame);
   if (!has_pose(state_) || result.keyframe) return KeyframeNeed::kNone;
-  return keyframe_need(frame, movable.any());
+  return keyframe_need(frame);
 }
 
 void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {

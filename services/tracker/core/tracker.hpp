@@ -144,14 +144,14 @@ class Tracker {
   [[nodiscard]] ShutterMotion shutter_motion(std::int64_t stamp_ns) const;
   [[nodiscard]] double since_last_s(std::int64_t stamp_ns) const;
   void note_found(int expected, int found, FoundShare& share, TrackedFrame& frame);
-  [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame, bool movable_there) const;
+  [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame) const;
   void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
   void index_newest_keyframe();
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
   void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
-  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers,
+  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, int inliers,
                                              double view_change) const;
 
   TrackerConfig config_;
@@ -168,6 +168,7 @@ class Tracker {
   FoundShare found_by_matching_;
   FoundShare found_by_following_;
   std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
+  bool movable_there_ = false;                  // in its picture, or a box of something movable
   std::optional<LastFrame> last_;               // the last frame with a pose
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
   State state_ = State::kNotInitialized;

@@ -98,7 +98,7 @@ KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, cons
   const int covered = covered_cells(frame);
   if (view.keyframe != followed_view_) covered_at_view_ = covered;
   followed_view_ = view.keyframe;
-  KeyframeFacts facts = keyframe_facts(frame, movable.any(), covered, view.change);
+  KeyframeFacts facts = keyframe_facts(frame, covered, view.change);
   facts.reference_points = covered_at_view_;
   const KeyframeNeed need = tracker::keyframe_need(facts, config_.keyframe);
   if (need != KeyframeNeed::kMap) return need;

@@ -100,24 +100,23 @@ Tracker::KnownView Tracker::nearest_view(const TrackedFrame& frame) const {
   return nearest;
 }
 
-KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, bool movable_there, int inliers,
-                                      double view_change) const {
+KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, int inliers, double view_change) const {
   KeyframeFacts facts;
   facts.inliers = inliers;
   facts.has_depth = has_depth(*frame.features);
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.stamp_ns - *last_keyframe_ns_);
-  facts.movable_or_changed = movable_there || changed_;
+  facts.movable_or_changed = movable_there_ || changed_;
   return facts;
 }
 
-KeyframeNeed Tracker::keyframe_need(const TrackedFrame& frame, bool movable_there) const {
+KeyframeNeed Tracker::keyframe_need(const TrackedFrame& frame) const {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
   if (!well_localized && !frame.pose_is_given) return KeyframeNeed::kNone;
   if (!last_keyframe_ns_) return has_depth(*frame.features) ? KeyframeNeed::kMap : KeyframeNeed::kNone;
-  return tracker::keyframe_need(
-      keyframe_facts(frame, movable_there, frame.matches(), nearest_view(frame).change), config_.keyframe);
+  return tracker::keyframe_need(keyframe_facts(frame, frame.matches(), nearest_view(frame).change),
+                                config_.keyframe);
 }
 
 void Tracker::add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {

@@ -214,6 +214,16 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
   return matches;
 }
 
+namespace {
+
+/// How sure it is that a point stands still, while something in view does not: by the keyframes that saw it.
+double trust(const MapPoint& point) {
+  constexpr std::array<double, 3> kTrust{0.1, 0.1, 0.3};
+  return point.observations.size() < kTrust.size() ? kTrust[point.observations.size()] : 1;
+}
+
+}  // namespace
+
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,
                    const PoseOptimizationConfig& config, TrackedFrame& frame) {
   std::vector<PointObservation> observations;
@@ -225,7 +235,8 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
       frame.points[i] = kNoId;
       continue;
     }
-    observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid)});
+    observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid),
+                            frame.movable_there ? trust(*point) : 1});
     feature.push_back(i);
   }
   const OptimizedPose optimized = frame.pose_is_given

@@ -6,9 +6,10 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kUsualDepth = 2;    // m, that max_translation_m is meant for
-constexpr double kForgetting = 0.1;  // of the running mean
-constexpr int kMinExpected = 50;     // fewer points say nothing about a change
+constexpr double kUrgentShare = 0.4;  // of scarce_inliers
+constexpr double kUsualDepth = 2;     // m, that max_translation_m is meant for
+constexpr double kForgetting = 0.1;   // of the running mean
+constexpr int kMinExpected = 50;      // fewer points say nothing about a change
 
 }  // namespace
 
@@ -19,17 +20,18 @@ double view_change(const Pose& from_other_view, double median_depth_m, const Key
 }
 
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config) {
-  if (!facts.has_depth || facts.since_last_s < config.min_interval_s) return KeyframeNeed::kNone;
+  const bool scarce = facts.movable_or_changed && facts.inliers < config.scarce_inliers;
+  const bool urgent = scarce && facts.inliers < kUrgentShare * config.scarce_inliers;
+  if (!facts.has_depth || (facts.since_last_s < config.min_interval_s && !urgent)) return KeyframeNeed::kNone;
   const bool losing_reference = facts.inliers < config.reference_ratio * facts.reference_points;
   const bool close_points_wanted =
       facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
-  if (losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
+  if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
   if (facts.since_last_s < longest - kJitter) return KeyframeNeed::kNone;
-  const bool hidden = facts.movable_or_changed && facts.inliers < config.scarce_inliers;
-  return hidden ? KeyframeNeed::kMap : KeyframeNeed::kLook;
+  return scarce ? KeyframeNeed::kMap : KeyframeNeed::kLook;
 }
 
 double FoundShare::update(int expected, int found) {

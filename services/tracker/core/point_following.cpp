@@ -8,8 +8,9 @@
 namespace rds::tracker {
 namespace {
 
-constexpr float kBorder = 8;  // px of the picture that a patch needs around it
-constexpr float kCell = 32;   // px, side of the parts of the picture that points are spread over
+constexpr float kBorder = 8;        // px of the picture that a patch needs around it
+constexpr double kPatchRadius = 4;  // px, at the feature's level
+constexpr float kCell = 32;         // px, side of the parts of the picture that points are spread over
 constexpr std::size_t kPointsPerPart = 32;
 
 /// A map point that the picture should show.
@@ -19,6 +20,16 @@ struct Expected {
   int level;
   bool hidden;  // by something movable
 };
+
+/// True if what surrounds a point is movable, even in part: the patch would pull it along.
+bool is_hidden(const FollowingView& view, const Eigen::Vector2f& px, double scale) {
+  if (!view.movable.any()) return false;
+  const auto radius = static_cast<float>(kPatchRadius * scale);
+  return view.movable.covers(px) || view.movable.covers(px + Eigen::Vector2f(radius, radius)) ||
+         view.movable.covers(px + Eigen::Vector2f(radius, -radius)) ||
+         view.movable.covers(px + Eigen::Vector2f(-radius, radius)) ||
+         view.movable.covers(px + Eigen::Vector2f(-radius, -radius));
+}
 
 std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                              const Eigen::Vector3d& camera_in_map, const ObservationModel& model,
@@ -36,7 +47,7 @@ std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points
     const Eigen::Vector2f px =
         project_rolling(camera, view.motion, view.camera_from_map * point->position).cast<float>();
     if ((px.array() >= kBorder).all() && (px.array() <= largest.array()).all())
-      all.push_back({point, px, projected->level, view.movable.covers(px)});
+      all.push_back({point, px, projected->level, is_hidden(view, px, pyramid.scale(projected->level))});
   }
   return all;
 }

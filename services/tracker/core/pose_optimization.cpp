@@ -51,7 +51,8 @@ class PoseProblem {
       const Measurement& m = observations_[i].measurement;
       const Eigen::Vector3d p = pose * observations_[i].point_in_map;
       const double bound = ObservationModel::chi2(m, config_);
-      sum += p.z() < kMinDepth ? bound : loss(model_.residual(p, m).squaredNorm(), bound, robust).cost;
+      sum += observations_[i].weight *
+             (p.z() < kMinDepth ? bound : loss(model_.residual(p, m).squaredNorm(), bound, robust).cost);
     }
     return sum;
   }
@@ -64,14 +65,16 @@ class PoseProblem {
       const Eigen::Vector3d p = pose * observations_[i].point_in_map;
       const double bound = ObservationModel::chi2(m, config_);
       if (p.z() < kMinDepth) {
-        sum.cost += bound;
+        sum.cost += observations_[i].weight * bound;
         continue;
       }
       const Eigen::Vector3d r = model_.residual(p, m);
       Eigen::Matrix<double, 3, 6> j;
       j.leftCols<3>() = model_.jacobian(p, m);
       j.rightCols<3>() = -j.leftCols<3>() * skew(p);  // d(exp(ξ) p) / dω = −[p]×
-      const Loss l = loss(r.squaredNorm(), bound, robust);
+      Loss l = loss(r.squaredNorm(), bound, robust);
+      l.weight *= observations_[i].weight;
+      l.cost *= observations_[i].weight;
       sum.hessian.noalias() += l.weight * j.transpose() * j;
       sum.gradient.noalias() += l.weight * j.transpose() * r;
       sum.cost += l.cost;

@@ -13,6 +13,7 @@ namespace rds::tracker {
 struct PointObservation {
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
   Measurement measurement;
+  double weight = 1;  // how sure it is that the point stands still
 };
 
 struct OptimizedPose {

@@ -138,8 +138,9 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const auto guess = guess_pose(picture);
   const MovableMask movable =
       cut_.cut(given, guess, regions, guess ? lasting_points(*guess) : std::vector<Eigen::Vector3f>());
-  movable_there_ = movable.any() || !regions.empty();
   TrackedFrame frame;
+  frame.movable_there = movable.any() || !regions.empty();
+  frame.camera_from_map = guess ? *guess : expected_camera_from_map(picture.stamp_ns);
   const KeyframeNeed need = follow_map(picture, guess, movable, frame)
                                 ? follow_with_keyframe(picture, movable, frame, result)
                                 : track_features(picture, movable, frame, result);

@@ -168,7 +168,6 @@ class Tracker {
   FoundShare found_by_matching_;
   FoundShare found_by_following_;
   std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
-  bool movable_there_ = false;                  // in its picture, or a box of something movable
   std::optional<LastFrame> last_;               // the last frame with a pose
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
   State state_ = State::kNotInitialized;

@@ -82,7 +82,7 @@ struct KeyframeConfig {
   double reference_ratio = 0.75;  // fewer inliers than this share of the reference keyframe's points
   int min_close_tracked = 100;    // fewer close points tracked than this …
   int min_close_new = 70;         // … while more than this could be made
-  int scarce_inliers = 100;       // with fewer, while movable objects are there, the map takes every keyframe
+  int scarce_inliers = 200;       // with fewer, while movable objects are there, the map takes every keyframe
   double max_rotation_rad = 0.26;   // view change since the last keyframe
   double max_translation_m = 0.15;  // the same, for a scene 2 m away
   double known_after_s = 5;         // a view that a keyframe has for so long needs no other

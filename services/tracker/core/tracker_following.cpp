@@ -104,6 +104,7 @@ KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, cons
   if (need != KeyframeNeed::kMap) return need;
   TrackedFrame extracted;
   extracted.camera_from_map = frame.camera_from_map;
+  extracted.movable_there = frame.movable_there;
   extract(picture, movable, extracted, result);
   take_over(frame, picture, extracted);
   refine_with_local_map(extracted, 1);

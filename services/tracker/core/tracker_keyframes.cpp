@@ -107,7 +107,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, int inliers, do
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.stamp_ns - *last_keyframe_ns_);
-  facts.movable_or_changed = movable_there_ || changed_;
+  facts.movable_or_changed = frame.movable_there || changed_;
   return facts;
 }
 

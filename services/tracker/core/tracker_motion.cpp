@@ -63,11 +63,14 @@ bool Tracker::has_jumped(const TrackedFrame& frame) const {
 
 bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
   const ObservationModel model(frame.features->camera(), config_.depth);
+  const Pose aligned = frame.camera_from_map;
   const Pose predicted = expected_camera_from_map(frame.stamp_ns);
   const Pose still = last_map_from_camera().inverse();
   const double window = config_.matching.motion_window_px;
-  for (const auto& [guess, window_px] :
-       {std::pair{predicted, window}, {predicted, 2 * window}, {still, kWideWindow * window}}) {
+  for (const auto& [guess, window_px] : {std::pair{aligned, window},
+                                         {predicted, window},
+                                         {predicted, 2 * window},
+                                         {still, kWideWindow * window}}) {
     frame.camera_from_map = guess;
     if (match_last_frame(map_, last_->frame, model, pyramid_, config_.matching, window_px, frame) <
         kEnoughMatches)

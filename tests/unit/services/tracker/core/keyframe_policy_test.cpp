@@ -50,6 +50,16 @@ TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
   EXPECT_EQ(need(facts), KeyframeNeed::kMap);
 }
 
+TEST(KeyframePolicy, TheMapDoesNotWaitWhenHardlyAnythingIsLeft) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 0.03;
+  facts.movable_or_changed = true;
+  facts.inliers = facts.reference_points = 100;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+  facts.inliers = facts.reference_points = 60;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+}
+
 TEST(KeyframePolicy, NeedsDepth) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 5;

@@ -48,6 +48,21 @@ TEST(PoseOptimization, RecoversPoseWithThirtyPercentOutliers) {
   for (std::size_t i = 0; i < 20; ++i) EXPECT_FALSE(result.inlier[i]);
 }
 
+TEST(PoseOptimization, FollowsTheManyThatMoveOnlyIfTheyCountAsMuch) {
+  // Two thirds of the points are on something that has moved by 10 cm.
+  Problem problem = make_problem(0, 0.3);
+  for (std::size_t i = 0; i < 200; ++i) problem.observations[i].point_in_map -= Eigen::Vector3d(0.1, 0, 0);
+  const auto error_m = [&] {
+    const Pose found =
+        optimize_pose(kModel, problem.observations, problem.camera_from_map, PoseOptimizationConfig{})
+            .camera_from_map;
+    return (found * problem.camera_from_map.inverse()).translation().norm();
+  };
+  EXPECT_GT(error_m(), 0.05);
+  for (std::size_t i = 0; i < 200; ++i) problem.observations[i].weight = 0.1;
+  EXPECT_LT(error_m(), 0.005);
+}
+
 TEST(PoseOptimization, LeavesThePoseWhereNothingCanBeSaid) {
   const auto result = optimize_pose(kModel, {}, test::pose(1, 2, 3), PoseOptimizationConfig{});
   EXPECT_EQ(result.inliers, 0);

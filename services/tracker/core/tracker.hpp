@@ -102,7 +102,7 @@ class Tracker {
   };
   struct KeyframeDepth {
     KeyframeId keyframe = kNoId;
-    cv::Mat1f cells_m;
+    PictureCells cells;
   };
   struct KnownView {
     KeyframeId keyframe = kNoId;

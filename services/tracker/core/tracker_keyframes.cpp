@@ -157,7 +157,7 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, config_.map, recent_points_);
   mapping_centre_ = keyframe.id;
-  depth_of_keyframes_.push_back({keyframe.id, cut_.latest_depth()});
+  depth_of_keyframes_.push_back({keyframe.id, cut_.latest()});
   if (depth_of_keyframes_.size() > kAwaitingBoxes) depth_of_keyframes_.pop_front();
 }
 
@@ -213,7 +213,7 @@ void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const Movable
   const PointId first_new = map_.next_point_id();
   const auto depth = std::ranges::find(depth_of_keyframes_, keyframe_id, &KeyframeDepth::keyframe);
   if (depth == depth_of_keyframes_.end()) return;
-  tracker::retract_movable(map_, keyframe_id, cut_.cut_late(depth->cells_m, regions), config_.depth,
+  tracker::retract_movable(map_, keyframe_id, cut_.cut_late(depth->cells, regions), config_.depth,
                            config_.map);
   for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
 }

@@ -18,6 +18,7 @@ constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a g
 constexpr double kMaxBridgedGap = 2;      // s; beyond, the last frame says nothing about where the camera is
 constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;        // after it
+constexpr int kSureInliers = 80;          // with fewer another way to the pose may find more
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 constexpr double kMaxSpeed = 5;           // m/s and …
 constexpr double kMaxTurnRate = 2 * std::numbers::pi;  // rad/s, of a camera that is carried or driven
@@ -67,8 +68,8 @@ bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
   const Pose predicted = expected_camera_from_map(frame.stamp_ns);
   const Pose still = last_map_from_camera().inverse();
   const double window = config_.matching.motion_window_px;
-  for (const auto& [guess, window_px] : {std::pair{aligned, window},
-                                         {predicted, window},
+  for (const auto& [guess, window_px] : {std::pair{predicted, window},
+                                         {aligned, window},
                                          {predicted, 2 * window},
                                          {still, kWideWindow * window}}) {
     frame.camera_from_map = guess;
@@ -133,7 +134,7 @@ int Tracker::track_from_last(TrackedFrame& frame) {
   int inliers = 0;
   if (estimate_from_last_frame(frame))
     inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
-  if (inliers >= config_.quality.min_inliers) return inliers;
+  if (inliers >= kSureInliers) return inliers;
   TrackedFrame second = frame;
   const KeyframeId reference = reference_;
   if (estimate_from_keyframe(second)) {

@@ -36,8 +36,9 @@ MovableMask MovableCut::cut(const image::RgbdFrame& picture,
     fill_boxes(grid_, regions, now_.mask);
     return {now_.mask, grid_.cell_px()};
   }
+  keep(lasting);
   const auto moved = camera_from_map && config_.motion ? things_that_moved(*camera_from_map) : Things();
-  if (!regions.empty() || !moved.empty() || last.any) mark(regions, moved, lasting, camera_from_map, last);
+  if (!regions.empty() || !moved.empty() || last.any) mark(regions, moved, camera_from_map, last);
   last_pose_.reset();
   if (cv::countNonZero(now_.mask) == 0) return {};
   now_.any = true;
@@ -53,10 +54,8 @@ MovableCut::Things MovableCut::things_that_moved(const geometry::Pose& camera_fr
 }
 
 void MovableCut::mark(std::span<const MovableRegion> regions, const Things& moved,
-                      std::span<const Eigen::Vector3f> lasting,
                       const std::optional<geometry::Pose>& camera_from_map, const Now& last) {
-  cv::Mat1b background(grid_.size(), std::uint8_t{0});
-  keep_lasting(lasting, background);
+  cv::Mat1b background = now_.lasting.clone();
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
   for (const auto& cells : moved) suspect(cv::boundingRect(cells)).setTo(255);
   cv::Mat1b wide = background.clone();
@@ -67,7 +66,8 @@ void MovableCut::mark(std::span<const MovableRegion> regions, const Things& move
 }
 
 /// Marks the surfaces right around points that show where they have always been.
-void MovableCut::keep_lasting(std::span<const Eigen::Vector3f> lasting, cv::Mat1b& background) const {
+void MovableCut::keep(std::span<const Eigen::Vector3f> lasting) {
+  now_.lasting = cv::Mat1b(grid_.size(), std::uint8_t{0});
   const cv::Rect inside({0, 0}, grid_.size());
   for (const Eigen::Vector3f& p : lasting) {
     const cv::Point middle = grid_.cell_of(p);
@@ -76,7 +76,7 @@ void MovableCut::keep_lasting(std::span<const Eigen::Vector3f> lasting, cv::Mat1
       for (int dx = -kLastingCells; dx <= kLastingCells; ++dx) {
         const cv::Point cell = middle + cv::Point(dx, dy);
         if (!inside.contains(cell) || !(now_.depth_m(cell) > 0)) continue;
-        if (one_surface(now_.depth_m(cell), p.z(), kLastingStep_m)) background(cell) = 255;
+        if (one_surface(now_.depth_m(cell), p.z(), kLastingStep_m)) now_.lasting(cell) = 255;
       }
   }
 }
@@ -110,18 +110,18 @@ void MovableCut::remember(const geometry::Pose& map_from_camera) {
   while (past_.size() > static_cast<std::size_t>(config_.references)) past_.pop_front();
 }
 
-MovableMask MovableCut::cut_late(const cv::Mat1f& depth_m, std::span<const MovableRegion> regions) const {
-  if (config_.method == "off" || depth_m.size() != grid_.size()) return {};
+MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {
+  if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
   if (config_.method == "box") {
     fill_boxes(grid_, regions, mask);
     return {mask, grid_.cell_px()};
   }
-  cv::Mat1b background(grid_.size(), std::uint8_t{0});
+  cv::Mat1b background = picture.lasting.clone();
   cv::Mat1b wide = background.clone();
-  mark_planes(depth_m, grid_, regions, mask.clone(), background, wide);
-  cut_boxes(depth_m, grid_, regions, background, config_, mask);
-  return widened(depth_m, mask);
+  mark_planes(picture.depth_m, grid_, regions, mask.clone(), background, wide);
+  cut_boxes(picture.depth_m, grid_, regions, background, config_, mask);
+  return widened(picture.depth_m, mask);
 }
 
 MovableMask MovableCut::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const {

@@ -14,6 +14,12 @@
 
 namespace rds::tracker {
 
+/// A picture in cells.
+struct PictureCells {
+  cv::Mat1f depth_m;
+  cv::Mat1b lasting;  // 255 where something shows that has stood still for long
+};
+
 /// Says from picture to picture which cells show something movable.
 ///
 /// Three sources: the objects in predicted boxes, cut out by depth; what stands where nothing stood before
@@ -29,10 +35,11 @@ class MovableCut {
                   std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
   /// The pose of the picture that was cut last. Pictures without are not compared with.
   void remember(const geometry::Pose& map_from_camera);
-  /// The same picture's depth in cells, for cut_keyframe() when its boxes come.
-  [[nodiscard]] cv::Mat1f latest_depth() const { return now_.depth_m; }
+  /// What cut_late() needs of the picture that was cut last, when its boxes come.
+  [[nodiscard]] PictureCells latest() const { return {now_.depth_m, now_.lasting}; }
   /// The objects in late boxes of an earlier picture.
-  [[nodiscard]] MovableMask cut_late(const cv::Mat1f& depth_m, std::span<const MovableRegion> regions) const;
+  [[nodiscard]] MovableMask cut_late(const PictureCells& picture,
+                                     std::span<const MovableRegion> regions) const;
   /// The map has moved: earlier pictures say nothing any more.
   void forget();
 
@@ -42,6 +49,7 @@ class MovableCut {
     cv::Mat1f depth_m;
     cv::Mat1b mask;           // without rim
     cv::Mat1f unsupported_s;  // for how long, where the mask is set
+    cv::Mat1b lasting;        // 255 where something shows that has stood still for long
     bool any = false;         // is set somewhere
     MovableMask widened;
   };
@@ -50,9 +58,8 @@ class MovableCut {
 
   [[nodiscard]] Things things_that_moved(const geometry::Pose& camera_from_map) const;
   void mark(std::span<const MovableRegion> regions, const Things& moved,
-            std::span<const Eigen::Vector3f> lasting, const std::optional<geometry::Pose>& camera_from_map,
-            const Now& last);
-  void keep_lasting(std::span<const Eigen::Vector3f> lasting, cv::Mat1b& background) const;
+            const std::optional<geometry::Pose>& camera_from_map, const Now& last);
+  void keep(std::span<const Eigen::Vector3f> lasting);
   void carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background);
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
 

@@ -118,12 +118,13 @@ TEST_F(MovableCutting, LateBoxesAreCutFromThePictureTheyBelongTo) {
   const Somebody somebody{0.2, 1.8};
   const image::RgbdFrame picture = room(somebody);
   look(picture);
-  const cv::Mat1f depth = cut.latest_depth();
+  const PictureCells cells = cut.latest();
   look(room({}, kFrameNs));
-  const auto marked = compare(cut.cut_late(depth, std::vector{region_of(somebody)}), picture);
+  const auto marked = compare(cut.cut_late(cells, std::vector{region_of(somebody)}), picture);
   EXPECT_GT(marked.of_somebody, 0.95);
   EXPECT_LT(marked.of_the_rest, 0.05);
-  EXPECT_FALSE(cut.cut_late(cv::Mat1f(3, 3), std::vector{region_of(somebody)}).any()) << "of another camera";
+  EXPECT_FALSE(cut.cut_late({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
+      << "of another camera";
 }
 
 TEST_F(MovableCutting, APictureWithoutDepthHidesTheWholeBox) {

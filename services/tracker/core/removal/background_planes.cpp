@@ -20,9 +20,10 @@ constexpr int kHypotheses = 40;
 constexpr std::size_t kMinCells = 60;   // of a plane
 constexpr std::size_t kMaxAsked = 300;  // cells that judge a hypothesis
 constexpr std::size_t kNear = 12;       // of the cells in order, that a hypothesis is made of
-constexpr float kWide_m = 0.16F;        // standard deviation along the narrower side: wider than 0.55 m
-constexpr float kMinCosine = 0.8F;      // between the plane's normal and a cell's
-constexpr float kMinSine = 0.2F;        // of the triangle that makes a hypothesis
+constexpr float kNarrow_m = 0.06F;  // standard deviation along the narrower side: a strip of 0.2 m, and …
+constexpr float kWide_m = 0.16F;    // wider than 0.55 m
+constexpr float kMinCosine = 0.8F;  // between the plane's normal and a cell's
+constexpr float kMinSine = 0.2F;    // of the triangle that makes a hypothesis
 
 float tolerance_m(float depth_m) {
   return 0.012F + 0.005F * depth_m * depth_m;
@@ -34,6 +35,34 @@ Eigen::Vector3f point_of(const cv::Mat1f& depth_m, const GridGeometry& grid, con
 
 bool is_near(const Plane& plane, const Eigen::Vector3f& p) {
   return std::abs(plane.normal.dot(p) - plane.distance) < tolerance_m(p.z());
+}
+
+/// Where a cell's surface is, and which way it faces: zero where that is not known.
+struct Sample {
+  Eigen::Vector3f point;
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+};
+
+Sample sample_of(const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Point& cell) {
+  Sample sample{point_of(depth_m, grid, cell)};
+  if (!cv::Rect(1, 1, depth_m.cols - 2, depth_m.rows - 2).contains(cell)) return sample;
+  constexpr double kStep = 0.08;
+  std::array<Eigen::Vector3f, 4> around;
+  const std::array<cv::Point, 4> neighbours{cell + cv::Point(1, 0), cell - cv::Point(1, 0),
+                                            cell + cv::Point(0, 1), cell - cv::Point(0, 1)};
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const float z = depth_m(neighbours[i]);
+    if (!(z > 0) || !one_surface(z, depth_m(cell), kStep)) return sample;
+    around[i] = point_of(depth_m, grid, neighbours[i]);
+  }
+  sample.normal = (around[0] - around[1]).cross(around[2] - around[3]).normalized();
+  return sample;
+}
+
+/// Near the plane, and parallel to it as far as is known.
+bool agrees(const Plane& plane, const Sample& sample) {
+  return is_near(plane, sample.point) &&
+         (sample.normal.isZero() || std::abs(sample.normal.dot(plane.normal)) > kMinCosine);
 }
 
 /// Numbers that only look random.
@@ -57,33 +86,35 @@ std::optional<Plane> plane_through(const std::array<Eigen::Vector3f, 3>& p) {
   return Plane{unit, unit.dot(p[0]), false};
 }
 
-Plane fit(const std::vector<Eigen::Vector3f>& points) {
+/// The plane that fits best; nullopt for a strip, which an arm or a leg can be.
+std::optional<Plane> fit(const std::vector<Sample>& samples) {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (const auto& p : points) mean += p;
-  mean /= static_cast<float>(points.size());
+  for (const Sample& s : samples) mean += s.point;
+  mean /= static_cast<float>(samples.size());
   Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
-  for (const auto& p : points) scatter += (p - mean) * (p - mean).transpose();
+  for (const Sample& s : samples) scatter += (s.point - mean) * (s.point - mean).transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(scatter);
   const Eigen::Vector3f normal = solver.eigenvectors().col(0);
-  const float variance = solver.eigenvalues()(1) / static_cast<float>(points.size());
-  return {normal, normal.dot(mean), variance > kWide_m * kWide_m};
+  const float variance = solver.eigenvalues()(1) / static_cast<float>(samples.size());
+  if (variance < kNarrow_m * kNarrow_m) return std::nullopt;
+  return Plane{normal, normal.dot(mean), variance > kWide_m * kWide_m};
 }
 
-std::optional<Plane> best_plane(const std::vector<Eigen::Vector3f>& points, Sequence& sequence) {
+std::optional<Plane> best_plane(const std::vector<Sample>& samples, Sequence& sequence) {
   std::optional<Plane> best;
   std::size_t most = 0;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kMaxAsked);
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMaxAsked);
   for (int h = 0; h < kHypotheses; ++h) {
-    const std::size_t middle = sequence.below(points.size());
+    const std::size_t middle = sequence.below(samples.size());
     const auto other = [&] {
-      const std::size_t step = sequence.below(points.size() / 4 + kNear);
-      return std::min(points.size() - 1, middle + step);
+      const std::size_t step = sequence.below(samples.size() / 4 + kNear);
+      return samples[std::min(samples.size() - 1, middle + step)].point;
     };
-    const auto plane = plane_through({points[middle], points[other()], points[other()]});
+    const auto plane = plane_through({samples[middle].point, other(), other()});
     if (!plane) continue;
     std::size_t agree = 0;
-    for (std::size_t i = 0; i < points.size(); i += stride) agree += is_near(*plane, points[i]) ? 1 : 0;
+    for (std::size_t i = 0; i < samples.size(); i += stride) agree += agrees(*plane, samples[i]) ? 1 : 0;
     if (agree > most) {
       most = agree;
       best = plane;
@@ -95,40 +126,29 @@ std::optional<Plane> best_plane(const std::vector<Eigen::Vector3f>& points, Sequ
 }  // namespace
 
 std::vector<Plane> find_planes(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                               std::vector<cv::Point> cells) {
+                               const std::vector<cv::Point>& cells) {
   std::vector<Plane> planes;
   Sequence sequence;
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(cells.size());
-  for (const cv::Point& cell : cells) points.push_back(point_of(depth_m, grid, cell));
-  for (int i = 0; i < kMaxPlanes && points.size() >= kMinCells; ++i) {
-    const auto found = best_plane(points, sequence);
+  std::vector<Sample> samples;
+  samples.reserve(cells.size());
+  for (const cv::Point& cell : cells) samples.push_back(sample_of(depth_m, grid, cell));
+  for (int i = 0; i < kMaxPlanes && samples.size() >= kMinCells; ++i) {
+    const auto found = best_plane(samples, sequence);
     if (!found) break;
-    std::vector<Eigen::Vector3f> on_plane;
-    std::ranges::copy_if(points, std::back_inserter(on_plane),
-                         [&](const auto& p) { return is_near(*found, p); });
+    std::vector<Sample> on_plane;
+    std::ranges::copy_if(samples, std::back_inserter(on_plane),
+                         [&](const Sample& s) { return agrees(*found, s); });
     if (on_plane.size() < kMinCells) break;
-    planes.push_back(fit(on_plane));
-    std::erase_if(points, [&](const auto& p) { return is_near(planes.back(), p) || is_near(*found, p); });
+    const auto plane = fit(on_plane);
+    if (plane) planes.push_back(*plane);
+    std::erase_if(samples,
+                  [&](const Sample& s) { return agrees(*found, s) || (plane && agrees(*plane, s)); });
   }
   return planes;
 }
 
 bool lies_on(const Plane& plane, const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Point& cell) {
-  const float z = depth_m(cell);
-  if (!is_near(plane, point_of(depth_m, grid, cell))) return false;
-  const cv::Rect inner(1, 1, depth_m.cols - 2, depth_m.rows - 2);
-  if (!inner.contains(cell)) return true;
-  constexpr double kStep = 0.08;
-  std::array<Eigen::Vector3f, 4> around;
-  const std::array<cv::Point, 4> neighbours{cell + cv::Point(1, 0), cell - cv::Point(1, 0),
-                                            cell + cv::Point(0, 1), cell - cv::Point(0, 1)};
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    if (!(depth_m(neighbours[i]) > 0) || !one_surface(depth_m(neighbours[i]), z, kStep)) return true;
-    around[i] = point_of(depth_m, grid, neighbours[i]);
-  }
-  const Eigen::Vector3f normal = (around[0] - around[1]).cross(around[2] - around[3]).normalized();
-  return std::abs(normal.dot(plane.normal)) > kMinCosine;
+  return is_near(plane, point_of(depth_m, grid, cell)) && agrees(plane, sample_of(depth_m, grid, cell));
 }
 
 }  // namespace rds::tracker

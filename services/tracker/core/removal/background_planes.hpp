@@ -19,7 +19,7 @@ struct Plane {
 /// Large planes (a table, a wall, the floor) among cells of a picture, found by RANSAC, the largest first.
 /// The same cells give the same planes.
 std::vector<Plane> find_planes(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                               std::vector<cv::Point> cells);
+                               const std::vector<cv::Point>& cells);
 
 /// True if a cell lies on the plane and its surface is parallel to it.
 bool lies_on(const Plane& plane, const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Point& cell);

@@ -34,34 +34,31 @@ GrowthLimits around(const geometry::Box2& box, const GridGeometry& grid, double 
           config.step_m};
 }
 
-void cut_box(const cv::Mat1f& depth_m, const GridGeometry& grid, const MovableRegion& region,
-             const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
+void cut_box(const Foreground& picture, const GridGeometry& grid, const MovableRegion& region,
+             const RemovalConfig& config, cv::Mat1b& mask) {
   const cv::Rect box = cells_of(region.box_px, grid, 0);
   if (box.empty()) return;
-  const int measured = cv::countNonZero(depth_m(box));
-  if (measured < kHardlyMeasured * box.area()) mask(box).setTo(255, depth_m(box) == 0);
-  cv::Mat1f in_front = depth_m.clone();
-  in_front.setTo(0, background);
-  const auto surfaces = surfaces_within(in_front, around(region.box_px, grid, 0, region, config));
+  const cv::Mat1f in_box = picture.depth_m(box);
+  if (cv::countNonZero(in_box) < kHardlyMeasured * box.area()) mask(box).setTo(255, in_box == 0);
+  const auto surfaces = surfaces_within(picture.in_front_m, around(region.box_px, grid, 0, region, config));
   const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
   for (const auto& surface : surfaces) {
     if (static_cast<double>(surface.size()) < config.min_component * static_cast<double>(surfaces[0].size()))
       break;
     for (const cv::Point& cell : surface) mask(cell) = 255;
-    grow_surface(in_front, cv::Mat1b(), reach, surface, mask);
+    grow_surface(picture.in_front_m, reach, surface, mask);
   }
 }
 
 }  // namespace
 
-void cut_boxes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
-               const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
-  for (const MovableRegion& region : regions) cut_box(depth_m, grid, region, background, config, mask);
+void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+               const RemovalConfig& config, cv::Mat1b& mask) {
+  for (const MovableRegion& region : regions) cut_box(picture, grid, region, config, mask);
 }
 
-void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
-                 cv::Mat1b suspect, cv::Mat1b& background, cv::Mat1b& wide) {
-  fill_boxes(grid, regions, suspect);
+void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Mat1b& suspect,
+                 cv::Mat1b& background, cv::Mat1b& wide) {
   std::vector<cv::Point> outside;
   for (int r = 0; r < depth_m.rows; r += kPlaneStride)
     for (int c = 0; c < depth_m.cols; c += kPlaneStride)
@@ -75,11 +72,11 @@ void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<c
         }
 }
 
-void cut_around(const cv::Mat1f& depth_m, const GridGeometry& grid, const std::vector<cv::Point>& cells,
-                const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask) {
+void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+                const RemovalConfig& config, cv::Mat1b& mask) {
   std::vector<float> depths;
   depths.reserve(cells.size());
-  for (const cv::Point& cell : cells) depths.push_back(depth_m(cell));
+  for (const cv::Point& cell : cells) depths.push_back(picture.depth_m(cell));
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   const cv::Rect box = cv::boundingRect(cells);
@@ -88,11 +85,8 @@ void cut_around(const cv::Mat1f& depth_m, const GridGeometry& grid, const std::v
                               static_cast<double>(box.br().x * px), static_cast<double>(box.br().y * px)},
                              static_cast<float>(*middle - kThickness_m),
                              static_cast<float>(*middle + kThickness_m)};
-  cv::Mat1f in_front = depth_m.clone();
-  in_front.setTo(0, background);
   for (const cv::Point& cell : cells) mask(cell) = 255;
-  grow_surface(in_front, cv::Mat1b(), around(region.box_px, grid, config.reach_m, region, config), cells,
-               mask);
+  grow_surface(picture.in_front_m, around(region.box_px, grid, config.reach_m, region, config), cells, mask);
 }
 
 void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask) {

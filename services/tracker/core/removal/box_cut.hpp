@@ -10,24 +10,30 @@
 
 namespace rds::tracker {
 
-/// Marks (255) in `mask` the objects in boxes, cut out by depth: of each box the surfaces within its depth
-/// interval, and what they are connected with up to reach_m beyond the box. Planes that go on around the box
-/// are not the object's: where they are, `background` becomes 255; where it is 255 already, nothing is cut.
+/// What of a picture can be an object's.
+struct Foreground {
+  const cv::Mat1f& depth_m;  // of the picture
+  cv::Mat1f in_front_m;      // the same without background: 0 there
+};
+
+/// Marks (255) in `mask` the objects in boxes, cut out by depth: of each box the surfaces in the foreground
+/// within its depth interval, and what they are connected with up to reach_m beyond the box.
 ///
 /// Where nothing was measured a cell is the object's if its box is hardly measured at all.
-void cut_boxes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
-               const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask);
-
-/// Marks in `background` planes that go on outside all boxes: a table, a wall, the floor.
-///
-/// @param wide  of these the ones that are wider than a person.
-/// @param suspect  255 where else nothing is asked for planes.
-void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, std::span<const MovableRegion> regions,
-                 cv::Mat1b suspect, cv::Mat1b& background, cv::Mat1b& wide);
+void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+               const RemovalConfig& config, cv::Mat1b& mask);
 
 /// Marks cells that belong to something movable, and what they are connected with up to reach_m around them.
-void cut_around(const cv::Mat1f& depth_m, const GridGeometry& grid, const std::vector<cv::Point>& cells,
-                const cv::Mat1b& background, const RemovalConfig& config, cv::Mat1b& mask);
+void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+                const RemovalConfig& config, cv::Mat1b& mask);
+
+/// Marks planes that go on outside all suspect parts of a picture: a table, a wall, the floor.
+///
+/// @param suspect  not 0 where something movable may show; what is background already counts nevertheless.
+/// @param background  all planes are marked here …
+/// @param wide        … and those that are wider than a person here.
+void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Mat1b& suspect,
+                 cv::Mat1b& background, cv::Mat1b& wide);
 
 /// Marks whole boxes, whatever their depth.
 void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask);

@@ -13,7 +13,7 @@ namespace rds::tracker {
 /// An earlier picture in cells.
 struct SeenCells {
   cv::Mat1f depth_m;
-  cv::Mat1b mask;  // 255 where something movable showed, without a rim
+  cv::Mat1b mask;  // 255 where something movable showed, its rim included
   geometry::Pose map_from_camera = geometry::Pose::Identity();
 };
 

@@ -16,6 +16,12 @@ constexpr double kNsPerSecond = 1e9;
 constexpr int kLastingCells = 2;  // around a lasting point
 constexpr double kLastingStep_m = 0.03;
 
+cv::Mat1f without(const cv::Mat1f& depth_m, const cv::Mat1b& background) {
+  cv::Mat1f in_front = depth_m.clone();
+  in_front.setTo(0, background);
+  return in_front;
+}
+
 }  // namespace
 
 MovableMask MovableCut::cut(const image::RgbdFrame& picture,
@@ -29,45 +35,44 @@ MovableMask MovableCut::cut(const image::RgbdFrame& picture,
   }
   const Now last = std::exchange(now_, Now());
   now_.stamp_ns = picture.stamp_ns;
-  now_.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
+  now_.cells.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
+  if (config_.method == "box") return whole_boxes(regions);
   now_.mask = cv::Mat1b(grid_.size(), std::uint8_t{0});
   now_.unsupported_s = cv::Mat1f(grid_.size(), 0.0F);
-  if (config_.method == "box") {
-    fill_boxes(grid_, regions, now_.mask);
-    return {now_.mask, grid_.cell_px()};
-  }
-  keep(lasting);
+  mark_lasting(lasting);
   const auto moved = camera_from_map && config_.motion ? things_that_moved(*camera_from_map) : Things();
-  if (!regions.empty() || !moved.empty() || last.any) mark(regions, moved, camera_from_map, last);
+  if (!regions.empty() || !moved.empty() || last.widened.any()) mark(regions, moved, camera_from_map, last);
   last_pose_.reset();
-  if (cv::countNonZero(now_.mask) == 0) return {};
-  now_.any = true;
-  now_.widened = widened(now_.depth_m, now_.mask);
+  if (cv::countNonZero(now_.mask) > 0) now_.widened = widened(now_.cells.depth_m, now_.mask);
   return now_.widened;
 }
 
 MovableCut::Things MovableCut::things_that_moved(const geometry::Pose& camera_from_map) const {
+  const cv::Mat1f& depth_m = now_.cells.depth_m;
   std::vector<SeenCells> past;
   for (const auto& [stamp, seen] : past_) past.push_back(seen);
-  return arrivals(now_.depth_m, compare_with_past(now_.depth_m, grid_, camera_from_map, past, config_),
-                  config_);
+  return arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_), config_);
 }
 
 void MovableCut::mark(std::span<const MovableRegion> regions, const Things& moved,
                       const std::optional<geometry::Pose>& camera_from_map, const Now& last) {
-  cv::Mat1b background = now_.lasting.clone();
+  const cv::Mat1f& depth_m = now_.cells.depth_m;
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
+  fill_boxes(grid_, regions, suspect);
   for (const auto& cells : moved) suspect(cv::boundingRect(cells)).setTo(255);
+  cv::Mat1b background = now_.cells.lasting.clone();
   cv::Mat1b wide = background.clone();
-  mark_planes(now_.depth_m, grid_, regions, suspect, background, wide);
-  cut_boxes(now_.depth_m, grid_, regions, background, config_, now_.mask);
-  for (const auto& cells : moved) cut_around(now_.depth_m, grid_, cells, background, config_, now_.mask);
-  if (camera_from_map && last_pose_ && last.any) carry(last, *camera_from_map, wide);
+  mark_planes(depth_m, grid_, suspect, background, wide);
+  const Foreground foreground{depth_m, without(depth_m, background)};
+  cut_boxes(foreground, grid_, regions, config_, now_.mask);
+  for (const auto& cells : moved) cut_around(foreground, grid_, cells, config_, now_.mask);
+  if (camera_from_map && last_pose_ && last.widened.any()) carry(last, *camera_from_map, wide);
 }
 
 /// Marks the surfaces right around points that show where they have always been.
-void MovableCut::keep(std::span<const Eigen::Vector3f> lasting) {
-  now_.lasting = cv::Mat1b(grid_.size(), std::uint8_t{0});
+void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
+  const cv::Mat1f& depth_m = now_.cells.depth_m;
+  now_.cells.lasting = cv::Mat1b(grid_.size(), std::uint8_t{0});
   const cv::Rect inside({0, 0}, grid_.size());
   for (const Eigen::Vector3f& p : lasting) {
     const cv::Point middle = grid_.cell_of(p);
@@ -75,25 +80,25 @@ void MovableCut::keep(std::span<const Eigen::Vector3f> lasting) {
     for (int dy = -kLastingCells; dy <= kLastingCells; ++dy)
       for (int dx = -kLastingCells; dx <= kLastingCells; ++dx) {
         const cv::Point cell = middle + cv::Point(dx, dy);
-        if (!inside.contains(cell) || !(now_.depth_m(cell) > 0)) continue;
-        if (one_surface(now_.depth_m(cell), p.z(), kLastingStep_m)) now_.lasting(cell) = 255;
+        if (!inside.contains(cell) || !(depth_m(cell) > 0)) continue;
+        if (one_surface(depth_m(cell), p.z(), kLastingStep_m)) now_.cells.lasting(cell) = 255;
       }
   }
 }
 
-/// Where the parts that were cut from the last picture show now, one step further on each surface.
+/// Where the parts that were cut from the last picture show now, if they have not moved.
 void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background) {
   const auto passed_s = static_cast<float>(static_cast<double>(now_.stamp_ns - last.stamp_ns) / kNsPerSecond);
   const Eigen::Isometry3f here_from_last = (camera_from_map * *last_pose_).cast<float>();
   for (int r = 0; r < last.mask.rows; ++r)
     for (int c = 0; c < last.mask.cols; ++c) {
       const float age_s = last.unsupported_s(r, c) + passed_s;
-      const float z = last.depth_m(r, c);
+      const float z = last.cells.depth_m(r, c);
       if (last.mask(r, c) == 0 || !(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
       if (cell.x < 0 || background(cell) != 0) continue;
-      const float here = now_.depth_m(cell);
+      const float here = now_.cells.depth_m(cell);
       if (!(here > 0) || !one_surface(here, p.z(), config_.step_m)) continue;
       float& unsupported = now_.unsupported_s(cell);
       unsupported = now_.mask(cell) == 0 ? age_s : std::min(unsupported, age_s);
@@ -102,26 +107,31 @@ void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, c
 }
 
 void MovableCut::remember(const geometry::Pose& map_from_camera) {
-  if (now_.depth_m.empty() || config_.method != "depth") return;
+  if (now_.cells.depth_m.empty() || config_.method != "depth") return;
   last_pose_ = map_from_camera;
   const auto step_ns = static_cast<std::int64_t>(config_.reference_s * kNsPerSecond);
   if (!past_.empty() && now_.stamp_ns - past_.back().first < step_ns) return;
-  past_.emplace_back(now_.stamp_ns, SeenCells{now_.depth_m, now_.widened.cells(), map_from_camera});
+  past_.emplace_back(now_.stamp_ns, SeenCells{now_.cells.depth_m, now_.widened.cells(), map_from_camera});
   while (past_.size() > static_cast<std::size_t>(config_.references)) past_.pop_front();
 }
 
 MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {
   if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
-  cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  if (config_.method == "box") {
-    fill_boxes(grid_, regions, mask);
-    return {mask, grid_.cell_px()};
-  }
+  if (config_.method == "box") return whole_boxes(regions);
+  cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
+  fill_boxes(grid_, regions, suspect);
   cv::Mat1b background = picture.lasting.clone();
   cv::Mat1b wide = background.clone();
-  mark_planes(picture.depth_m, grid_, regions, mask.clone(), background, wide);
-  cut_boxes(picture.depth_m, grid_, regions, background, config_, mask);
+  mark_planes(picture.depth_m, grid_, suspect, background, wide);
+  cv::Mat1b mask(grid_.size(), std::uint8_t{0});
+  cut_boxes({picture.depth_m, without(picture.depth_m, background)}, grid_, regions, config_, mask);
   return widened(picture.depth_m, mask);
+}
+
+MovableMask MovableCut::whole_boxes(std::span<const MovableRegion> regions) const {
+  cv::Mat1b mask(grid_.size(), std::uint8_t{0});
+  fill_boxes(grid_, regions, mask);
+  return {mask, grid_.cell_px()};
 }
 
 MovableMask MovableCut::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const {

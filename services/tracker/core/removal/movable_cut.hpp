@@ -29,14 +29,15 @@ class MovableCut {
  public:
   MovableCut(const RemovalConfig& config, double max_depth_m) : config_(config), max_depth_m_(max_depth_m) {}
 
-  /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
   /// @param camera_from_map  of the picture, near to the truth; nullopt if not known: then boxes only.
+  /// @param regions  predicted boxes with their depth intervals.
+  /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
   MovableMask cut(const image::RgbdFrame& picture, const std::optional<geometry::Pose>& camera_from_map,
                   std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
   /// The pose of the picture that was cut last. Pictures without are not compared with.
   void remember(const geometry::Pose& map_from_camera);
   /// What cut_late() needs of the picture that was cut last, when its boxes come.
-  [[nodiscard]] PictureCells latest() const { return {now_.depth_m, now_.lasting}; }
+  [[nodiscard]] const PictureCells& latest() const { return now_.cells; }
   /// The objects in late boxes of an earlier picture.
   [[nodiscard]] MovableMask cut_late(const PictureCells& picture,
                                      std::span<const MovableRegion> regions) const;
@@ -46,12 +47,10 @@ class MovableCut {
  private:
   struct Now {
     std::int64_t stamp_ns = 0;
-    cv::Mat1f depth_m;
+    PictureCells cells;
     cv::Mat1b mask;           // without rim
     cv::Mat1f unsupported_s;  // for how long, where the mask is set
-    cv::Mat1b lasting;        // 255 where something shows that has stood still for long
-    bool any = false;         // is set somewhere
-    MovableMask widened;
+    MovableMask widened;      // with rim; empty where nothing is set
   };
 
   using Things = std::vector<std::vector<cv::Point>>;
@@ -59,8 +58,9 @@ class MovableCut {
   [[nodiscard]] Things things_that_moved(const geometry::Pose& camera_from_map) const;
   void mark(std::span<const MovableRegion> regions, const Things& moved,
             const std::optional<geometry::Pose>& camera_from_map, const Now& last);
-  void keep(std::span<const Eigen::Vector3f> lasting);
+  void mark_lasting(std::span<const Eigen::Vector3f> lasting);
   void carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background);
+  [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
 
   RemovalConfig config_;

@@ -17,7 +17,7 @@ struct RemovalConfig {
   double carry_s = 0.5;             // how long a part stays cut that neither box nor motion supports
   double motion_step_m = 0.1;       // nearer than what stood there before, 1 m away; grows with depth squared
   double min_motion_share = 0.004;  // of the picture, of a moving thing
-  double max_motion_share = 0.4;    // of the picture; more is an error of the pose
+  double max_motion_share = 0.4;    // of what can be judged; more is an error of the pose
   double reference_s = 0.25;        // between the pictures that a new one is compared with
   int references = 2;               // pictures it is compared with
   bool operator==(const RemovalConfig&) const = default;

@@ -23,15 +23,14 @@ bool one_surface(float depth_a_m, float depth_b_m, double step_m) {
   return std::abs(depth_a_m - depth_b_m) <= static_cast<float>(step_m) * std::max(1.0F, nearer * nearer);
 }
 
-void grow_surface(const cv::Mat1f& depth_m, const cv::Mat1b& closed, const GrowthLimits& limits,
-                  std::vector<cv::Point> seeds, cv::Mat1b& mask) {
+void grow_surface(const cv::Mat1f& depth_m, const GrowthLimits& limits, std::vector<cv::Point> seeds,
+                  cv::Mat1b& mask) {
   while (!seeds.empty()) {
     const cv::Point cell = seeds.back();
     seeds.pop_back();
     for (const cv::Point& step : kNeighbours) {
       const cv::Point next = cell + step;
-      if (!is_within(depth_m, limits, next) || mask(next) != 0 || (!closed.empty() && closed(next) != 0))
-        continue;
+      if (!is_within(depth_m, limits, next) || mask(next) != 0) continue;
       if (!one_surface(depth_m(cell), depth_m(next), limits.step_m)) continue;
       mask(next) = 255;
       seeds.push_back(next);

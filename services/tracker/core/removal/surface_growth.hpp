@@ -19,9 +19,9 @@ struct GrowthLimits {
 bool one_surface(float depth_a_m, float depth_b_m, double step_m);
 
 /// Marks (255) in `mask` all cells within the limits that `seeds` (cells marked in `mask` already) are
-/// connected with, except where `closed` is not 0.
-void grow_surface(const cv::Mat1f& depth_m, const cv::Mat1b& closed, const GrowthLimits& limits,
-                  std::vector<cv::Point> seeds, cv::Mat1b& mask);
+/// connected with.
+void grow_surface(const cv::Mat1f& depth_m, const GrowthLimits& limits, std::vector<cv::Point> seeds,
+                  cv::Mat1b& mask);
 
 /// The connected surfaces among the cells within the limits, the largest first.
 std::vector<std::vector<cv::Point>> surfaces_within(const cv::Mat1f& depth_m, const GrowthLimits& limits);

@@ -23,7 +23,7 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   const bool scarce = facts.movable_or_changed && facts.inliers < config.scarce_inliers;
   const bool urgent = scarce && facts.inliers < kUrgentShare * config.scarce_inliers;
   if (!facts.has_depth || (facts.since_last_s < config.min_interval_s && !urgent)) return KeyframeNeed::kNone;
-  const bool losing_reference = facts.inliers < config.reference_ratio * facts.reference_points;
+  const bool losing_reference = facts.seen < config.reference_ratio * facts.seen_by_reference;
   const bool close_points_wanted =
       facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;

@@ -9,7 +9,8 @@ namespace rds::tracker {
 struct KeyframeFacts {
   double since_last_s = 0;          // since the last keyframe
   int inliers = 0;                  // map points that support the frame's pose
-  int reference_points = 0;         // well observed map points of the reference keyframe
+  int seen = 0;                     // how much of the map shows: points, or cells of the picture with points
+  int seen_by_reference = 0;        // the same of the view that it is compared with
   bool has_depth = false;           // without, no map points can be made
   int close_tracked = 0;            // of the inliers, those at close depth
   int close_new = 0;                // close features without map point

@@ -111,20 +111,29 @@ std::optional<Pose> Tracker::guess_pose(const image::RgbdFrame& picture) const {
   return follows_points() ? align_with_last(picture) : expected_camera_from_map(picture.stamp_ns);
 }
 
-/// Points around the last frame, in the camera frame, that have been found where they are for long.
-std::vector<Eigen::Vector3f> Tracker::lasting_points(const Pose& camera_from_map) {
-  std::vector<Eigen::Vector3f> points;
-  if (!last_) return points;
-  const auto take = [&](PointId id) {
-    const MapPoint* point = map_.point(id);
-    if (point == nullptr || point->observations.size() < kLastingObservers || point->found < kLastingFound ||
-        2 * point->found < point->visible)
-      return;
-    points.push_back((camera_from_map * point->position).cast<float>());
-  };
-  std::ranges::for_each(last_->frame.points, take);
-  std::ranges::for_each(select_local_map(map_, last_->frame, config_.map, ++mark_).points, take);
-  return points;
+Tracker::Surroundings Tracker::surroundings(const image::RgbdFrame& picture) {
+  Surroundings around{guess_pose(picture), {}, kNoId};
+  if (!last_ || !around.camera_from_map || !(follows_points() || removes_by_depth())) return around;
+  const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
+  around.reference = local.reference;
+  std::ranges::copy_if(last_->frame.points, std::back_inserter(around.points),
+                       [&](PointId id) { return map_.point(id) != nullptr; });
+  around.points.insert(around.points.end(), local.points.begin(), local.points.end());
+  return around;
+}
+
+/// Those of the points around, in the camera frame, that have been found where they are for long.
+std::vector<Eigen::Vector3f> Tracker::lasting_points(const Surroundings& around) const {
+  std::vector<Eigen::Vector3f> lasting;
+  if (!removes_by_depth()) return lasting;
+  for (const PointId id : around.points) {
+    const MapPoint& point = *map_.point(id);
+    if (point.observations.size() < kLastingObservers || point.found < kLastingFound ||
+        2 * point.found < point.visible)
+      continue;
+    lasting.push_back((*around.camera_from_map * point.position).cast<float>());
+  }
+  return lasting;
 }
 
 FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
@@ -135,13 +144,12 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();
   look_at(picture);
-  const auto guess = guess_pose(picture);
-  const MovableMask movable =
-      cut_.cut(given, guess, regions, guess ? lasting_points(*guess) : std::vector<Eigen::Vector3f>());
+  const Surroundings around = surroundings(picture);
+  const MovableMask movable = cut_.cut(given, around.camera_from_map, regions, lasting_points(around));
   TrackedFrame frame;
   frame.movable_there = movable.any() || !regions.empty();
-  frame.camera_from_map = guess ? *guess : expected_camera_from_map(picture.stamp_ns);
-  const KeyframeNeed need = follow_map(picture, guess, movable, frame)
+  frame.camera_from_map = around.camera_from_map.value_or(expected_camera_from_map(picture.stamp_ns));
+  const KeyframeNeed need = follow_map(picture, around, movable, frame)
                                 ? follow_with_keyframe(picture, movable, frame, result)
                                 : track_features(picture, movable, frame, result);
   result.state = state_;

@@ -100,6 +100,12 @@ class Tracker {
     KeyframeId reference = kNoId;
     Pose reference_from_camera = Pose::Identity();
   };
+  /// What a new frame should see.
+  struct Surroundings {
+    std::optional<Pose> camera_from_map;  // by the last frame's points or by the motion model
+    std::vector<PointId> points;          // of the last frame and of the local map around it
+    KeyframeId reference = kNoId;
+  };
   struct KeyframeDepth {
     KeyframeId keyframe = kNoId;
     PictureCells cells;
@@ -111,11 +117,13 @@ class Tracker {
 
   /// False where poses are not estimated or nothing is to be followed.
   [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
+  [[nodiscard]] bool removes_by_depth() const { return config_.removal.method == "depth"; }
   [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
   [[nodiscard]] std::optional<Pose> guess_pose(const image::RgbdFrame& picture) const;
-  [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Pose& camera_from_map);
+  [[nodiscard]] Surroundings surroundings(const image::RgbdFrame& picture);
+  [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
   KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,
                               TrackedFrame& frame, FrameResult& result);
   void extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
@@ -123,9 +131,8 @@ class Tracker {
   void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
                     TrackedFrame& frame) const;
   [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
-  [[nodiscard]] std::vector<PointId> points_to_follow(const LocalMap& local) const;
-  bool follow_map(const image::RgbdFrame& picture, const std::optional<Pose>& guess,
-                  const MovableMask& movable, TrackedFrame& frame);
+  bool follow_map(const image::RgbdFrame& picture, const Surroundings& around, const MovableMask& movable,
+                  TrackedFrame& frame);
   KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
                                     TrackedFrame& frame, FrameResult& result);
   void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
@@ -151,8 +158,7 @@ class Tracker {
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
   void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
-  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, int inliers,
-                                             double view_change) const;
+  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, double view_change) const;
 
   TrackerConfig config_;
   GivenPoses given_poses_;

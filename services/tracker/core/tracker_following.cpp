@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bitset>
 
-#include "services/tracker/core/local_map.hpp"
 #include "services/tracker/core/sparse_image_alignment.hpp"
 #include "services/tracker/core/tracker.hpp"
 
@@ -50,30 +49,20 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
          last_camera_from_map;
 }
 
-/// Points of the last frame and of the local map around it.
-std::vector<PointId> Tracker::points_to_follow(const LocalMap& local) const {
-  std::vector<PointId> ids;
-  std::ranges::copy_if(last_->frame.points, std::back_inserter(ids),
-                       [&](PointId id) { return map_.point(id) != nullptr; });
-  ids.insert(ids.end(), local.points.begin(), local.points.end());
-  return ids;
-}
-
-bool Tracker::follow_map(const image::RgbdFrame& picture, const std::optional<Pose>& guess,
+bool Tracker::follow_map(const image::RgbdFrame& picture, const Surroundings& around,
                          const MovableMask& movable, TrackedFrame& frame) {
   const FollowingConfig& config = config_.following;
   const bool allowed = follows_points() && (!movable.any() || config.while_movable);
   const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
-  if (!allowed || !located || !guess) return false;
-  const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
-  if (local.reference == kNoId || !map_.keyframe(local.reference)->images) return false;
+  if (!allowed || !located || !around.camera_from_map) return false;
+  if (around.reference == kNoId || !map_.keyframe(around.reference)->images) return false;
   frame.stamp_ns = picture.stamp_ns;
-  frame.camera_from_map = *guess;
+  frame.camera_from_map = *around.camera_from_map;
   frame.motion = shutter_motion(picture.stamp_ns);
   const ObservationModel model(picture.camera, config_.depth);
-  FollowedPoints followed = follow_points(map_, points_to_follow(local),
-                                          {picture, *images_, movable, frame.camera_from_map, frame.motion},
-                                          model, pyramid_, config, run_parts_);
+  FollowedPoints followed =
+      follow_points(map_, around.points, {picture, *images_, movable, frame.camera_from_map, frame.motion},
+                    model, pyramid_, config, run_parts_);
   set_features(picture, std::move(followed.features), frame);
   frame.points = std::move(followed.points);
   const int found = frame.matches();
@@ -84,7 +73,7 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, const std::optional<Po
     if (MapPoint* point = map_.point(id)) ++point->found;
   note_found(static_cast<int>(followed.looked_for.size()), inliers, found_by_following_, frame);
   if (frame.found_share < config_.quality.min_found_share || has_jumped(frame)) return false;
-  reference_ = local.reference;
+  reference_ = around.reference;
   state_ = State::kTracking;
   return true;
 }
@@ -98,8 +87,9 @@ KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, cons
   const int covered = covered_cells(frame);
   if (view.keyframe != followed_view_) covered_at_view_ = covered;
   followed_view_ = view.keyframe;
-  KeyframeFacts facts = keyframe_facts(frame, covered, view.change);
-  facts.reference_points = covered_at_view_;
+  KeyframeFacts facts = keyframe_facts(frame, view.change);
+  facts.seen = covered;
+  facts.seen_by_reference = covered_at_view_;
   const KeyframeNeed need = tracker::keyframe_need(facts, config_.keyframe);
   if (need != KeyframeNeed::kMap) return need;
   TrackedFrame extracted;

@@ -65,7 +65,7 @@ std::vector<KeyframePose> Tracker::keyframe_poses() const {
 /// How well the map serves the frame; left out where it cannot be made better.
 void Tracker::add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const {
   const Keyframe* reference = map_.keyframe(reference_);
-  if (reference != nullptr) facts.reference_points = well_observed_points(map_, *reference);
+  if (reference != nullptr) facts.seen_by_reference = well_observed_points(map_, *reference);
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const Feature& f = (*frame.features)[i];
     if (f.movable || f.depth_m <= 0 || static_cast<double>(f.depth_m) > config_.depth.close_depth_m) continue;
@@ -100,9 +100,9 @@ Tracker::KnownView Tracker::nearest_view(const TrackedFrame& frame) const {
   return nearest;
 }
 
-KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, int inliers, double view_change) const {
+KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, double view_change) const {
   KeyframeFacts facts;
-  facts.inliers = inliers;
+  facts.inliers = facts.seen = frame.matches();
   facts.has_depth = has_depth(*frame.features);
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   facts.view_change = view_change;
@@ -115,8 +115,7 @@ KeyframeNeed Tracker::keyframe_need(const TrackedFrame& frame) const {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
   if (!well_localized && !frame.pose_is_given) return KeyframeNeed::kNone;
   if (!last_keyframe_ns_) return has_depth(*frame.features) ? KeyframeNeed::kMap : KeyframeNeed::kNone;
-  return tracker::keyframe_need(keyframe_facts(frame, frame.matches(), nearest_view(frame).change),
-                                config_.keyframe);
+  return tracker::keyframe_need(keyframe_facts(frame, nearest_view(frame).change), config_.keyframe);
 }
 
 void Tracker::add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {

@@ -12,7 +12,7 @@ namespace {
 KeyframeFacts calm() {
   KeyframeFacts facts;
   facts.since_last_s = 0.5;
-  facts.inliers = facts.reference_points = 300;
+  facts.inliers = facts.seen = facts.seen_by_reference = 300;
   facts.close_tracked = 250;
   facts.has_depth = true;
   return facts;
@@ -44,7 +44,7 @@ TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
 TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 0.2;
-  facts.inliers = facts.reference_points = 60;
+  facts.inliers = facts.seen = facts.seen_by_reference = 60;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
   facts.movable_or_changed = true;
   EXPECT_EQ(need(facts), KeyframeNeed::kMap);
@@ -54,9 +54,9 @@ TEST(KeyframePolicy, TheMapDoesNotWaitWhenHardlyAnythingIsLeft) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 0.03;
   facts.movable_or_changed = true;
-  facts.inliers = facts.reference_points = 100;
+  facts.inliers = facts.seen = facts.seen_by_reference = 100;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
-  facts.inliers = facts.reference_points = 60;
+  facts.inliers = facts.seen = facts.seen_by_reference = 60;
   EXPECT_EQ(need(facts), KeyframeNeed::kMap);
 }
 
@@ -77,13 +77,13 @@ TEST(KeyframePolicy, TheMapNeedsNewViews) {
 
 TEST(KeyframePolicy, TheMapNeedsAKeyframeBeforeTheReferenceIsLost) {
   KeyframeFacts facts = calm();
-  facts.inliers = 200;
+  facts.seen = 200;
   EXPECT_EQ(need(facts), KeyframeNeed::kMap);
 }
 
 TEST(KeyframePolicy, WaitsTheShortestInterval) {
   KeyframeFacts facts = calm();
-  facts.inliers = 50;
+  facts.seen = 50;
   facts.since_last_s = 0.03;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }

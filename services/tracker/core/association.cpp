@@ -18,6 +18,18 @@ constexpr double kDistanceTolerance = 1.2;  // beyond the range of levels
 constexpr double kStraightWindowPx = 2.5;
 constexpr double kObliqueWindowPx = 4;
 constexpr int kFar = 257;
+constexpr double kSureAfterNs = 0.5e9;  // that a point stands still
+constexpr double kLeastTrust = 0.02;    // in one that may not
+
+/// How sure it is that a point stands still, while something in view does not: by the time between the first
+/// and the last keyframe that saw it in its place.
+double trust(const SlamMap& map, const MapPoint& point) {
+  if (point.observations.size() < 2) return kLeastTrust;
+  const Keyframe* first = map.keyframe(point.observations.front().keyframe);
+  const Keyframe* last = map.keyframe(point.observations.back().keyframe);
+  const double seen_ns = static_cast<double>(last->stamp_ns - first->stamp_ns);
+  return std::clamp(seen_ns / kSureAfterNs, kLeastTrust, 1.0);
+}
 
 /// Removes the matches whose feature turned otherwise than most did.
 void keep_consistent_rotation(std::span<const std::uint32_t> matched, std::span<const float> differences,
@@ -214,16 +226,6 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
   return matches;
 }
 
-namespace {
-
-/// How sure it is that a point stands still, while something in view does not: by the keyframes that saw it.
-double trust(const MapPoint& point) {
-  constexpr std::array<double, 3> kTrust{0.1, 0.1, 0.3};
-  return point.observations.size() < kTrust.size() ? kTrust[point.observations.size()] : 1;
-}
-
-}  // namespace
-
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,
                    const PoseOptimizationConfig& config, TrackedFrame& frame) {
   std::vector<PointObservation> observations;
@@ -236,7 +238,7 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
       continue;
     }
     observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid),
-                            frame.movable_there ? trust(*point) : 1});
+                            frame.movable_there ? trust(map, *point) : 1});
     feature.push_back(i);
   }
   const OptimizedPose optimized = frame.pose_is_given

@@ -149,9 +149,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   TrackedFrame frame;
   frame.movable_there = movable.any() || !regions.empty();
   frame.camera_from_map = around.camera_from_map.value_or(expected_camera_from_map(picture.stamp_ns));
-  const KeyframeNeed need = follow_map(picture, around, movable, frame)
-                                ? follow_with_keyframe(picture, movable, frame, result)
-                                : track_features(picture, movable, frame, result);
+  const KeyframeNeed need = find_pose(picture, around, movable, frame, result);
   result.state = state_;
   result.features = static_cast<unsigned>(frame.features->size());
   result.dynamic_features =

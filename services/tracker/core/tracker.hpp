@@ -124,6 +124,8 @@ class Tracker {
   [[nodiscard]] std::optional<Pose> guess_pose(const image::RgbdFrame& picture) const;
   [[nodiscard]] Surroundings surroundings(const image::RgbdFrame& picture);
   [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
+  KeyframeNeed find_pose(const image::RgbdFrame& picture, const Surroundings& around,
+                         const MovableMask& movable, TrackedFrame& frame, FrameResult& result);
   KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,
                               TrackedFrame& frame, FrameResult& result);
   void extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
@@ -145,6 +147,7 @@ class Tracker {
   bool estimate_from_keyframe(TrackedFrame& frame);
   [[nodiscard]] std::optional<Twist> motion_to(const TrackedFrame& frame) const;
   [[nodiscard]] bool has_jumped(const TrackedFrame& frame) const;
+  [[nodiscard]] double jerk(const TrackedFrame& frame) const;
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);

@@ -12,6 +12,7 @@ namespace {
 constexpr double kMinDepth = 0.05;          // m
 constexpr std::size_t kEnoughToAlign = 40;  // points of the last frame
 constexpr double kTakeOverWindowPx = 2;     // between a followed point and the corner that is taken for it
+constexpr int kSurePoints = 3;              // times min_points, that what moves can hardly be
 constexpr int kCells = 20;                  // of the picture's width and height, for its covered part
 
 /// Cells of the picture in which the frame sees map points.
@@ -37,7 +38,7 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
   std::vector<SeenPoint> seen;
   for (std::size_t i = 0; i < last_->frame.points.size(); ++i) {
     const MapPoint* point = map_.point(last_->frame.points[i]);
-    if (point == nullptr) continue;
+    if (point == nullptr || (last_->frame.movable_there && point->observations.size() < 2)) continue;
     const Feature& f = (*last_->frame.features)[i];
     const Eigen::Vector3d p = last_camera_from_map * point->position;
     if (p.z() > kMinDepth) seen.push_back({f.image_px, p});
@@ -72,10 +73,29 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, const Surroundings& ar
   for (const PointId id : frame.points)
     if (MapPoint* point = map_.point(id)) ++point->found;
   note_found(static_cast<int>(followed.looked_for.size()), inliers, found_by_following_, frame);
-  if (frame.found_share < config_.quality.min_found_share || has_jumped(frame)) return false;
+  // Movable objects hide what is expected; then few found points say nothing against the pose.
+  const bool sees_enough = frame.movable_there || frame.found_share >= config_.quality.min_found_share;
+  if (!sees_enough || has_jumped(frame)) return false;
   reference_ = around.reference;
   state_ = State::kTracking;
   return true;
+}
+
+/// By following where that does, else by features.
+KeyframeNeed Tracker::find_pose(const image::RgbdFrame& picture, const Surroundings& around,
+                                const MovableMask& movable, TrackedFrame& frame, FrameResult& result) {
+  TrackedFrame followed = frame;
+  if (!follow_map(picture, around, movable, followed)) return track_features(picture, movable, frame, result);
+  const bool sure = jerk(followed) <= 1 && followed.matches() >= kSurePoints * config_.following.min_points;
+  if (followed.movable_there && !sure) {
+    const KeyframeId reference = reference_;
+    const KeyframeNeed need = track_features(picture, movable, frame, result);
+    if (has_pose(state_) && jerk(frame) <= std::max(1.0, jerk(followed))) return need;
+    reference_ = reference;
+    state_ = State::kTracking;
+  }
+  frame = std::move(followed);
+  return follow_with_keyframe(picture, movable, frame, result);
 }
 
 /// If the map needs the frame, extracts features where the pose is known.

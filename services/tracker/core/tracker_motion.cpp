@@ -21,6 +21,9 @@ constexpr int kEnoughInliers = 10;        // after it
 constexpr int kSureInliers = 80;          // with fewer another way to the pose may find more
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 constexpr double kMaxSpeed = 5;           // m/s and …
+constexpr double kPoseNoise = 0.01;       // m and rad
+constexpr double kMaxAcceleration = 15;   // m/s² and …
+constexpr double kMaxTurnAcceleration = 40;            // rad/s², of a camera in a hand
 constexpr double kMaxTurnRate = 2 * std::numbers::pi;  // rad/s, of a camera that is carried or driven
 
 }  // namespace
@@ -60,6 +63,16 @@ std::optional<Twist> Tracker::motion_to(const TrackedFrame& frame) const {
 bool Tracker::has_jumped(const TrackedFrame& frame) const {
   const auto motion = motion_to(frame);
   return motion && (motion->head<3>().norm() > kMaxSpeed || motion->tail<3>().norm() > kMaxTurnRate);
+}
+
+/// How far the pose is from where the camera was expected; above 1 no hand accelerates it so: what moves in
+/// the picture may have been taken for standing still.
+double Tracker::jerk(const TrackedFrame& frame) const {
+  const double gap = since_last_s(frame.stamp_ns);
+  if (gap <= 0 || gap > kMaxPredictedGap) return 0;
+  const Twist error = se3_log(frame.camera_from_map * expected_camera_from_map(frame.stamp_ns).inverse());
+  return std::max(error.head<3>().norm() / (kPoseNoise + kMaxAcceleration * gap * gap / 2),
+                  error.tail<3>().norm() / (kPoseNoise + kMaxTurnAcceleration * gap * gap / 2));
 }
 
 bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/image/cell_mask.hpp"
+
 namespace rds::messages {
 namespace {
 
@@ -83,6 +85,20 @@ Expected<image::DepthImage> to_depth_image(std::shared_ptr<const Image> message)
   return image::DepthImage{*values, millimetres ? kMillimetre : kMetre, std::move(message)};
 }
 
+Expected<cv::Mat1b> to_cell_mask(const Image& message, cv::Size picture) {
+  if (message.width() == 0 && message.height() == 0 && message.data().empty()) return cv::Mat1b();
+  if (message.encoding() != "mono8")
+    return tl::make_unexpected("mask encoding '" + message.encoding() + "', expected mono8");
+  const auto cells = pixels_of(message, CV_8UC1);
+  if (!cells) return tl::make_unexpected(cells.error());
+  if (image::cell_side_px(picture, cells->size()) == 0) {
+    return tl::make_unexpected("mask of " + std::to_string(cells->cols) + " x " +
+                               std::to_string(cells->rows) +
+                               " cells, expected square cells that cover the picture");
+  }
+  return cv::Mat1b(cells->clone());
+}
+
 Image to_image_message(const image::ColorImage& image, std_msgs::msg::Header header) {
   if (image.pixels.type() != CV_8UC3) throw std::invalid_argument("a colour image must be CV_8UC3");
   return message_of(image.pixels, image.order == image::ChannelOrder::kRgb ? "rgb8" : "bgr8",
@@ -101,6 +117,10 @@ Image to_image_message(const image::DepthImage& image, std_msgs::msg::Header hea
   image.values.convertTo(scaled, type,
                          static_cast<double>(image.metres_per_unit) / static_cast<double>(unit));
   return message_of(scaled, encoding, std::move(header));
+}
+
+Image to_image_message(const cv::Mat1b& mask, std_msgs::msg::Header header) {
+  return message_of(mask, "mono8", std::move(header));
 }
 
 }  // namespace rds::messages

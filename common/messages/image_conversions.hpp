@@ -21,6 +21,10 @@ Expected<image::ColorImage> to_color_image(std::shared_ptr<const sensor_msgs::ms
 /// As to_color_image(), for 16UC1 or mono16 (millimetres) and 32FC1 (metres), little-endian.
 Expected<image::DepthImage> to_depth_image(std::shared_ptr<const sensor_msgs::msg::Image> message);
 
+/// The mono8 mask of a picture's square cells, copied; empty if the message has no pixels.
+/// @return or what is wrong: as above, or a number of cells that cannot cover the picture.
+Expected<cv::Mat1b> to_cell_mask(const sensor_msgs::msg::Image& message, cv::Size picture);
+
 /// Copies the pixels; encoding bgr8 or rgb8 as their order says.
 /// @throws std::invalid_argument unless they are CV_8UC3.
 sensor_msgs::msg::Image to_image_message(const image::ColorImage& image, std_msgs::msg::Header header);
@@ -29,5 +33,8 @@ sensor_msgs::msg::Image to_image_message(const image::ColorImage& image, std_msg
 /// in other units are scaled, 16-bit ones rounded and saturated.
 /// @throws std::invalid_argument unless they are CV_16UC1 or CV_32FC1.
 sensor_msgs::msg::Image to_image_message(const image::DepthImage& image, std_msgs::msg::Header header);
+
+/// Encoding mono8. An empty mask gives a message without pixels.
+sensor_msgs::msg::Image to_image_message(const cv::Mat1b& mask, std_msgs::msg::Header header);
 
 }  // namespace rds::messages

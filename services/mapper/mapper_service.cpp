@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/messages/conversions.hpp"
+#include "common/messages/image_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "services/mapper/labelled_boxes.hpp"
 
@@ -157,8 +158,10 @@ void MapperService::integrate(const Images& images) {
   if (!frame) return context_.diagnostics.reject("rds/keyframe/images", frame.error());
   const auto map_from_camera = messages::to_pose(images->map_from_camera());
   if (!map_from_camera) return context_.diagnostics.reject("rds/keyframe/images", map_from_camera.error());
+  auto movable = messages::to_cell_mask(images->movable(), frame->color.pixels.size());
+  if (!movable) return context_.diagnostics.reject("rds/keyframe/images", movable.error());
   KeyframeInput input{images->keyframe_id(), frame->stamp_ns, *map_from_camera, frame->color,
-                      frame->depth,          frame->camera,   std::nullopt};
+                      frame->depth,          frame->camera,   std::nullopt,     std::move(*movable)};
   const auto known = std::ranges::find(poses_, input.id, &KeyframePose::id);
   if (known != poses_.end()) input.map_from_camera = known->map_from_camera;
   const geometry::Pose camera_from_map = map_from_camera->inverse();

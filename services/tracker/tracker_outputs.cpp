@@ -123,6 +123,8 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.camera_info(messages::to_camera_info(report.frame.camera, header));
   images.color(messages::to_image_message(report.frame.color, header));
   images.depth(messages::to_image_message(report.frame.depth, header));
+  const MovableMask& movable = report.result.movable;
+  images.movable(messages::to_image_message(movable.any() ? movable.cells() : cv::Mat1b(), header));
   keyframe_images_.write(images);
   if (!keyframe.in_map) return;
   rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);

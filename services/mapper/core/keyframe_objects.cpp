@@ -96,6 +96,7 @@ void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, con
     else
       still.push_back(&box);
   for (const auto& region : moving) mark_movable(record, region, config.region);
+  set_aside_movable_cells(record);
   if (still.empty()) return;
 
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return b->score; });

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/image/cell_mask.hpp"
+
 namespace rds::mapper {
 namespace {
 
@@ -75,6 +77,9 @@ std::optional<std::string> check(const KeyframeInput& input) {
                        size.width, size.height);
   if (!(input.depth.metres_per_unit > 0) || !std::isfinite(input.depth.metres_per_unit))
     return fmt::format("keyframe {}: the depth unit is not positive", input.id);
+  if (!input.movable_cells.empty() && image::cell_side_px(size, input.movable_cells.size()) == 0)
+    return fmt::format("keyframe {}: expected cells that cover a picture of {}×{}", input.id, size.width,
+                       size.height);
   return std::nullopt;
 }
 
@@ -89,12 +94,14 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
   record.width = sampled(input.camera.width, config.stride_px);
   record.height = sampled(input.camera.height, config.stride_px);
   record.rays = std::move(rays);
+  record.movable_cells = input.movable_cells.clone();
   const auto count = static_cast<std::size_t>(record.width) * static_cast<std::size_t>(record.height);
   record.depth_tenth_mm.resize(count);
   record.rgb.resize(3 * count);
   record.use.resize(count);
   sample_pixels(input, record);
   classify_by_depth(record, config);
+  set_aside_movable_cells(record);
   return record;
 }
 
@@ -113,6 +120,17 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
         continue;
       record.use[i] = depth <= farthest ? PixelUse::kStatic : PixelUse::kBeyond;
     }
+}
+
+void set_aside_movable_cells(KeyframeRecord& record) {
+  const cv::Mat1b& cells = record.movable_cells;
+  const int side = image::cell_side_px({record.camera.width, record.camera.height}, cells.size());
+  if (side == 0) return;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const int row = static_cast<int>(i) / record.width * record.stride / side;
+    const int column = static_cast<int>(i) % record.width * record.stride / side;
+    if (record.use[i] != PixelUse::kMovable && cells(row, column) != 0) record.use[i] = PixelUse::kNone;
+  }
 }
 
 }  // namespace rds::mapper

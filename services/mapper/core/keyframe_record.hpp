@@ -10,7 +10,7 @@ namespace rds::mapper {
 
 /// What a sampled pixel may do in the octree.
 enum class PixelUse : std::uint8_t {
-  kNone,     // no depth, flying pixel, rim of a movable object
+  kNone,     // no depth, flying pixel, rim of a movable object, in a movable cell
   kStatic,   // inserted as occupied; its ray carves
   kMovable,  // lowered, never inserted
   kBeyond,   // measured farther than max_range: only its ray carves
@@ -43,6 +43,7 @@ struct KeyframeRecord {
   std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;
   std::vector<std::uint16_t> depth_tenth_mm;  // 0 = none, 65535 = 6.5 m or more
   std::vector<std::uint8_t> rgb;              // 3 per pixel
+  cv::Mat1b movable_cells;                    // as in KeyframeInput
   std::vector<PixelUse> use;
   std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
   bool looked_for_objects = false;
@@ -60,6 +61,9 @@ std::optional<std::string> check(const KeyframeInput& input);
 /// @param rays  of this camera and stride, shared between records.
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
                            std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
+
+/// Pixels in movable cells are not used, unless a box says that they are of a movable object.
+void set_aside_movable_cells(KeyframeRecord& record);
 
 /// Sets `use` from the depth alone (what make_record does, and what forgets earlier boxes).
 void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config);

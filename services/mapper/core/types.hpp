@@ -36,6 +36,7 @@ struct KeyframeInput {
   image::DepthImage depth;
   geometry::CameraModel camera;
   std::optional<std::vector<LabelledBox>> boxes;
+  cv::Mat1b movable_cells;  // square cells of the picture: not 0 where something movable shows; empty: none
 };
 
 using geometry::KeyframePose;

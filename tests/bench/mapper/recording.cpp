@@ -68,7 +68,8 @@ mapper::KeyframeInput Recording::keyframe(std::size_t i) const {
                               .color = frame.color,
                               .depth = frame.depth,
                               .camera = frame.camera,
-                              .boxes = std::nullopt};
+                              .boxes = std::nullopt,
+                              .movable_cells = {}};
   input.map_from_camera = geometry::interpolate(*dataset_.ground_truth(), frame.stamp_ns);
   if (!has_boxes_) return input;
   const auto found = boxes_.find(std::llround(static_cast<double>(frame.stamp_ns) * 1e-3));

@@ -145,6 +145,34 @@ TEST(DepthImage, IsWrittenInRosUnits) {
                std::invalid_argument);
 }
 
+TEST(CellMask, SurvivesTheMessage) {
+  cv::Mat1b mask(3, 4, std::uint8_t{0});
+  mask(2, 1) = 255;
+  const auto read = to_cell_mask(to_image_message(mask, {}), {16, 11});
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(cv::countNonZero(*read != mask), 0);
+  EXPECT_TRUE(to_cell_mask(to_image_message(cv::Mat1b(), {}), {16, 11})->empty());
+  EXPECT_TRUE(to_cell_mask(Image(), {16, 11})->empty());
+}
+
+TEST(CellMask, SaysWhatIsWrong) {
+  const Image good = to_image_message(cv::Mat1b(3, 4, std::uint8_t{0}), {});
+  EXPECT_EQ(to_cell_mask(good, {16, 20}).error(),
+            "mask of 4 x 3 cells, expected square cells that cover the picture");
+  EXPECT_FALSE(to_cell_mask(good, {2, 2}).has_value());
+  Image bad = good;
+  bad.encoding("16UC1");
+  EXPECT_EQ(to_cell_mask(bad, {16, 12}).error(), "mask encoding '16UC1', expected mono8");
+  bad = good;
+  bad.data().resize(11);
+  EXPECT_FALSE(to_cell_mask(bad, {16, 12}).has_value());
+  bad = good;
+  bad.width(0);
+  EXPECT_FALSE(to_cell_mask(bad, {16, 12}).has_value());
+  bad.width(4'000'000'000U);
+  EXPECT_FALSE(to_cell_mask(bad, {16, 12}).has_value());
+}
+
 TEST(Detections, ImageBoxesSurviveTheMessage) {
   const std::vector<ImageDetection> detections = {{"person", .75F, {10, 20, 50, 120}, 2.5F},
                                                   {"chair", .5F, {0, 0, 1, 1}, 0}};

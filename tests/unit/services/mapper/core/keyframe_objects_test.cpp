@@ -49,6 +49,20 @@ TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
   }
 }
 
+TEST(KeyframeObjects, MovableCellsAreNotUsedUnlessABoxKnowsTheObject) {
+  const cv::Rect person(120, 40, 80, 200);
+  auto keyframe = SyntheticKeyframe(0).rectangle(person, 1.5).movable_cells({40, 40, 80, 80});
+  const MapperConfig config;
+  const auto unboxed = make_record(keyframe, config.sampling, sample_rays(test::small_camera(), 2));
+  EXPECT_EQ(use_at(unboxed, 60, 60), PixelUse::kNone);
+  EXPECT_EQ(use_at(unboxed, 60, 140), PixelUse::kStatic);
+  LabelTable labels;
+  keyframe.movable_cells({160, 120, 40, 40});
+  const auto boxed = record_of(keyframe.box("person", {90, 20, 140, 220}, true).make(), labels);
+  EXPECT_EQ(use_at(boxed, 180, 140), PixelUse::kMovable);
+  EXPECT_EQ(use_at(boxed, 60, 60), PixelUse::kNone);
+}
+
 TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
   const cv::Rect thing(110, 80, 100, 80);
   LabelTable labels;

@@ -145,6 +145,8 @@ TEST(SemanticMapper, NamesWhatIsWrongWithAKeyframe) {
               testing::HasSubstr("depth picture of 320×240"));
   EXPECT_THAT(fault([](auto& k) { k.color.pixels = cv::Mat(); }),
               testing::HasSubstr("colour picture of 320×240"));
+  EXPECT_THAT(fault([](auto& k) { k.movable_cells = cv::Mat1b(60, 81, std::uint8_t{0}); }),
+              testing::HasSubstr("cells that cover a picture of 320×240"));
   EXPECT_THAT(fault([](auto& k) { k.camera.fx = 0; }), testing::HasSubstr("camera model"));
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(SyntheticKeyframe(7).make());

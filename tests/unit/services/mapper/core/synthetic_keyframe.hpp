@@ -43,6 +43,12 @@ class SyntheticKeyframe {
     input_.map_from_camera = map_from_camera;
     return *this;
   }
+  /// Cells of 4 px in which the tracker found something that moves.
+  SyntheticKeyframe& movable_cells(const cv::Rect& px) {
+    if (input_.movable_cells.empty()) input_.movable_cells = cv::Mat1b(60, 80, std::uint8_t{0});
+    input_.movable_cells(cv::Rect(px.x / 4, px.y / 4, px.width / 4, px.height / 4)).setTo(255);
+    return *this;
+  }
   operator KeyframeInput() const { return input_; }  // NOLINT: a maker stands for what it makes
   [[nodiscard]] KeyframeInput make() const { return input_; }
 

@@ -95,6 +95,7 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
   record.height = sampled(input.camera.height, config.stride_px);
   record.rays = std::move(rays);
   record.movable_cells = input.movable_cells.clone();
+  record.cell_px = image::cell_side_px({input.camera.width, input.camera.height}, input.movable_cells.size());
   const auto count = static_cast<std::size_t>(record.width) * static_cast<std::size_t>(record.height);
   record.depth_tenth_mm.resize(count);
   record.rgb.resize(3 * count);
@@ -122,15 +123,16 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
     }
 }
 
+bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
+  if (record.cell_px == 0) return false;
+  const int row = static_cast<int>(pixel) / record.width * record.stride / record.cell_px;
+  const int column = static_cast<int>(pixel) % record.width * record.stride / record.cell_px;
+  return record.movable_cells(row, column) != 0;
+}
+
 void set_aside_movable_cells(KeyframeRecord& record) {
-  const cv::Mat1b& cells = record.movable_cells;
-  const int side = image::cell_side_px({record.camera.width, record.camera.height}, cells.size());
-  if (side == 0) return;
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    const int row = static_cast<int>(i) / record.width * record.stride / side;
-    const int column = static_cast<int>(i) % record.width * record.stride / side;
-    if (record.use[i] != PixelUse::kMovable && cells(row, column) != 0) record.use[i] = PixelUse::kNone;
-  }
+  for (std::size_t i = 0; i < record.size(); ++i)
+    if (record.use[i] != PixelUse::kMovable && is_in_movable_cell(record, i)) record.use[i] = PixelUse::kNone;
 }
 
 }  // namespace rds::mapper

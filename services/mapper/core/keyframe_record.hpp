@@ -26,6 +26,14 @@ struct ObjectSighting {
   std::vector<Eigen::Vector3f> points_in_camera;
 };
 
+/// Static pixels that may be of something movable, and what they belong to; all empty where there is no
+/// doubt.
+struct Doubt {
+  std::vector<bool> near_movable;
+  std::vector<std::uint16_t> surface;  // 0 = none
+  std::uint16_t surfaces = 0;
+};
+
 /// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
 std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
                                                                 int stride_px);
@@ -45,9 +53,12 @@ struct KeyframeRecord {
   std::vector<std::uint8_t> rgb;              // 3 per pixel
   cv::Mat1b movable_cells;                    // as in KeyframeInput
   std::vector<PixelUse> use;
+  Doubt doubt;
   std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
   bool looked_for_objects = false;
   std::vector<ObjectSighting> sightings;
+
+  int cell_px = 0;  // side of a movable cell; 0: there are none
 
   [[nodiscard]] std::size_t size() const { return depth_tenth_mm.size(); }
   [[nodiscard]] float depth_m(std::size_t i) const { return static_cast<float>(depth_tenth_mm[i]) * 1e-4F; }
@@ -56,6 +67,9 @@ struct KeyframeRecord {
 
 /// Why a keyframe cannot be used, in one sentence; nullopt if it can.
 std::optional<std::string> check(const KeyframeInput& input);
+
+/// True if the tracker found something that moves there.
+bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
 
 /// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.
 /// @param rays  of this camera and stride, shared between records.

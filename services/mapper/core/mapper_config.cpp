@@ -27,6 +27,14 @@ void read(ConfigReader& r, RegionConfig& c) {
   r.value("min_inside", c.min_inside, 0.0, 1.0);
 }
 
+void read(ConfigReader& r, ConfirmationConfig& c) {
+  r.value("radius_m", c.radius_m, 0.0, 5.0, "m");
+  r.value("apart_s", c.apart_s, 0.0, 60.0, "s");
+  r.value("share", c.share, 0.0, 1.0);
+  r.value("large", c.large, 0.0, 1.0);
+  r.value("share_of_large", c.share_of_large, 0.0, 1.0);
+}
+
 void read(ConfigReader& r, SegmentationConfig& c) {
   r.value("enabled", c.enabled);
   r.value("stride", c.stride, 1, 8);
@@ -93,6 +101,7 @@ void read(ConfigReader& reader, MapperConfig& config) {
   reader.value("movable_labels", config.movable_labels);
   read(reader.section("sampling"), config.sampling);
   read(reader.section("region"), config.region);
+  read(reader.section("confirmation"), config.confirmation);
   read(reader.section("segmentation"), config.segmentation);
   read(reader.section("objects"), config.objects);
   read(reader.section("octree"), config.octree);

@@ -31,6 +31,17 @@ struct RegionConfig {
   bool operator==(const RegionConfig&) const = default;
 };
 
+/// What stands near something movable counts only where it was seen at another time, too.
+struct ConfirmationConfig {
+  double radius_m = 0.8;         // around what boxes and tracker know as movable; 0: no doubts
+  double apart_s = 1.0;          // so much earlier or later is another time
+  double share = 0.7;            // of a connected surface that must have been seen then
+  double large = 0.1;            // a surface that fills this share of the picture ...
+  double share_of_large = 0.15;  // ... needs less
+
+  bool operator==(const ConfirmationConfig&) const = default;
+};
+
 struct SegmentationConfig {
   bool enabled = true;
   int stride = 2;  // of the sampled points
@@ -75,7 +86,7 @@ struct CorrectionConfig {
   double min_translation_m = 0.01;  // smaller pose corrections wait for settle()
   double min_rotation_deg = 0.5;
   int max_keyframes =
-      1000;  // kept for re-integration (0.46 MB each at 640×480, stride 2); older ones are final
+      1000;  // kept for re-integration (0.46 to 0.7 MB each at 640×480, stride 2); older ones are final
 
   bool operator==(const CorrectionConfig&) const = default;
 };
@@ -94,6 +105,7 @@ struct MapperConfig {
   std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
   SamplingConfig sampling;
   RegionConfig region;
+  ConfirmationConfig confirmation;
   SegmentationConfig segmentation;
   ObjectConfig objects;
   OctreeConfig octree;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "services/mapper/core/keyframe_record.hpp"
 #include "services/mapper/core/scan_grid.hpp"
 
@@ -25,7 +27,8 @@ struct Scan {
 };
 
 /// Fills `scan` (its memory is reused) from a record; points outside the octree's key range are left out.
-void make_scan(const KeyframeRecord& record, const OctreeConfig& octree, const SamplingConfig& sampling,
-               Scan& scan);
+/// @param use  of each pixel.
+void make_scan(const KeyframeRecord& record, std::span<const PixelUse> use, const OctreeConfig& octree,
+               const SamplingConfig& sampling, Scan& scan);
 
 }  // namespace rds::mapper

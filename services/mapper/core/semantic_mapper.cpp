@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "services/mapper/core/confirmation.hpp"
 #include "services/mapper/core/gravity.hpp"
 #include "services/mapper/core/keyframe_objects.hpp"
 
@@ -30,6 +31,9 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
 }
 
 void SemanticMapper::go_on_from(Start start) {
+  const auto& tree = start.map->octree.tree();
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+    if (tree.isNodeOccupied(*leaf)) start.map->history.know(leaf.getKey());
   const std::uint64_t revision = revision_;
   start_ = std::move(start);
   reset(map_epoch_);
@@ -64,19 +68,22 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
     throw std::invalid_argument(fmt::format("keyframe {}: is in the map already", input.id));
   auto record = make_record(input, config_.sampling, rays_of(input.camera));
   if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
+  mark_doubtful(record, config_);
   const auto& added =
       keyframes_.emplace(input.id, Keyframe{std::move(record), input.map_from_camera}).first->second;
   MapDelta delta = new_delta();
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
-  integrate_into(*map_, added.record, delta);
+  map_->history.see(added.record, config_);
+  integrate_into(*map_, added.record, map_->history, delta);
   delta.revision = ++revision_;
   make_oldest_final();
   return delta;
 }
 
-void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta) {
-  make_scan(record, config_.octree, config_.sampling, scan_);
+void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history,
+                                    MapDelta& delta) {
+  make_scan(record, confirmed_use(record, history, config_), config_.octree, config_.sampling, scan_);
   map.octree.integrate(scan_, record.looked_for_objects, labels_, delta);
   map.objects.integrate(record, labels_);
 }
@@ -85,7 +92,9 @@ void SemanticMapper::make_oldest_final() {
   while (keyframes_.size() > static_cast<std::size_t>(config_.correction.max_keyframes)) {
     if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
     MapDelta unused;
-    integrate_into(*base_, keyframes_.begin()->second.record, unused);
+    const KeyframeRecord& oldest = keyframes_.begin()->second.record;
+    base_->history.see(oldest, config_);
+    integrate_into(*base_, oldest, map_->history, unused);
     keyframes_.erase(keyframes_.begin());
     ++final_keyframes_;
   }
@@ -95,6 +104,7 @@ bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const Labell
   const auto found = keyframes_.find(keyframe_id);
   if (found == keyframes_.end()) return false;
   apply_boxes(found->second.record, boxes, config_, labels_);
+  mark_doubtful(found->second.record, config_);
   boxes_waiting_ = true;
   return true;
 }
@@ -127,9 +137,10 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 
 MapDelta SemanticMapper::rebuild() {
   auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
+  for (const auto& [id, keyframe] : keyframes_) fresh->history.see(keyframe.record, config_);
   MapDelta unused;
   for (auto& [id, keyframe] : keyframes_) {
-    integrate_into(*fresh, keyframe.record, unused);
+    integrate_into(*fresh, keyframe.record, fresh->history, unused);
     keyframe.integrated_pose = keyframe.record.map_from_camera;
     unused = MapDelta{};
   }

@@ -8,6 +8,7 @@
 #include "services/mapper/core/object_database.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
 #include "services/mapper/core/semantic_octree.hpp"
+#include "services/mapper/core/surface_history.hpp"
 
 namespace rds::mapper {
 
@@ -69,6 +70,7 @@ class SemanticMapper {
   struct Map {
     SemanticOctree octree;
     ObjectDatabase objects;
+    SurfaceHistory history;
   };
   /// What an epoch starts with.
   struct Start {
@@ -85,11 +87,12 @@ class SemanticMapper {
   void take_poses(std::span<const KeyframePose> poses);
   [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
-  void integrate_into(Map& map, const KeyframeRecord& record, MapDelta& delta);
+  /// @param history  what tells which doubtful surfaces stand.
+  void integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history, MapDelta& delta);
   void make_oldest_final();
   void go_on_from(Start start);
   [[nodiscard]] Map empty_map() const {
-    return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects)};
+    return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects), {}};
   }
   [[nodiscard]] MapDelta new_delta() const;
 

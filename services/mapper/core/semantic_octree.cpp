@@ -5,16 +5,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "services/mapper/core/voxel_projector.hpp"
+
 namespace rds::mapper {
 namespace {
 
 using Node = EditableOcTree::Node;
 constexpr std::uint16_t kMaxColorWeight = 32;  // later pictures still count: exposure drifts
 constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
-
-std::uint64_t packed(const octomap::OcTreeKey& key) {
-  return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
-}
 
 void append_key(std::vector<std::uint16_t>& keys, const octomap::OcTreeKey& key) {
   keys.insert(keys.end(), {key[0], key[1], key[2]});

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/confirmation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/mapper/core/depth_surfaces.hpp"
+#include "services/mapper/core/near_points.hpp"
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+
+/// Points of what boxes and the tracker know as movable.
+std::vector<Eigen::Vector3f> movable_points(const KeyframeRecord& record, const SamplingConfig& config) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record.use[i] != PixelUse::kMovable && !is_in_movable_cell(record, i)) continue;
+    const float depth = record.depth_m(i);
+    if (depth >= static_cast<float>(config.min_range_m) && depth <= static_cast<float>(config.max_range_m))
+      points.push_back(record.point_in_camera(i));
+  }
+  return points;
+}
+
+struct Support {
+  std::uint32_t pixels = 0;
+  std::uint32_t confirmed = 0;
+};
+
+/// How much of each surface was seen at another time, too.
+std::vector<Support> support_of_surfaces(const KeyframeRecord& record, const SurfaceHistory& history,
+                                         const MapperConfig& config) {
+  const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
+  const auto apart_ns = static_cast<std::int64_t>(config.confirmation.apart_s * kNsPerSecond);
+  std::vector<Support> support(std::size_t{record.doubt.surfaces} + 1);
+  octomap::OcTreeKey last(0, 0, 0);
+  bool confirmed = false;
+  Eigen::Vector3d at;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const auto surface = record.doubt.surface[i];
+    if (surface == 0 || !project.point(i, PixelUse::kStatic, at)) continue;
+    if (const auto key = key_at(at); !(key == last)) {
+      last = key;
+      confirmed = history.seen_apart(key, record.stamp_ns, apart_ns);
+    }
+    ++support[surface].pixels;
+    support[surface].confirmed += confirmed ? 1 : 0;
+  }
+  return support;
+}
+
+bool stands(const Support& support, std::size_t picture, const ConfirmationConfig& config) {
+  const bool large = support.pixels >= config.large * static_cast<double>(picture);
+  const double needed = large ? config.share_of_large : config.share;
+  return support.pixels > 0 && support.confirmed >= needed * support.pixels;
+}
+
+}  // namespace
+
+void mark_doubtful(KeyframeRecord& record, const MapperConfig& config) {
+  record.doubt = {};
+  if (!(config.confirmation.radius_m > 0)) return;
+  const auto movable = movable_points(record, config.sampling);
+  if (movable.empty()) return;
+  const NearPoints near(movable, static_cast<float>(config.confirmation.radius_m));
+  auto& doubtful = record.doubt.near_movable;
+  doubtful.assign(record.size(), false);
+  bool any = false;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record.use[i] != PixelUse::kStatic) continue;
+    doubtful[i] = near.contains(record.point_in_camera(i));
+    any = any || doubtful[i];
+  }
+  if (any)
+    record.doubt.surfaces = find_surfaces(record, config.sampling, record.doubt.surface);
+  else
+    record.doubt = {};
+}
+
+std::vector<PixelUse> confirmed_use(const KeyframeRecord& record, const SurfaceHistory& history,
+                                    const MapperConfig& config) {
+  std::vector<PixelUse> use = record.use;
+  if (record.doubt.surface.empty()) return use;
+  const auto support = support_of_surfaces(record, history, config);
+  std::vector<bool> standing(support.size());
+  for (std::size_t s = 1; s < support.size(); ++s)
+    standing[s] = stands(support[s], record.size(), config.confirmation);
+  for (std::size_t i = 0; i < record.size(); ++i)
+    if (record.doubt.near_movable[i] && !standing[record.doubt.surface[i]]) use[i] = PixelUse::kNone;
+  return use;
+}
+
+}  // namespace rds::mapper

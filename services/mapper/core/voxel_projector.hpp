@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <octomap/OcTreeKey.h>
+
+#include "services/mapper/core/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// Voxel of a point in voxel units (inside the key range).
+inline octomap::OcTreeKey key_at(const Eigen::Vector3d& p) {
+  return {static_cast<std::uint16_t>(p.x()), static_cast<std::uint16_t>(p.y()),
+          static_cast<std::uint16_t>(p.z())};
+}
+
+inline std::uint64_t packed(const octomap::OcTreeKey& key) {
+  return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
+}
+
+/// Where the octree can hold a point.
+inline bool in_key_range(const Eigen::Vector3d& p) {
+  constexpr double kLowestKey = 8;
+  constexpr double kHighestKey = 65536 - 8;
+  return p.allFinite() && p.minCoeff() >= kLowestKey && p.maxCoeff() < kHighestKey;
+}
+
+/// Pixels of a keyframe as points in voxel units; those beyond the range are pulled in along their ray.
+struct VoxelProjector {
+  VoxelProjector(const KeyframeRecord& keyframe, double resolution_m, double range_m)
+      : record(keyframe),
+        rotation(keyframe.map_from_camera.linear() / resolution_m),
+        origin(keyframe.map_from_camera.translation() / resolution_m + Eigen::Vector3d::Constant(kKeyOffset)),
+        max_range_m(static_cast<float>(range_m)) {}
+
+  /// @param use  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
+  [[nodiscard]] bool point(std::size_t pixel, PixelUse use, Eigen::Vector3d& at) const {
+    if (use == PixelUse::kNone) return false;
+    const Eigen::Vector3f& ray = (*record.rays)[pixel];
+    if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
+    const float depth = use == PixelUse::kBeyond ? max_range_m : record.depth_m(pixel);
+    at = rotation * (ray * depth).cast<double>() + origin;
+    return in_key_range(at);
+  }
+
+  static constexpr double kKeyOffset = 32768;  // key of coordinate 0
+  static constexpr float kMaxObliqueness = 2;  // a point farther than this × its depth is at the edge of a
+                                               // fisheye: left out
+  const KeyframeRecord& record;
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d origin;
+  float max_range_m;
+};
+
+}  // namespace rds::mapper

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 #include "common/image/cell_mask.hpp"
 
 namespace rds::mapper {
@@ -11,6 +13,7 @@ namespace {
 
 constexpr float kTenthMmPerM = 1e4F;
 constexpr int kMaxSide = 8192;
+constexpr int kBlindRadius = 4;  // sampled pixels
 
 std::uint16_t to_tenth_mm(float depth_m) {
   return static_cast<std::uint16_t>(std::min(65535.0F, std::round(depth_m * kTenthMmPerM)));
@@ -46,6 +49,19 @@ int support(const KeyframeRecord& record, int column, int row, int tolerance) {
     for (int c = std::max(0, column - 1); c <= std::min(record.width - 1, column + 1); ++c)
       count += std::abs(at(c, r) - depth) <= tolerance ? 1 : 0;
   return count - 1;  // not itself
+}
+
+/// 255 where a pixel and all within kBlindRadius have no depth; never at the picture's border.
+cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
+  cv::Mat1b none(record.height, record.width);
+  for (int row = 0; row < record.height; ++row)
+    for (int column = 0; column < record.width; ++column)
+      none(row, column) =
+          record.depth_tenth_mm[static_cast<std::size_t>(row * record.width + column)] == 0 ? 255 : 0;
+  const int side = 2 * kBlindRadius + 1;
+  cv::erode(none, none, cv::getStructuringElement(cv::MORPH_RECT, {side, side}), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  return none;
 }
 
 }  // namespace
@@ -107,6 +123,7 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
 }
 
 void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
+  const cv::Mat1b blind = without_depth_all_around(record);
   const auto nearest = to_tenth_mm(static_cast<float>(config.min_range_m));
   const auto farthest = to_tenth_mm(static_cast<float>(config.max_range_m));
   const auto tolerance_at_1m = static_cast<float>(config.edge_depth_m) * kTenthMmPerM;
@@ -114,7 +131,7 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
     for (int column = 0; column < record.width; ++column) {
       const auto i = static_cast<std::size_t>(row * record.width + column);
       const auto depth = record.depth_tenth_mm[i];
-      record.use[i] = PixelUse::kNone;
+      record.use[i] = blind(row, column) != 0 ? PixelUse::kBlind : PixelUse::kNone;
       if (depth < nearest || depth == 0) continue;
       const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
       if (support(record, column, row, static_cast<int>(tolerance_at_1m * scale)) < config.edge_support)

@@ -14,6 +14,7 @@ enum class PixelUse : std::uint8_t {
   kStatic,   // inserted as occupied; its ray carves
   kMovable,  // lowered, never inserted
   kBeyond,   // measured farther than max_range: only its ray carves
+  kBlind,    // nothing was measured all around: its ray lowers surfaces that few keyframes have seen
 };
 
 /// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary

@@ -67,6 +67,7 @@ void read(ConfigReader& r, OctreeConfig& c) {
   r.value("clamp_min", c.clamp_min, 0.001, 0.49);
   r.value("clamp_max", c.clamp_max, 0.51, 0.999);
   r.value("carve_rays", c.carve_rays);
+  r.value("weak_sightings", c.weak_sightings, 0, 32);
   r.value("color_by_label", c.color_by_label);
   r.value("label_share", c.label_share, 0.0, 1.0);
 }

@@ -39,7 +39,8 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
     for (int x = rect.x; x < rect.x + rect.width; ++x) {
       const auto i = static_cast<std::size_t>(y * record.width + x);
       const float d = record.depth_m(i);
-      if (record.use[i] != PixelUse::kNone && d >= limits.min_m && d <= limits.max_m) depths.push_back(d);
+      if (d > 0 && record.use[i] != PixelUse::kNone && d >= limits.min_m && d <= limits.max_m)
+        depths.push_back(d);
     }
   return depths;
 }
@@ -123,7 +124,8 @@ bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) cons
   const int column = static_cast<int>(pixel) % record.width;
   const int row = static_cast<int>(pixel) / record.width;
   const float depth = record.depth_m(pixel);
-  return box_px.contains(column * record.stride, row * record.stride) && depth >= min_depth_m && depth <= max_depth_m;
+  return box_px.contains(column * record.stride, row * record.stride) && depth >= min_depth_m &&
+         depth <= max_depth_m;
 }
 
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,

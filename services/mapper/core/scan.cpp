@@ -22,7 +22,7 @@ void mark_surfaces(const VoxelProjector& project, std::span<const PixelUse> use,
   const auto& record = project.record;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (use[i] == PixelUse::kBeyond || !project.point(i, use[i], at)) continue;
+    if (use[i] == PixelUse::kBeyond || use[i] == PixelUse::kBlind || !project.point(i, use[i], at)) continue;
     const auto key = key_at(at);
     auto& block = scan.grid.block_of(key);
     const auto cell = ScanGrid::cell_of(key);
@@ -35,17 +35,17 @@ void mark_surfaces(const VoxelProjector& project, std::span<const PixelUse> use,
   }
 }
 
-/// One ray per voxel in which a ray ends, to the first static pixel in it.
-void carve(const VoxelProjector& project, std::span<const PixelUse> use, Scan& scan) {
-  const auto& record = project.record;
+/// One ray per voxel in which a ray ends, to the first pixel in it that is `blind` or, if not, static.
+void carve(const VoxelProjector& project, std::span<const PixelUse> use, bool blind, Scan& scan) {
   Eigen::Vector3d at;
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    if (use[i] == PixelUse::kMovable || !project.point(i, use[i], at)) continue;
+  for (std::size_t i = 0; i < use.size(); ++i) {
+    if (use[i] == PixelUse::kMovable || (use[i] == PixelUse::kBlind) != blind) continue;
+    if (!project.point(i, use[i], at)) continue;
     const auto key = key_at(at);
     auto& flags = scan.grid.block_of(key).flags[ScanGrid::cell_of(key)];
     if ((flags & kRayCast) != 0) continue;
     flags |= kRayCast;
-    scan.grid.cast_ray(project.origin, at);
+    scan.grid.cast_ray(project.origin, at, blind ? kBlindRay : kRayPassed);
   }
 }
 
@@ -69,7 +69,9 @@ void make_scan(const KeyframeRecord& record, std::span<const PixelUse> use, cons
     }
   scan.grid.reset(key_at(lowest), key_at(highest));
   mark_surfaces(project, use, scan);
-  if (octree.carve_rays) carve(project, use, scan);
+  if (!octree.carve_rays) return;
+  carve(project, use, false, scan);
+  if (octree.weak_sightings > 0) carve(project, use, true, scan);
 }
 
 }  // namespace rds::mapper

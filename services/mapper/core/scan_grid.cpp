@@ -42,7 +42,7 @@ std::size_t ScanGrid::cell_of(const octomap::OcTreeKey& key) {
   return static_cast<std::size_t>(kSpread[key[0] & 7] | kSpread[key[1] & 7] << 1 | kSpread[key[2] & 7] << 2);
 }
 
-void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
   std::array<int, 3> key{};
   std::array<int, 3> step{};
   std::array<int, 3> left{};
@@ -76,7 +76,7 @@ void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
     }
     block->flags[static_cast<std::size_t>(kSpread[static_cast<std::size_t>(key[0] & 7)] |
                                           kSpread[static_cast<std::size_t>(key[1] & 7)] << 1 |
-                                          kSpread[static_cast<std::size_t>(key[2] & 7)] << 2)] |= kRayPassed;
+                                          kSpread[static_cast<std::size_t>(key[2] & 7)] << 2)] |= flag;
     const unsigned axis =
         t_next[0] <= t_next[1] ? (t_next[0] <= t_next[2] ? 0 : 2) : (t_next[1] <= t_next[2] ? 1 : 2);
     key[axis] += step[axis];

@@ -32,8 +32,10 @@ octomap::OcTreeKey child_key(const octomap::OcTreeKey& key, unsigned index, unsi
           static_cast<std::uint16_t>(key[2] + (index & 4 ? size : 0))};
 }
 
-/// True if a ray passed or a surface was seen in any of the cells; `count` is a multiple of 8.
-bool is_touched(const std::uint8_t* flags, std::size_t count) {
+constexpr unsigned kMeasured = kSurface | kRayPassed;
+
+/// True if any of the cells has one of `wanted`; `count` is a multiple of 8.
+bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
   constexpr std::uint64_t kEight = 0x0101010101010101U;
   std::uint64_t any = 0;
   for (std::size_t i = 0; i < count; i += 8) {
@@ -41,7 +43,7 @@ bool is_touched(const std::uint8_t* flags, std::size_t count) {
     std::memcpy(&siblings, flags + i, 8);
     any |= siblings;
   }
-  return (any & (kSurface | kRayPassed) * kEight) != 0;
+  return (any & wanted * kEight) != 0;
 }
 
 }  // namespace
@@ -112,17 +114,21 @@ void SemanticOctree::integrate(const Scan& scan, bool looked_for_objects, const 
   for (const auto& block : scan.grid.blocks()) update_block(block, update);
 }
 
+/// Cells in which something was measured are made where they are missing; blind rays change what there is.
 void SemanticOctree::update_block(const ScanGrid::Block& block, const Update& update) {
-  if (!is_touched(block.flags.data(), block.flags.size())) return;
   const octomap::OcTreeKey base(block.key[0], block.key[1], block.key[2]);
+  const auto is_concerned = [&](unsigned first, std::size_t count, bool exists) {
+    return any_has(exists ? kMeasured | kBlindRay : kMeasured, &block.flags[first], count);
+  };
+  if (!is_concerned(0, block.flags.size(), tree_.search(base, kBlockDepth) != nullptr)) return;
   std::array<Node*, EditableOcTree::kDepth + 1> path{};
   Node* top = tree_.descend(base, kBlockDepth, path);
   for (unsigned outer = 0; outer < 8; ++outer) {
-    if (!is_touched(&block.flags[outer * 64], 64)) continue;
+    if (!is_concerned(outer * 64, 64, tree_.nodeChildExists(top, outer))) continue;
     Node* parent = tree_.child(top, outer);
     for (unsigned inner = 0; inner < 8; ++inner) {
       const unsigned first_cell = outer * 64 + inner * 8;
-      if (!is_touched(&block.flags[first_cell], 8)) continue;
+      if (!is_concerned(first_cell, 8, tree_.nodeChildExists(parent, inner))) continue;
       update_siblings(tree_.child(parent, inner), child_key(child_key(base, outer, 4), inner, 2), block,
                       first_cell, update);
     }
@@ -136,13 +142,23 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
                                      const Update& update) {
   for (unsigned index = 0; index < 8; ++index) {
     const auto flags = block.flags[first_cell + index];
-    if ((flags & (kSurface | kRayPassed)) == 0) continue;
+    if ((flags & kMeasured) == 0 &&
+        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1))))
+      continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
         (flags & kSurface) != 0 ? &update.scan.surfaces[block.slot[first_cell + index]] : nullptr;
     update_voxel(tree_.child(parent, index), created, child_key(base, index, 1), surface, update);
   }
   EditableOcTree::refresh(parent);
+}
+
+/// True for an occupied voxel that few keyframes have seen.
+bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key) const {
+  if (!tree_.nodeChildExists(parent, index)) return false;
+  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
+  const auto found = memory_.find(packed(key));
+  return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,

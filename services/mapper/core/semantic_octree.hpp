@@ -20,6 +20,7 @@ class VoxelMemory {
   /// The label with most votes if it has the needed share, else 0; ties go to the lower index.
   [[nodiscard]] std::uint16_t label(double needed_share) const;
   [[nodiscard]] Rgb color() const;
+  [[nodiscard]] int times_seen() const { return times_seen_; }
 
   void put(map_file::ByteWriter& writer) const;
   /// @param labels  of the label table. Refuses colours and labels that cannot be.
@@ -37,8 +38,9 @@ class VoxelMemory {
 };
 
 /// The semantic octree of paper §IV-C: log-odds +0.85 where a static point was seen, −0.41 where a movable
-/// point was seen or a ray passed, clamped; occupied above p = 0.5. Each voxel changes at most once per
-/// keyframe, hits win over misses.
+/// point was seen or a ray passed, clamped; occupied above p = 0.5. Where a ray should have met an occupied
+/// voxel and nothing was measured, −0.41 too, if few keyframes have seen the voxel. Each voxel changes at
+/// most once per keyframe, hits win over misses.
 class SemanticOctree {
  public:
   explicit SemanticOctree(const OctreeConfig& config);
@@ -68,6 +70,7 @@ class SemanticOctree {
   void update_block(const ScanGrid::Block& block, const Update& update);
   void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
                        unsigned first_cell, const Update& update);
+  [[nodiscard]] bool is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                     const Update& update);
   std::uint16_t remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,

@@ -24,7 +24,7 @@ inline bool in_key_range(const Eigen::Vector3d& p) {
   return p.allFinite() && p.minCoeff() >= kLowestKey && p.maxCoeff() < kHighestKey;
 }
 
-/// Pixels of a keyframe as points in voxel units; those beyond the range are pulled in along their ray.
+/// Pixels of a keyframe as points in voxel units; those beyond the range, or blind, end at it.
 struct VoxelProjector {
   VoxelProjector(const KeyframeRecord& keyframe, double resolution_m, double range_m)
       : record(keyframe),
@@ -37,7 +37,8 @@ struct VoxelProjector {
     if (use == PixelUse::kNone) return false;
     const Eigen::Vector3f& ray = (*record.rays)[pixel];
     if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
-    const float depth = use == PixelUse::kBeyond ? max_range_m : record.depth_m(pixel);
+    const bool measured = use != PixelUse::kBeyond && use != PixelUse::kBlind;
+    const float depth = measured ? record.depth_m(pixel) : max_range_m;
     at = rotation * (ray * depth).cast<double>() + origin;
     return in_key_range(at);
   }

@@ -85,6 +85,27 @@ TEST(SemanticMapper, RaysBeyondTheRangeCarveToo) {
   EXPECT_EQ(occupied_between(mapper.tree(), 0, 10), 0);
 }
 
+TEST(SemanticMapper, WhoStoodBeforeNothingMeasurableIsGoneThreeKeyframesAfterLeaving) {
+  constexpr double kNothing = 0;
+  SemanticMapper mapper(MapperConfig{});
+  const auto person = test::point_at(160, 120, 1.5);
+  mapper.integrate(SyntheticKeyframe(0, kNothing).rectangle({120, 40, 80, 160}, 1.5));
+  EXPECT_TRUE(is_occupied(mapper.tree(), person));
+  for (std::uint64_t id = 1; id <= 3; ++id) mapper.integrate(SyntheticKeyframe(id, kNothing));
+  EXPECT_EQ(occupied_between(mapper.tree(), 0, 4), 0);
+  const auto beside = test::point_at(40, 120, 1.0);
+  EXPECT_TRUE(std::isnan(log_odds_at(mapper.tree(), beside)));  // free is only what a ray measured
+}
+
+TEST(SemanticMapper, ADarkSurfaceThatIsSeenNowAndThenStays) {
+  constexpr double kNothing = 0;
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 3; ++id)
+    mapper.integrate(SyntheticKeyframe(id, kNothing).rectangle(kPerson, 1.5));
+  for (std::uint64_t id = 3; id < 20; ++id) mapper.integrate(SyntheticKeyframe(id, kNothing));
+  EXPECT_TRUE(is_occupied(mapper.tree(), test::point_at(160, 120, 1.5)));
+}
+
 TEST(SemanticMapper, AVoxelChangesOncePerKeyframe) {
   SemanticMapper mapper(MapperConfig{});
   const auto delta = mapper.integrate(SyntheticKeyframe(0).make());

@@ -148,6 +148,7 @@ bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
 }
 
 void set_aside_movable_cells(KeyframeRecord& record) {
+  if (record.cell_px == 0) return;
   for (std::size_t i = 0; i < record.size(); ++i)
     if (record.use[i] != PixelUse::kMovable && is_in_movable_cell(record, i)) record.use[i] = PixelUse::kNone;
 }

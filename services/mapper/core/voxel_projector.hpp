@@ -17,11 +17,12 @@ inline std::uint64_t packed(const octomap::OcTreeKey& key) {
   return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
 }
 
-/// Where the octree can hold a point.
+/// Where the octree can hold a point; false for NaN.
 inline bool in_key_range(const Eigen::Vector3d& p) {
   constexpr double kLowestKey = 8;
   constexpr double kHighestKey = 65536 - 8;
-  return p.allFinite() && p.minCoeff() >= kLowestKey && p.maxCoeff() < kHighestKey;
+  const auto fits = [](double x) { return x >= kLowestKey && x < kHighestKey; };
+  return fits(p.x()) && fits(p.y()) && fits(p.z());
 }
 
 /// Pixels of a keyframe as points in voxel units; those beyond the range, or blind, end at it.
@@ -39,7 +40,12 @@ struct VoxelProjector {
     if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
     const bool measured = use != PixelUse::kBeyond && use != PixelUse::kBlind;
     const float depth = measured ? record.depth_m(pixel) : max_range_m;
-    at = rotation * (ray * depth).cast<double>() + origin;
+    const double x = double{ray.x()} * double{depth};  // written out: this is where a keyframe's time goes
+    const double y = double{ray.y()} * double{depth};
+    const double z = double{ray.z()} * double{depth};
+    at = {rotation(0, 0) * x + rotation(0, 1) * y + rotation(0, 2) * z + origin.x(),
+          rotation(1, 0) * x + rotation(1, 1) * y + rotation(1, 2) * z + origin.y(),
+          rotation(2, 0) * x + rotation(2, 1) * y + rotation(2, 2) * z + origin.z()};
     return in_key_range(at);
   }
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Integration of a keyframe, at 5 cm and 2 cm, beside OctoMap's own insertPointCloud with rays on the same
+// points. Skipped, with the reason, without 7scenes_kitchen in RDS_SHARED.
+#include <cstdlib>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+#include <octomap/OcTree.h>
+
+#include "services/mapper/core/semantic_mapper.hpp"
+#include "tests/bench/mapper/recording.hpp"
+
+namespace {
+
+using namespace rds;
+
+constexpr std::size_t kEvery = 8;  // frames
+constexpr double kMmPerM = 1000;
+
+/// Keyframes of the recording with their true poses; empty without it.
+const std::vector<mapper::KeyframeInput>& keyframes() {
+  static const auto loaded = [] {
+    std::vector<mapper::KeyframeInput> all;
+    const char* shared = std::getenv("RDS_SHARED");
+    const auto folder = std::filesystem::path(shared != nullptr ? shared : "") / "data/7scenes_kitchen";
+    if (shared == nullptr || !std::filesystem::exists(folder)) return all;
+    const bench::Recording recording(folder, {});
+    for (std::size_t i = 0; i < recording.size(); i += kEvery) {
+      all.push_back(recording.keyframe(i));
+      all.back().boxes.emplace();
+    }
+    return all;
+  }();
+  return loaded;
+}
+
+bool skipped(benchmark::State& state) {
+  if (keyframes().empty()) state.SkipWithError("RDS_SHARED/data/7scenes_kitchen is missing");
+  return keyframes().empty();
+}
+
+void integrate_keyframe(benchmark::State& state) {
+  if (skipped(state)) return;
+  mapper::MapperConfig config;
+  config.octree.resolution_m = static_cast<double>(state.range(0)) / kMmPerM;
+  mapper::SemanticMapper mapper(config, 1);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    if (next == keyframes().size()) {
+      mapper.reset(1);
+      next = 0;
+    }
+    benchmark::DoNotOptimize(mapper.integrate(keyframes()[next++]));
+  }
+}
+BENCHMARK(integrate_keyframe)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
+
+/// The points that the mapper uses, in the map.
+octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {
+  const mapper::SamplingConfig sampling;
+  const auto record =
+      mapper::make_record(input, sampling, mapper::sample_rays(input.camera, sampling.stride_px));
+  octomap::Pointcloud cloud;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record.use[i] != mapper::PixelUse::kStatic) continue;
+    const Eigen::Vector3f p =
+        (input.map_from_camera * record.point_in_camera(i).cast<double>()).cast<float>();
+    cloud.push_back(p.x(), p.y(), p.z());
+  }
+  return cloud;
+}
+
+void octomap_insert_point_cloud(benchmark::State& state) {
+  if (skipped(state)) return;
+  std::vector<octomap::Pointcloud> clouds;
+  for (const auto& input : keyframes()) clouds.push_back(points_of(input));
+  octomap::OcTree tree(static_cast<double>(state.range(0)) / kMmPerM);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    if (next == clouds.size()) {
+      tree.clear();
+      next = 0;
+    }
+    const Eigen::Vector3f from = keyframes()[next].map_from_camera.translation().cast<float>();
+    tree.insertPointCloud(clouds[next++], octomap::point3d(from.x(), from.y(), from.z()));
+  }
+}
+BENCHMARK(octomap_insert_point_cloud)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -38,17 +38,17 @@ void sample_pixels(const KeyframeInput& input, KeyframeRecord& record) {
     }
 }
 
-/// Number of the 8 neighbours whose depth is near this pixel's.
-int support(const KeyframeRecord& record, int column, int row, int tolerance) {
-  const auto at = [&](int c, int r) {
-    return int{record.depth_tenth_mm[static_cast<std::size_t>(r * record.width + c)]};
-  };
-  const int depth = at(column, row);
-  int count = 0;
-  for (int r = std::max(0, row - 1); r <= std::min(record.height - 1, row + 1); ++r)
-    for (int c = std::max(0, column - 1); c <= std::min(record.width - 1, column + 1); ++c)
-      count += std::abs(at(c, r) - depth) <= tolerance ? 1 : 0;
-  return count - 1;  // not itself
+/// True if so many of the 8 neighbours have nearly this pixel's depth.
+bool is_supported(const KeyframeRecord& record, int column, int row, int tolerance, int needed) {
+  const std::uint16_t* middle = &record.depth_tenth_mm[static_cast<std::size_t>(row * record.width + column)];
+  const int depth = *middle;
+  const int left = column > 0 ? -1 : 0;
+  const int right = column + 1 < record.width ? 1 : 0;
+  int count = -1;  // itself
+  for (int r = row > 0 ? -1 : 0; r <= (row + 1 < record.height ? 1 : 0) && count < needed; ++r)
+    for (int c = left; c <= right; ++c)
+      count += std::abs(middle[r * record.width + c] - depth) <= tolerance ? 1 : 0;
+  return count >= needed;
 }
 
 /// 255 where a pixel and all within kBlindRadius have no depth; never at the picture's border.
@@ -134,8 +134,8 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
       record.use[i] = blind(row, column) != 0 ? PixelUse::kBlind : PixelUse::kNone;
       if (depth < nearest || depth == 0) continue;
       const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
-      if (support(record, column, row, static_cast<int>(tolerance_at_1m * scale)) < config.edge_support)
-        continue;
+      const auto tolerance = static_cast<int>(tolerance_at_1m * scale);
+      if (!is_supported(record, column, row, tolerance, config.edge_support)) continue;
       record.use[i] = depth <= farthest ? PixelUse::kStatic : PixelUse::kBeyond;
     }
 }

@@ -10,6 +10,35 @@ namespace {
 /// Bits of a local coordinate 0…7 spread to every third place: the octree's child order (x lowest).
 constexpr std::array<std::uint16_t, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};
 
+std::size_t cell(int x, int y, int z) {
+  const auto spread = [](int key) { return kSpread[static_cast<std::size_t>(key & 7)]; };
+  return static_cast<std::size_t>(spread(x) | spread(y) << 1 | spread(z) << 2);
+}
+
+/// One coordinate of a voxel on a ray; no branches, as nobody can predict which one is next to change.
+struct RayAxis {
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  RayAxis(double from, double to)
+      : key(static_cast<int>(std::floor(from))), left(static_cast<int>(std::floor(to)) - key) {
+    step = left < 0 ? -1 : 1;
+    left = std::abs(left);
+    delta = 1 / std::abs(to - from);
+    next = left == 0 ? kNever : std::abs(key + (step > 0 ? 1 : 0) - from) * delta;
+  }
+  void advance(bool go) {
+    key += go ? step : 0;
+    left -= go ? 1 : 0;
+    next = left == 0 ? kNever : next + (go ? delta : 0);
+  }
+
+  int key;
+  int left;      // steps
+  int step;      // +1 or −1
+  double delta;  // share of the ray from border to border
+  double next;   // share of the ray up to the next border
+};
+
 }  // namespace
 
 void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest) {
@@ -39,48 +68,31 @@ ScanGrid::Block& ScanGrid::block_of(const octomap::OcTreeKey& key) {
 }
 
 std::size_t ScanGrid::cell_of(const octomap::OcTreeKey& key) {
-  return static_cast<std::size_t>(kSpread[key[0] & 7] | kSpread[key[1] & 7] << 1 | kSpread[key[2] & 7] << 2);
+  return cell(key[0], key[1], key[2]);
 }
 
 void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
-  std::array<int, 3> key{};
-  std::array<int, 3> step{};
-  std::array<int, 3> left{};
-  std::array<double, 3> t_next{};
-  std::array<double, 3> t_step{};
-  int steps = 0;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<Eigen::Index>(axis);
-    key[axis] = static_cast<int>(std::floor(from[a]));
-    left[axis] = static_cast<int>(std::floor(to[a])) - key[axis];
-    step[axis] = left[axis] < 0 ? -1 : 1;
-    left[axis] = std::abs(left[axis]);
-    steps += left[axis];
-    t_step[axis] = 1 / std::abs(to[a] - from[a]);
-    t_next[axis] = left[axis] == 0 ? std::numeric_limits<double>::infinity()
-                                   : std::abs(key[axis] + (step[axis] > 0 ? 1 : 0) - from[a]) * t_step[axis];
-  }
+  RayAxis x(from.x(), to.x());
+  RayAxis y(from.y(), to.y());
+  RayAxis z(from.z(), to.z());
   Block* block = nullptr;
-  int block_x = -1;
+  int block_x = -1;  // a voxel of the block
   int block_y = -1;
   int block_z = -1;
-  for (; steps > 0; --steps) {
-    if (key[0] >> kBlockBits != block_x || key[1] >> kBlockBits != block_y ||
-        key[2] >> kBlockBits != block_z) {
-      block_x = key[0] >> kBlockBits;
-      block_y = key[1] >> kBlockBits;
-      block_z = key[2] >> kBlockBits;
-      block =
-          &block_of(octomap::OcTreeKey(static_cast<std::uint16_t>(key[0]), static_cast<std::uint16_t>(key[1]),
-                                       static_cast<std::uint16_t>(key[2])));
+  for (int steps = x.left + y.left + z.left; steps > 0; --steps) {
+    if (((x.key ^ block_x) | (y.key ^ block_y) | (z.key ^ block_z)) >> kBlockBits != 0) {
+      block_x = x.key;
+      block_y = y.key;
+      block_z = z.key;
+      block = &block_of({static_cast<std::uint16_t>(x.key), static_cast<std::uint16_t>(y.key),
+                         static_cast<std::uint16_t>(z.key)});
     }
-    block->flags[static_cast<std::size_t>(kSpread[static_cast<std::size_t>(key[0] & 7)] |
-                                          kSpread[static_cast<std::size_t>(key[1] & 7)] << 1 |
-                                          kSpread[static_cast<std::size_t>(key[2] & 7)] << 2)] |= flag;
-    const unsigned axis =
-        t_next[0] <= t_next[1] ? (t_next[0] <= t_next[2] ? 0 : 2) : (t_next[1] <= t_next[2] ? 1 : 2);
-    key[axis] += step[axis];
-    t_next[axis] = --left[axis] == 0 ? std::numeric_limits<double>::infinity() : t_next[axis] + t_step[axis];
+    block->flags[cell(x.key, y.key, z.key)] |= flag;
+    const bool go_x = (x.next <= y.next) & (x.next <= z.next);
+    const bool go_y = !go_x & (y.next <= z.next);
+    x.advance(go_x);
+    y.advance(go_y);
+    z.advance(!(go_x | go_y));
   }
 }
 

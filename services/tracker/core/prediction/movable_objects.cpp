@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/prediction/movable_objects.hpp"
 
+#include "services/tracker/core/prediction/visibility.hpp"
+
 namespace rds::tracker {
 
 std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns,
@@ -30,7 +32,9 @@ std::vector<MovableRegion> MovableObjects::regions_of(Observations observations,
                                                       const geometry::CameraModel& camera) const {
   std::vector<MovableRegion> regions;
   for (const prediction::ObjectObservation& observation : observations) {
-    if (!prediction::is_movable(predictor_.config(), observation.label)) continue;
+    if (!prediction::is_movable(predictor_.config(), observation.label) ||
+        prediction::is_doubtful(observation, {camera_from_map.inverse(), camera}, predictor_.config()))
+      continue;
     if (const auto box =
             prediction::to_image(observation.box, camera_from_map, camera, predictor_.config().region))
       regions.push_back(box->region);

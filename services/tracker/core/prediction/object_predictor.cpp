@@ -9,6 +9,7 @@
 #include "services/tracker/core/prediction/kalman_tracking.hpp"
 #include "services/tracker/core/prediction/observation_filter.hpp"
 #include "services/tracker/core/prediction/plane_tracking.hpp"
+#include "services/tracker/core/prediction/visibility.hpp"
 
 namespace rds::tracker::prediction {
 namespace {
@@ -30,6 +31,7 @@ bool ObjectPredictor::update(std::int64_t stamp_ns, std::span<const ObjectObserv
   const ObservationLimits limits{config_.min_score, config_.duplicate_overlap, kMaxObservations};
   auto used = usable(observations, limits);
   if (view) {
+    std::erase_if(used, [&](const ObjectObservation& o) { return is_doubtful(o, *view, config_); });
     const geometry::Pose camera_from_map = view->map_from_camera.inverse();
     for (ObjectObservation& o : used)
       o.cut = cut_sides(o.box, camera_from_map, view->camera, config_.border_px);

@@ -43,6 +43,8 @@ void read(config::ConfigReader& reader, PredictionConfig& config) {
   reader.value("movable_labels", config.movable_labels);
   reader.value("min_score", config.min_score, 0.0, 1.0);
   reader.value("duplicate_overlap", config.duplicate_overlap, 0.01, 1.0);
+  reader.value("doubtful_share", config.doubtful_share, 0.0, 1.0);
+  reader.value("doubtful_score", config.doubtful_score, 0.0, 1.0);
   reader.value("border_px", config.border_px, 0.0, 200.0, "px");
   read(reader.section("paper"), config.paper);
   read(reader.section("kalman3d"), config.kalman3d);

@@ -33,4 +33,11 @@ bool should_be_detected(const geometry::OrientedBox& box, std::span<const Object
   });
 }
 
+bool is_doubtful(const ObjectObservation& observation, const KeyframeView& view,
+                 const PredictionConfig& config) {
+  if (static_cast<double>(observation.score) >= config.doubtful_score) return false;
+  const auto box = image_box(observation.box, view.map_from_camera.inverse(), view.camera);
+  return box && box->area() > config.doubtful_share * view.camera.width * view.camera.height;
+}
+
 }  // namespace rds::tracker::prediction

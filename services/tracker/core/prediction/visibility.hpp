@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/prediction/tracked_object.hpp"
 
 namespace rds::tracker::prediction {
@@ -11,5 +12,10 @@ namespace rds::tracker::prediction {
 /// picture, and no detected object stands nearer in front of at least half of that.
 bool should_be_detected(const geometry::OrientedBox& box, std::span<const ObjectObservation> detected,
                         const KeyframeView& view);
+
+/// True for a box of nearly the whole picture with a low score: networks find such where there is nothing,
+/// and taken for true it would hide all there is to track.
+bool is_doubtful(const ObjectObservation& observation, const KeyframeView& view,
+                 const PredictionConfig& config);
 
 }  // namespace rds::tracker::prediction

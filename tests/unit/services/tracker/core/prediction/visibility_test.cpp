@@ -34,5 +34,16 @@ TEST(Visibility, ExpectsNoneOfWhatIsMostlyOutsideThePictureOrBehindTheCamera) {
   EXPECT_FALSE(should_be_detected(box, {}, kView));
 }
 
+TEST(Visibility, DoubtsWhatFillsThePictureWithALowScoreOnly) {
+  const PredictionConfig config;
+  ObjectObservation close = person_at(0, 0.42);
+  EXPECT_FALSE(is_doubtful(close, kView, config)) << "the network is sure";
+  close.score = 0.5F;
+  EXPECT_TRUE(is_doubtful(close, kView, config));
+  ObjectObservation farther = person_at(0, 1);
+  farther.score = 0.5F;
+  EXPECT_FALSE(is_doubtful(farther, kView, config));
+}
+
 }  // namespace
 }  // namespace rds::tracker::prediction

@@ -21,16 +21,6 @@ constexpr int kFar = 257;
 constexpr double kSureAfterNs = 0.5e9;  // that a point stands still
 constexpr double kLeastTrust = 0.02;    // in one that may not
 
-/// How sure it is that a point stands still, while something in view does not: by the time between the first
-/// and the last keyframe that saw it in its place.
-double trust(const SlamMap& map, const MapPoint& point) {
-  if (point.observations.size() < 2) return kLeastTrust;
-  const Keyframe* first = map.keyframe(point.observations.front().keyframe);
-  const Keyframe* last = map.keyframe(point.observations.back().keyframe);
-  const double seen_ns = static_cast<double>(last->stamp_ns - first->stamp_ns);
-  return std::clamp(seen_ns / kSureAfterNs, kLeastTrust, 1.0);
-}
-
 /// Removes the matches whose feature turned otherwise than most did.
 void keep_consistent_rotation(std::span<const std::uint32_t> matched, std::span<const float> differences,
                               TrackedFrame& frame) {
@@ -224,6 +214,14 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
     ++matches.found;
   }
   return matches;
+}
+
+double trust(const SlamMap& map, const MapPoint& point) {
+  if (point.observations.size() < 2) return kLeastTrust;
+  const Keyframe* first = map.keyframe(point.observations.front().keyframe);
+  const Keyframe* last = map.keyframe(point.observations.back().keyframe);
+  const double seen_ns = static_cast<double>(last->stamp_ns - first->stamp_ns);
+  return std::clamp(seen_ns / kSureAfterNs, kLeastTrust, 1.0);
 }
 
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,

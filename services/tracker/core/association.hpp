@@ -88,6 +88,10 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
                           const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
                           TrackedFrame& frame);
 
+/// How sure it is that a point stands still, while something in view does not, from near 0 to 1: by the time
+/// between the first and the last keyframe that saw it in its place.
+double trust(const SlamMap& map, const MapPoint& point);
+
 /// Pose from the frame's matches, unless it is given; outliers are removed from frame.points.
 /// @return number of inliers.
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,

@@ -48,7 +48,7 @@ std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points
         project_rolling(camera, view.motion, view.camera_from_map * point->position).cast<float>();
     if ((px.array() >= kBorder).all() && (px.array() <= largest.array()).all())
       all.push_back({point, px, projected->level,
-                     trust(map, *point) < 1 && is_hidden(view, px, pyramid.scale(projected->level))});
+                     is_hidden(view, px, pyramid.scale(projected->level)) && trust(map, *point) < 1});
   }
   return all;
 }

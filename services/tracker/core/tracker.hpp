@@ -94,6 +94,8 @@ class Tracker {
   void reset();
 
  private:
+  static constexpr int kSureInliers = 80;  // with fewer a pose may be wrong, and another way to it find more
+
   struct LastFrame {
     TrackedFrame frame;
     std::shared_ptr<const ImagePyramid> images;

@@ -11,8 +11,7 @@
 namespace rds::tracker {
 namespace {
 
-constexpr int kSureMatches = 80;  // of a frame whose motion is a surprise: with fewer it is wrong …
-constexpr double kWild = 4;       // … if it is that much of one
+constexpr double kWild = 4;  // jerk() of a frame that is no keyframe of the map, with few inliers
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kWellObserved = 2;    // keyframes, of a point that the reference keyframe can rely on
 
@@ -116,7 +115,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, double view_cha
 KeyframeNeed Tracker::keyframe_need(const TrackedFrame& frame) const {
   const bool well_localized = state_ != State::kWeak && frame.static_matches() >= config_.quality.min_inliers;
   if (!well_localized && !frame.pose_is_given) return KeyframeNeed::kNone;
-  if (frame.movable_there && frame.matches() < kSureMatches && jerk(frame) > kWild)
+  if (frame.movable_there && frame.matches() < kSureInliers && jerk(frame) > kWild)
     return KeyframeNeed::kNone;
   if (!last_keyframe_ns_) return has_depth(*frame.features) ? KeyframeNeed::kMap : KeyframeNeed::kNone;
   return tracker::keyframe_need(keyframe_facts(frame, nearest_view(frame).change), config_.keyframe);

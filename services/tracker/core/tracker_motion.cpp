@@ -18,7 +18,6 @@ constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a g
 constexpr double kMaxBridgedGap = 2;      // s; beyond, the last frame says nothing about where the camera is
 constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;        // after it
-constexpr int kSureInliers = 80;          // with fewer another way to the pose may find more
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
 constexpr double kMaxSpeed = 5;           // m/s and …
 constexpr double kPoseNoise = 0.01;       // m and rad

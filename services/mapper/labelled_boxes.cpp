@@ -5,19 +5,35 @@
 #include "common/messages/detection_conversions.hpp"
 
 namespace rds::mapper {
+namespace {
 
-messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(
-    const vision_msgs::msg::Detection3DArray& message, const geometry::Pose& camera_from_map,
-    const geometry::CameraModel& camera, const MapperConfig& config) {
+constexpr double kMaxSizeM = 20;
+constexpr std::size_t kMaxLabelBytes = 64;
+
+bool is_possible(const messages::SpatialDetection& detection) {
+  return geometry::is_valid(detection.box) && detection.box.size.maxCoeff() <= kMaxSizeM &&
+         !detection.label.empty() && detection.label.size() <= kMaxLabelBytes && detection.score >= 0 &&
+         detection.score <= 1;
+}
+
+}  // namespace
+
+messages::Expected<KeyframeBoxes> to_labelled_boxes(const vision_msgs::msg::Detection3DArray& message,
+                                                    const geometry::Pose& camera_from_map,
+                                                    const geometry::CameraModel& camera,
+                                                    const MapperConfig& config) {
   const auto detections = messages::to_detections(message);
   if (!detections) return tl::unexpected(detections.error());
-  std::vector<LabelledBox> labelled;
-  for (const auto& [label, score, box, id] : *detections) {
-    if (!geometry::is_valid(box)) continue;
+  KeyframeBoxes labelled;
+  for (const auto& detection : *detections) {
+    const auto& [label, score, box, id] = detection;
     const auto box_px = geometry::image_box(box, camera_from_map, camera);
-    if (!box_px) continue;
+    if (!is_possible(detection) || !box_px) {
+      ++labelled.impossible;
+      continue;
+    }
     const auto depth_m = static_cast<float>((camera_from_map * box.center()).z());
-    labelled.push_back({label, score, *box_px, std::nullopt, depth_m, config.is_movable(label)});
+    labelled.boxes.push_back({label, score, *box_px, std::nullopt, depth_m, config.is_movable(label)});
   }
   return labelled;
 }

@@ -10,14 +10,20 @@
 
 namespace rds::mapper {
 
-/// Boxes from the bus, brought back into the keyframe's picture; those without extent or not in the
-/// picture are left out.
+/// A keyframe's boxes, and how many could not be of an object in it.
+struct KeyframeBoxes {
+  std::vector<LabelledBox> boxes;
+  std::size_t impossible = 0;  // without extent, larger than a room, not in the picture, no label, no score
+};
+
+/// Boxes from the bus, brought back into the keyframe's picture.
 ///
 /// @return an error naming the detection with a value that is not finite or a negative size.
 /// @param camera_from_map  of the keyframe when it was made: with this pose the boxes were lifted into the
 /// map.
-messages::Expected<std::vector<LabelledBox>> to_labelled_boxes(
-    const vision_msgs::msg::Detection3DArray& message, const geometry::Pose& camera_from_map,
-    const geometry::CameraModel& camera, const MapperConfig& config);
+messages::Expected<KeyframeBoxes> to_labelled_boxes(const vision_msgs::msg::Detection3DArray& message,
+                                                    const geometry::Pose& camera_from_map,
+                                                    const geometry::CameraModel& camera,
+                                                    const MapperConfig& config);
 
 }  // namespace rds::mapper

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "common/messages/conversions.hpp"
@@ -17,8 +16,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 100;
 constexpr std::uint8_t kLocal = 0;
-constexpr std::chrono::seconds kRestLimit{30};          // lockstep: everything that was sent must come
-constexpr std::chrono::milliseconds kQuietLimit{1500};  // real time: what has not come by then was dropped
+constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
 
 }  // namespace
 
@@ -26,13 +24,13 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
     : Service(context),
       config_(config),
       mapper_(config.mapper),
-      outputs_(context),
+      outputs_(context, config.mapper.grid),
       images_inbox_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       boxes_inbox_(mailbox_, kMaxMessages),
       poses_inbox_(mailbox_, kMaxMessages) {
   if (!config.map_file.empty()) {
     if (const auto started = start_from(config.map_file); !started) throw std::runtime_error(started.error());
-    outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
+    publish_all();
   }
   if (!config.localize_only) subscribe_to_keyframes();
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
@@ -54,9 +52,11 @@ bool MapperService::something_arrived() const {
 
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
-  while (mailbox_.wait(stop, [this] { return something_arrived() || !commands_.locked_empty(); })) {
+  while (!stop.stop_requested()) {
+    mailbox_.wait_for(stop, kReaderLook, [this] { return something_arrived() || !commands_.locked_empty(); });
     handle_commands();
     take_arrivals();
+    if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;
     correct();
     integrate_ready();
@@ -64,34 +64,43 @@ void MapperService::run(const std::stop_token& stop) {
 }
 
 void MapperService::take_arrivals() {
-  while (const auto poses = poses_inbox_.try_pop()) take(*poses);
+  while (const auto images = images_inbox_.try_pop()) take(*images);  // first: they begin an epoch
   while (const auto boxes = boxes_inbox_.try_pop()) take(*boxes);
-  while (const auto images = images_inbox_.try_pop()) take(*images);
+  while (const auto poses = poses_inbox_.try_pop()) take(*poses);
 }
 
-/// A new epoch is a new tracker, with the saved map or an empty one. Messages of an epoch that is over are
-/// dropped.
-bool MapperService::follow_epoch(std::uint64_t map_epoch, const std::string& topic) {
-  if (map_epoch == mapper_.map_epoch()) return true;
-  if (earlier_epochs_.contains(map_epoch)) {
-    context_.diagnostics.reject(topic, "of an earlier map epoch");
-    return false;
-  }
-  earlier_epochs_.insert(mapper_.map_epoch());
-  spdlog::info("map epoch {:016x}", map_epoch);
-  mapper_.reset(map_epoch);
-  waiting_.clear();
-  boxes_by_stamp_.clear();
-  integrated_by_stamp_.clear();
-  poses_.clear();
-  poses_revision_ = loop_revision_ = last_keyframe_id_ = 0;
-  if (mapper_.revision() > 0) outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
+/// Messages of an epoch that is over are dropped.
+bool MapperService::is_over(std::uint64_t map_epoch, const std::string& topic) {
+  if (!earlier_epochs_.contains(map_epoch)) return false;
+  context_.diagnostics.reject(topic, "of an earlier map epoch");
   return true;
 }
 
+/// A new epoch is a new tracker, with the saved map or an empty one.
+/// @param stamp_ns  of what it begins with: earlier boxes are of an epoch that is over.
+void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) {
+  earlier_epochs_.insert(mapper_.map_epoch());
+  spdlog::info("map epoch {:016x}", map_epoch);
+  mapper_.reset(map_epoch);
+  outputs_.begin_map();
+  forget_keyframes();
+  boxes_by_stamp_.erase(boxes_by_stamp_.begin(), boxes_by_stamp_.lower_bound(stamp_ns));
+  if (mapper_.revision() > 0) publish_all();
+  if (const Poses early = std::exchange(early_poses_, nullptr)) take(early);
+}
+
+void MapperService::forget_keyframes() {
+  waiting_.clear();
+  integrated_by_stamp_.clear();
+  poses_.clear();
+  poses_changed_by_loop_ = false;
+  poses_revision_ = loop_revision_ = last_keyframe_id_ = 0;
+}
+
 void MapperService::take(const Images& images) {
-  if (!follow_epoch(images->map_epoch(), "rds/keyframe/images")) return;
+  if (is_over(images->map_epoch(), "rds/keyframe/images")) return;
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
+  if (images->map_epoch() != mapper_.map_epoch()) begin_epoch(images->map_epoch(), stamp);
   if (integrated_by_stamp_.contains(stamp)) return;
   waiting_.emplace(images->keyframe_id(), images);
 }
@@ -103,15 +112,39 @@ void MapperService::take(const Boxes& boxes) {
     boxes_by_stamp_[stamp] = boxes;
   } else {
     const auto& [id, camera_from_map, camera] = integrated->second;
-    const auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config_.mapper);
-    if (!labelled) return context_.diagnostics.reject("rds/boxes", labelled.error());
-    mapper_.set_boxes(id, *labelled);
+    if (const auto labelled = labelled_boxes(boxes, camera_from_map, camera))
+      mapper_.set_boxes(id, *labelled);
   }
   while (boxes_by_stamp_.size() > kMaxMessages) boxes_by_stamp_.erase(boxes_by_stamp_.begin());
 }
 
+/// @return nullopt, counted, for a message that cannot be used; boxes that cannot be are counted and left
+/// out.
+std::optional<std::vector<LabelledBox>> MapperService::labelled_boxes(const Boxes& boxes,
+                                                                      const geometry::Pose& camera_from_map,
+                                                                      const geometry::CameraModel& camera) {
+  auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config_.mapper);
+  if (!labelled) {
+    context_.diagnostics.reject("rds/boxes", labelled.error());
+    return std::nullopt;
+  }
+  context_.diagnostics.counter("impossible boxes") += labelled->impossible;
+  return std::move(labelled->boxes);
+}
+
+/// Only keyframes begin an epoch: a loop closer that still speaks of an earlier one must not. Without them
+/// (localize_only) poses do.
 void MapperService::take(const Poses& message) {
-  if (!follow_epoch(message->map_epoch(), "rds/keyframe/poses")) return;
+  if (is_over(message->map_epoch(), "rds/keyframe/poses")) return;
+  if (message->map_epoch() != mapper_.map_epoch()) {
+    if (!config_.localize_only) {
+      if (early_poses_ && early_poses_->map_epoch() != message->map_epoch())
+        context_.diagnostics.reject("rds/keyframe/poses", "of an unknown map epoch");
+      early_poses_ = message;
+      return;
+    }
+    begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));
+  }
   auto poses = messages::to_keyframe_poses(*message);
   if (!poses) return context_.diagnostics.reject("rds/keyframe/poses", poses.error());
   if (message->loop_revision() < loop_revision_) return;  // does not know the loop yet that we have applied
@@ -127,11 +160,11 @@ void MapperService::correct() {
   if (poses_.empty() || (!poses_changed_by_loop_ && since_correction_ < config_.local_correction_every))
     return;
   const auto started = std::chrono::steady_clock::now();
-  const MapDelta delta = mapper_.apply_poses(poses_);
+  MapDelta delta = mapper_.apply_poses(poses_);
   poses_changed_by_loop_ = false;
   since_correction_ = 0;
   if (delta.is_noop()) return;
-  publish(delta);
+  publish(std::move(delta));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("correction").add_ms(took.count());
 }
@@ -166,10 +199,7 @@ void MapperService::integrate(const Images& images) {
   if (known != poses_.end()) input.map_from_camera = known->map_from_camera;
   const geometry::Pose camera_from_map = map_from_camera->inverse();
   if (const auto boxes = boxes_by_stamp_.extract(frame->stamp_ns)) {
-    if (auto labelled = to_labelled_boxes(*boxes.mapped(), camera_from_map, frame->camera, config_.mapper))
-      input.boxes = std::move(*labelled);
-    else
-      context_.diagnostics.reject("rds/boxes", labelled.error());
+    input.boxes = labelled_boxes(boxes.mapped(), camera_from_map, frame->camera);
   }
   MapDelta delta;
   try {
@@ -183,79 +213,26 @@ void MapperService::integrate(const Images& images) {
   last_stamp_ns_ = frame->stamp_ns;
   ++since_full_;
   ++since_correction_;
-  publish(delta);
+  publish(std::move(delta));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("keyframe").add_ms(took.count());
 }
 
-void MapperService::publish(const MapDelta& delta) {
-  outputs_.publish_delta(delta);
-  if (outputs_.has_new_reader() || since_full_ >= config_.full_map_every) {
-    since_full_ = 0;
-    outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
-  } else {
+void MapperService::publish(MapDelta delta) {
+  outputs_.publish_delta(std::move(delta));
+  if (since_full_ >= config_.full_map_every && !outputs_.is_busy())
+    publish_all();
+  else
     outputs_.publish_info(mapper_, progress(), last_stamp_ns_);
-  }
+}
+
+void MapperService::publish_all() {
+  since_full_ = 0;
+  outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
 }
 
 MapProgress MapperService::progress() const {
   return {last_keyframe_id_, waiting_.size()};
-}
-
-service::CommandOutcome MapperService::execute(const std::string& verb, const std::string& argument) {
-  if (verb == "finish") return finish(argument);
-  if (verb == "save") return save(argument);
-  if (verb == "load") return load(argument);
-  if (verb == "reset") {
-    const std::uint64_t epoch = mapper_.map_epoch();
-    mapper_.reset(epoch);
-    waiting_.clear();
-    integrated_by_stamp_.clear();
-    return {true, fmt::format("map of {} nodes", mapper_.tree().size())};
-  }
-  if (verb == "pause" || verb == "resume") {
-    paused_ = verb == "pause";
-    return {true, paused_ ? "paused" : "resumed"};
-  }
-  return unknown_command(verb);
-}
-
-/// Nothing more comes: integrates the rest, then makes the map again from scratch with the final poses, so
-/// that it depends on the data alone and not on when they arrived.
-service::CommandOutcome MapperService::finish(const std::string& argument) {
-  const auto json = nlohmann::json::parse(argument, nullptr, false);
-  const std::uint64_t revision = json.is_object() ? json.value("poses_revision", std::uint64_t{0}) : 0;
-  const std::uint64_t keyframes = json.is_object() ? json.value("keyframes", std::uint64_t{0}) : 0;
-  wait_for_rest(revision, keyframes);
-  while (!waiting_.empty()) {
-    const Images images = waiting_.begin()->second;
-    waiting_.erase(waiting_.begin());
-    integrate(images);
-  }
-  outputs_.publish_delta(mapper_.settle(poses_));
-  outputs_.publish_all(mapper_, progress(), last_stamp_ns_);
-  const bool complete =
-      poses_revision_ >= revision && (!config_.lockstep || mapper_.keyframes() >= keyframes);
-  const Eigen::Vector3d up = mapper_.up_in_map();
-  return {complete, nlohmann::json{{"keyframes", mapper_.keyframes()},
-                                   {"poses_revision", poses_revision_},
-                                   {"revision", mapper_.revision()},
-                                   {"up", {up.x(), up.y(), up.z()}},
-                                   {"labels", mapper_.labels().names()}}
-                        .dump()};
-}
-
-void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes) {
-  using Clock = std::chrono::steady_clock;
-  auto deadline = Clock::now() + (config_.lockstep ? std::chrono::milliseconds(kRestLimit) : kQuietLimit);
-  while (!stop_.stop_requested()) {
-    take_arrivals();
-    integrate_ready();
-    if (poses_revision_ >= poses_revision && mapper_.keyframes() >= keyframes) return;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return;
-    mailbox_.wait_for(stop_, left, [this] { return something_arrived(); });
-  }
 }
 
 }  // namespace rds::mapper

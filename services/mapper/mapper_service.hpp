@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include <tl/expected.hpp>
@@ -46,12 +47,18 @@ class MapperService : public service::Service {
   void take(const Images& images);
   void take(const Boxes& boxes);
   void take(const Poses& poses);
-  bool follow_epoch(std::uint64_t map_epoch, const std::string& topic);
+  [[nodiscard]] bool is_over(std::uint64_t map_epoch, const std::string& topic);
+  void begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns);
+  void forget_keyframes();
+  std::optional<std::vector<LabelledBox>> labelled_boxes(const Boxes& boxes,
+                                                         const geometry::Pose& camera_from_map,
+                                                         const geometry::CameraModel& camera);
   void integrate_ready();
   [[nodiscard]] bool is_ready(const Images& images) const;
   void integrate(const Images& images);
   void correct();
-  void publish(const MapDelta& delta);
+  void publish(MapDelta delta);
+  void publish_all();
   [[nodiscard]] MapProgress progress() const;
   service::CommandOutcome finish(const std::string& argument);
   void subscribe_to_keyframes();
@@ -68,6 +75,7 @@ class MapperService : public service::Service {
   std::map<std::uint64_t, Images> waiting_;       // by keyframe id
   std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
   std::map<std::int64_t, Integrated> integrated_by_stamp_;
+  Poses early_poses_;  // of an epoch whose first keyframe has not come yet
   std::vector<KeyframePose> poses_;
   std::uint64_t poses_revision_ = 0;  // of the newest LOCAL poses
   std::uint64_t loop_revision_ = 0;   // contained in poses_

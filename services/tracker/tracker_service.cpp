@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -13,6 +12,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/service/random_id.hpp"
 #include "services/tracker/pose_file.hpp"
 
 namespace rds::tracker {
@@ -25,11 +25,6 @@ constexpr std::size_t kLiveFrames =
 constexpr std::size_t kMaxAnswers = 100;
 constexpr std::uint8_t kLoop = 1;
 
-std::uint64_t random_epoch() {
-  std::random_device device;
-  return (static_cast<std::uint64_t>(device()) << 32) | device();
-}
-
 std::uint32_t microseconds_since(Clock::time_point start) {
   return static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
@@ -40,7 +35,7 @@ std::uint32_t microseconds_since(Clock::time_point start) {
 TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
     : Service(context),
       config_(config),
-      map_epoch_(random_epoch()),
+      map_epoch_(service::random_id()),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
                [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
       objects_(config.prediction),
@@ -253,7 +248,7 @@ service::CommandOutcome TrackerService::finish() {
 }
 
 void TrackerService::reset() {
-  map_epoch_ = random_epoch();
+  map_epoch_ = service::random_id();
   tracker_.reset();
   start_map();
   objects_.reset();

@@ -16,7 +16,7 @@ namespace {
 using Octomap = octomap_msgs::msg::Octomap;
 using MapInfo = rds_msgs::msg::MapInfo;
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kInfoTime{500};  // it comes with the map, or not at all
+constexpr std::chrono::milliseconds kInfoTime{1500};  // in which a mapper that is there sends both anew
 
 /// The newest message of a topic.
 template <class Message>
@@ -49,6 +49,10 @@ tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> decode(const Oc
   return tree;
 }
 
+bool belong_together(const Octomap& full, const MapInfo* info) {
+  return info != nullptr && info->describes_full() && info->header().stamp() == full.header().stamp();
+}
+
 }  // namespace
 
 tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
@@ -60,7 +64,7 @@ tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
   if (!wait_until(deadline, stop, [&] { return full.get() != nullptr; }))
     return tl::unexpected(
         fmt::format("rds/map/full: no map in {} s, expected a running rds-mapper", timeout.count()));
-  wait_until(Clock::now() + kInfoTime, stop, [&] { return info.get() != nullptr; });
+  wait_until(Clock::now() + kInfoTime, stop, [&] { return belong_together(*full.get(), info.get().get()); });
   auto tree = decode(*full.get());
   if (!tree) return tl::unexpected(tree.error());
   LiveMap map{std::move(*tree), 0, 0, {}};

@@ -4,24 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <unordered_set>
 
 #include <fmt/format.h>
 
-#include "services/mapper/core/label_table.hpp"
+#include "services/mapper/core/color_labels.hpp"
+#include "services/mapper/core/voxel_walk.hpp"
 
 namespace rds::mapper {
 namespace {
 
 constexpr std::size_t kMaxVoxelsPerDelta = 20'000'000;
 constexpr float kMaxLogOdds = 100;
+constexpr double kSameResolution = 1e-9;  // m
 
 std::uint64_t packed(const octomap::OcTreeKey& key) {
   return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
 }
 
-octomap::OcTreeKey key_of(const std::vector<std::uint16_t>& keys, std::size_t row) {
+octomap::OcTreeKey key_of(std::span<const std::uint16_t> keys, std::size_t row) {
   return {keys[3 * row], keys[3 * row + 1], keys[3 * row + 2]};
 }
 
@@ -41,6 +42,12 @@ std::string malformed(const MapDelta& d) {
   return {};
 }
 
+ReplicaAnswer check_resolution(double told_m, const EditableOcTree& tree) {
+  if (std::abs(told_m - tree.getResolution()) <= kSameResolution) return {};
+  return {ReplicaStatus::kOtherResolution,
+          fmt::format("voxels of {} m, have {} m", told_m, tree.getResolution())};
+}
+
 }  // namespace
 
 std::uint16_t OctreeReplica::label(const octomap::OcTreeKey& key) const {
@@ -48,44 +55,64 @@ std::uint16_t OctreeReplica::label(const octomap::OcTreeKey& key) const {
   return found == labels_.end() ? std::uint16_t{0} : found->second;
 }
 
-ReplicaAnswer OctreeReplica::apply_full(std::span<const std::uint8_t> payload, double resolution_m,
-                                        std::uint64_t map_epoch, std::uint64_t revision,
-                                        std::span<const std::string> labels) {
-  if (tree_ && map_epoch == map_epoch_ && revision <= revision_)
-    return {ReplicaStatus::kOld, fmt::format("full map of revision {}, have {}", revision, revision_)};
-  auto read = tree_from_bytes(payload, resolution_m);
-  if (!read) return {ReplicaStatus::kMalformed, "full map: " + read.error()};
-  tree_ = std::make_unique<EditableOcTree>(resolution_m);
-  tree_->adopt(std::move(**read));
-  map_epoch_ = map_epoch;
-  revision_ = revision;
+bool OctreeReplica::is_of(std::uint64_t map_epoch, std::uint64_t map_id) const {
+  return tree_ && map_epoch == map_epoch_ && map_id == map_id_;
+}
 
-  labels_.clear();
-  std::map<Rgb, std::uint16_t> label_of_color;
-  for (std::size_t i = 1; i < std::min(labels.size(), LabelTable::kMaxLabels); ++i)
-    label_of_color.emplace(label_color(labels[i]), static_cast<std::uint16_t>(i));
-  if (label_of_color.empty()) return {};
-  for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
-    const auto color = leaf->getColor();
-    const auto found = label_of_color.find({color.r, color.g, color.b});
-    if (found != label_of_color.end() && tree_->isNodeOccupied(*leaf))
-      labels_[packed(leaf.getKey())] = found->second;
-  }
+ReplicaAnswer OctreeReplica::check(const FullMap& full) const {
+  if (full.label_keys.size() != 3 * full.label_values.size())
+    return {ReplicaStatus::kMalformed,
+            fmt::format("full map: {} keys for {} labels", full.label_keys.size(), full.label_values.size())};
+  if (!is_of(full.map_epoch, full.map_id)) return {};
+  if (auto answer = check_resolution(full.resolution, *tree_); answer.status != ReplicaStatus::kApplied)
+    return answer;
+  if (full.revision <= revision_)
+    return {ReplicaStatus::kOld, fmt::format("full map of revision {}, have {}", full.revision, revision_)};
   return {};
+}
+
+ReplicaAnswer OctreeReplica::apply(const FullMap& full) {
+  auto answer = check(full);
+  if (answer.status != ReplicaStatus::kApplied) return answer;
+  auto read = tree_from_bytes(full.payload, full.resolution);
+  if (!read) return {ReplicaStatus::kMalformed, "full map: " + read.error()};
+  tree_ = std::make_unique<EditableOcTree>(full.resolution);
+  tree_->adopt(std::move(**read));
+  map_epoch_ = full.map_epoch;
+  map_id_ = full.map_id;
+  revision_ = full.revision;
+  take_labels(full);
+  return answer;
+}
+
+void OctreeReplica::take_labels(const FullMap& full) {
+  labels_.clear();
+  const ColorLabels told(full.labels);
+  for_each_voxel(*tree_, [&](const octomap::OcTreeKey& key, const EditableOcTree::Node& voxel) {
+    const auto color = voxel.getColor();
+    if (tree_->isNodeOccupied(voxel)) set_label(key, told.label_of({color.r, color.g, color.b}));
+  });
+  for (std::size_t row = 0; row < full.label_values.size(); ++row)
+    set_label(key_of(full.label_keys, row), full.label_values[row]);
+}
+
+void OctreeReplica::set_label(const octomap::OcTreeKey& key, std::uint16_t label) {
+  if (label != 0)
+    labels_[packed(key)] = label;
+  else
+    labels_.erase(packed(key));
 }
 
 ReplicaAnswer OctreeReplica::check(const MapDelta& delta) const {
   if (auto fault = malformed(delta); !fault.empty()) return {ReplicaStatus::kMalformed, "delta: " + fault};
-  const bool starts_epoch = delta.base_revision == 0;
-  if (!tree_ || delta.map_epoch != map_epoch_) {
-    if (starts_epoch) return {};
-    return {tree_ ? ReplicaStatus::kOtherEpoch : ReplicaStatus::kGap,
-            fmt::format("delta of epoch {:x} from revision {}, no full map of it yet", delta.map_epoch,
-                        delta.base_revision)};
+  if (!is_of(delta.map_epoch, delta.map_id)) {
+    if (delta.base_revision == 0) return {};  // the first of its map
+    return {tree_ ? ReplicaStatus::kOtherMap : ReplicaStatus::kGap,
+            fmt::format("delta of map {:x}/{:x} from revision {}, no full map of it yet", delta.map_epoch,
+                        delta.map_id, delta.base_revision)};
   }
-  if (std::abs(delta.resolution - tree_->getResolution()) > 1e-9)
-    return {ReplicaStatus::kOtherResolution,
-            fmt::format("delta with voxels of {} m, have {} m", delta.resolution, tree_->getResolution())};
+  if (auto answer = check_resolution(delta.resolution, *tree_); answer.status != ReplicaStatus::kApplied)
+    return answer;
   if (delta.revision <= revision_)
     return {ReplicaStatus::kOld, fmt::format("delta to revision {}, have {}", delta.revision, revision_)};
   if (delta.base_revision != revision_)
@@ -97,10 +124,11 @@ ReplicaAnswer OctreeReplica::check(const MapDelta& delta) const {
 ReplicaAnswer OctreeReplica::apply(const MapDelta& delta) {
   auto answer = check(delta);
   if (answer.status != ReplicaStatus::kApplied) return answer;
-  if (!tree_ || delta.map_epoch != map_epoch_) {
+  if (!is_of(delta.map_epoch, delta.map_id)) {
     tree_ = std::make_unique<EditableOcTree>(delta.resolution);
     labels_.clear();
     map_epoch_ = delta.map_epoch;
+    map_id_ = delta.map_id;
   }
   set_voxels(delta);
   delete_voxels(delta);
@@ -116,10 +144,7 @@ void OctreeReplica::set_voxels(const MapDelta& delta) {
     auto* voxel = tree_->descend(key, EditableOcTree::kDepth, path);
     voxel->setLogOdds(delta.log_odds[row]);
     voxel->setColor(delta.colors[3 * row], delta.colors[3 * row + 1], delta.colors[3 * row + 2]);
-    if (delta.labels[row] != 0)
-      labels_[packed(key)] = delta.labels[row];
-    else
-      labels_.erase(packed(key));
+    set_label(key, delta.labels[row]);
   }
 }
 

@@ -170,14 +170,15 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
   node->setLogOdds(std::clamp(before + step, lowest_, highest_));
   std::uint16_t label = 0;
   const bool was_occupied = before > tree_.getOccupancyThresLog();
+  const std::uint16_t label_before = hit && was_occupied ? this->label(key) : std::uint16_t{0};
   if (node->getLogOdds() > tree_.getOccupancyThresLog()) {
     label = hit ? remember(node, key, *surface, update) : this->label(key);
   } else if (was_occupied) {
     memory_.erase(packed(key));
     node->setColor(Node::Color());
   }
-  const bool label_may_differ = hit && !config_.color_by_label;  // else the colour tells
-  if (created || label_may_differ || node->getLogOdds() != before || node->getColor() != color_before)
+  const bool is_relabelled = hit && label != label_before;
+  if (created || is_relabelled || node->getLogOdds() != before || node->getColor() != color_before)
     append_voxel(update.delta, key, *node, label);
 }
 

@@ -45,6 +45,7 @@ using geometry::KeyframePose;
 /// Row i of each array is voxel i; keys are OctoMap keys at the finest level.
 struct MapDelta {
   std::uint64_t map_epoch = 0;
+  std::uint64_t map_id = 0;  // of the map within the epoch; who sends the delta sets it
   std::uint64_t base_revision = 0;
   std::uint64_t revision = 0;
   std::uint64_t keyframe_id = 0;

@@ -13,6 +13,7 @@
 
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/core/tree_bytes.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/map_picture.hpp"
 
@@ -37,6 +38,12 @@ double quantile(std::vector<double> values, double share) {
   std::ranges::sort(values);
   return values.empty() ? 0
                         : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// What a delta's arrays take on the wire [bytes]; OctreeDelta's other fields are constant.
+std::size_t bytes_of(const rds::mapper::MapDelta& delta) {
+  return sizeof(std::uint16_t) * (delta.keys.size() + delta.labels.size() + delta.deleted_keys.size()) +
+         sizeof(float) * delta.log_odds.size() + delta.colors.size();
 }
 
 struct Options {
@@ -74,12 +81,17 @@ int run(const Options& options) {
   const rds::bench::Recording recording(dataset, has_boxes ? dataset / options.boxes : fs::path());
   rds::mapper::SemanticMapper mapper(read_config(options.config), 1);
   std::vector<double> times;
+  std::vector<double> delta_shares;  // of the full map's bytes, second half
   std::size_t changed = 0;
   for (std::size_t i = 0; i < recording.size(); i += options.every) {
     const auto input = recording.keyframe(i);
     const auto start = Clock::now();
-    changed += mapper.integrate(input).log_odds.size();
+    const auto delta = mapper.integrate(input);
     times.push_back(ms_since(start));
+    changed += delta.log_odds.size();
+    if (i >= recording.size() / 2)
+      delta_shares.push_back(static_cast<double>(bytes_of(delta)) /
+                             static_cast<double>(rds::mapper::to_bytes(mapper.tree()).size()));
   }
   auto start = Clock::now();
   mapper.settle({});
@@ -100,10 +112,12 @@ int run(const Options& options) {
       "{} keyframes, integrate CPU ms: median {:.2f}, p95 {:.2f}, max {:.2f}; settle {:.0f} ms; grid {:.1f} "
       "ms; "
       "picture "
-      "{:.0f} ms; {} nodes; {:.0f} changed voxels per keyframe; up {:.3f} {:.3f} {:.3f}; {} objects\n",
+      "{:.0f} ms; {} nodes; {:.0f} changed voxels per keyframe; delta {:.3f} of the full map's bytes "
+      "(median, second half); up {:.3f} {:.3f} {:.3f}; {} objects\n",
       times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 1), settle_ms, grid_ms,
       ms_since(start), mapper.tree().size(), static_cast<double>(changed) / static_cast<double>(times.size()),
-      mapper.up_in_map().x(), mapper.up_in_map().y(), mapper.up_in_map().z(), mapper.objects().size());
+      quantile(delta_shares, 0.5), mapper.up_in_map().x(), mapper.up_in_map().y(), mapper.up_in_map().z(),
+      mapper.objects().size());
   return 0;
 }
 

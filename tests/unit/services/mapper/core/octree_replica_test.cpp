@@ -1,50 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/octree_replica.hpp"
 
-#include <random>
-
 #include <gmock/gmock.h>
 
-#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+#include "tests/unit/services/mapper/core/random_keyframes.hpp"
 
 namespace rds::mapper {
 namespace {
 
-using test::SyntheticKeyframe;
+using test::expect_same;
+using test::PublishedMap;
+using test::RandomKeyframes;
 constexpr std::uint64_t kEpoch = 0xabcdef;
-
-/// Keyframes of random content and pose from a fixed seed.
-class RandomKeyframes {
- public:
-  KeyframeInput next() {
-    SyntheticKeyframe keyframe(id_++, 2.0 + uniform_(random_));
-    const int x = static_cast<int>(200 * uniform_(random_));
-    const cv::Rect px(x, 60, 90, 120);
-    keyframe.rectangle(px, 1.0 + uniform_(random_), cv::Scalar(255 * uniform_(random_), 80, 20));
-    keyframe.box(uniform_(random_) < 0.5 ? "person" : "chair", px, uniform_(random_) < 0.5);
-    return keyframe.pose(pose()).make();
-  }
-  geometry::Pose pose() {
-    geometry::Pose pose(Eigen::AngleAxisd(0.6 * (uniform_(random_) - 0.5), Eigen::Vector3d::UnitY()));
-    pose.translation() = Eigen::Vector3d(uniform_(random_), uniform_(random_), uniform_(random_));
-    return pose;
-  }
-
- private:
-  std::mt19937 random_{7};
-  std::uniform_real_distribution<double> uniform_{0, 1};
-  std::uint64_t id_ = 0;
-};
-
-void expect_same(const OctreeReplica& replica, const SemanticMapper& mapper) {
-  ASSERT_TRUE(replica.is_valid());
-  EXPECT_EQ(replica.revision(), mapper.revision());
-  EXPECT_EQ(to_bytes(replica.tree()), to_bytes(mapper.tree()));
-  std::size_t different_labels = 0;
-  for (auto leaf = replica.tree().begin_leafs(), end = replica.tree().end_leafs(); leaf != end; ++leaf)
-    different_labels += replica.label(leaf.getKey()) != mapper.label(leaf.getKey()) ? 1U : 0U;
-  EXPECT_EQ(different_labels, 0U);
-}
 
 TEST(OctreeReplica, FollowsARandomSequenceOfKeyframesAndCorrections) {
   RandomKeyframes keyframes;
@@ -67,13 +34,12 @@ TEST(OctreeReplica, JoinsLateWithTheFullMapAndGoesOnWithDeltas) {
   for (int i = 0; i < 4; ++i) mapper.integrate(keyframes.next());
   EXPECT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kGap);
   EXPECT_FALSE(replica.is_valid());
-  const auto full = to_bytes(mapper.tree());
-  EXPECT_EQ(replica.apply_full(full, 0.05, kEpoch, mapper.revision(), mapper.labels().names()).status,
-            ReplicaStatus::kApplied);
+  const PublishedMap published(mapper, 0);
+  EXPECT_EQ(replica.apply(published.full).status, ReplicaStatus::kApplied);
   expect_same(replica, mapper);
   EXPECT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
   expect_same(replica, mapper);
-  EXPECT_EQ(replica.apply_full(full, 0.05, kEpoch, mapper.revision() - 1, {}).status, ReplicaStatus::kOld);
+  EXPECT_EQ(replica.apply(published.full).status, ReplicaStatus::kOld);
 }
 
 TEST(OctreeReplica, NoticesGapsOtherEpochsAndOtherResolutions) {
@@ -88,7 +54,7 @@ TEST(OctreeReplica, NoticesGapsOtherEpochsAndOtherResolutions) {
   EXPECT_EQ(replica.apply(third).status, ReplicaStatus::kGap);
   third.base_revision = 1;
   third.map_epoch = kEpoch + 1;
-  EXPECT_EQ(replica.apply(third).status, ReplicaStatus::kOtherEpoch);
+  EXPECT_EQ(replica.apply(third).status, ReplicaStatus::kOtherMap);
   third.map_epoch = kEpoch;
   third.resolution = 0.1;
   EXPECT_EQ(replica.apply(third).status, ReplicaStatus::kOtherResolution);
@@ -120,6 +86,46 @@ TEST(OctreeReplica, RejectsHostileDeltasAndStaysAsItWas) {
   EXPECT_EQ(status([](auto& d) { d.revision = d.base_revision; }), ReplicaStatus::kMalformed);
   EXPECT_EQ(to_bytes(replica.tree()), before);
   EXPECT_EQ(replica.apply(good).status, ReplicaStatus::kApplied);
+}
+
+TEST(OctreeReplica, FollowsAMapperThatBeganAnewInTheSameEpoch) {
+  RandomKeyframes keyframes;
+  SemanticMapper mapper(MapperConfig{}, kEpoch);
+  OctreeReplica replica;
+  for (int i = 0; i < 3; ++i) replica.apply(mapper.integrate(keyframes.next()));
+  ASSERT_EQ(replica.revision(), 3U);
+  SemanticMapper restarted(MapperConfig{}, kEpoch);
+  for (int i = 0; i < 4; ++i) {  // its fourth delta continues revision 3, but of another map
+    MapDelta delta = restarted.integrate(keyframes.next());
+    delta.map_id = 1;
+    if (i > 0) {
+      EXPECT_EQ(replica.apply(delta).status, ReplicaStatus::kOtherMap);
+    }
+  }
+  ASSERT_EQ(replica.apply(PublishedMap(restarted, 1).full).status, ReplicaStatus::kApplied);
+  expect_same(replica, restarted);
+}
+
+TEST(OctreeReplica, RefusesAFullMapThatDoesNotFit) {
+  RandomKeyframes keyframes;
+  SemanticMapper mapper(MapperConfig{}, kEpoch);
+  OctreeReplica replica;
+  ASSERT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
+  const auto before = to_bytes(replica.tree());
+  mapper.integrate(keyframes.next());
+  const PublishedMap published(mapper, 0);
+  FullMap full = published.full;
+  full.resolution = 0.1;
+  EXPECT_EQ(replica.apply(full).status, ReplicaStatus::kOtherResolution);
+  full = published.full;
+  const std::vector<std::uint16_t> half_a_key{1};
+  full.label_keys = half_a_key;
+  EXPECT_EQ(replica.apply(full).status, ReplicaStatus::kMalformed);
+  full = published.full;
+  full.payload = full.payload.first(full.payload.size() / 2);
+  EXPECT_EQ(replica.apply(full).status, ReplicaStatus::kMalformed);
+  EXPECT_TRUE(to_bytes(replica.tree()) == before);
+  EXPECT_EQ(replica.apply(published.full).status, ReplicaStatus::kApplied);
 }
 
 TEST(OctreeReplica, DeletingEverythingLeavesAnEmptyTree) {

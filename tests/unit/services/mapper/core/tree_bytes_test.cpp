@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <gmock/gmock.h>
+#include <octomap/OcTree.h>
 
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
@@ -63,6 +64,53 @@ TEST(TreeBytes, RefuseHostileBytes) {
   EXPECT_THAT(tree_from_bytes(deep, 0.05).error(), testing::HasSubstr("below the finest level"));
   const std::vector<std::uint8_t> one_huge_leaf{0, 0, 0, 0, 1, 2, 3, 0};
   EXPECT_THAT(tree_from_bytes(one_huge_leaf, 0.05).error(), testing::HasSubstr("larger than any map"));
+}
+
+TEST(BinaryTreeBytes, AreWhatOctoMapWritesOfThePrunedTree) {
+  SemanticMapper mapper(MapperConfig{});
+  mapper.integrate(test::SyntheticKeyframe(0).make());
+  const auto ours = to_binary_bytes(mapper.tree());
+  octomap::OcTree read(0.05);  // as octomap_msgs::binaryMsgToMap makes it
+  std::stringstream stream(std::string(ours.begin(), ours.end()));
+  read.readBinaryData(stream);
+  EXPECT_EQ(stream.peek(), EOF);
+  octomap::ColorOcTree pruned(0.05);
+  std::stringstream full;
+  mapper.tree().writeData(full);
+  pruned.readData(full);
+  pruned.toMaxLikelihood();
+  pruned.prune();
+  std::ostringstream octomaps;
+  pruned.writeBinaryData(octomaps);
+  EXPECT_EQ(octomaps.str(), std::string(ours.begin(), ours.end()));
+  EXPECT_LT(ours.size(), to_bytes(mapper.tree()).size() / 10);
+}
+
+TEST(BinaryTreeBytes, ComeBackVoxelByVoxel) {
+  SemanticMapper mapper(MapperConfig{});
+  mapper.integrate(test::SyntheticKeyframe(0).make());
+  const auto read = tree_from_binary_bytes(to_binary_bytes(mapper.tree()), 0.05);
+  ASSERT_TRUE(read) << read.error();
+  ASSERT_EQ((*read)->getNumLeafNodes(), mapper.tree().getNumLeafNodes());
+  for (auto leaf = (*read)->begin_leafs(), end = (*read)->end_leafs(); leaf != end; ++leaf)
+    ASSERT_EQ((*read)->isNodeOccupied(*leaf),
+              mapper.tree().isNodeOccupied(mapper.tree().search(leaf.getKey())));
+  EXPECT_EQ(to_binary_bytes(**read), to_binary_bytes(mapper.tree()));
+  EXPECT_TRUE(to_binary_bytes(octomap::ColorOcTree(0.1)).empty());
+}
+
+TEST(BinaryTreeBytes, RefuseTruncationsAndHostileBytes) {
+  SemanticMapper mapper(MapperConfig{});
+  mapper.integrate(test::SyntheticKeyframe(0).make());
+  const auto whole = to_binary_bytes(mapper.tree());
+  for (std::size_t length = 1; length < whole.size(); length += whole.size() / 20)
+    EXPECT_FALSE(tree_from_binary_bytes({whole.data(), length}, 0.05)) << length;
+  const std::vector<std::uint8_t> ever_deeper(400, 0xff);
+  EXPECT_THAT(tree_from_binary_bytes(ever_deeper, 0.05).error(),
+              testing::HasSubstr("below the finest level"));
+  const std::vector<std::uint8_t> an_eighth_of_everything{1, 0};
+  EXPECT_THAT(tree_from_binary_bytes(an_eighth_of_everything, 0.05).error(),
+              testing::HasSubstr("larger than any map"));
 }
 
 }  // namespace

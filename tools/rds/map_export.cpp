@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "common/map_file/atomic_file.hpp"
 #include "services/mapper/core/gravity.hpp"
 #include "services/mapper/core/label_table.hpp"
 #include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/tree_bytes.hpp"
 
 namespace rds::tools {
 namespace {
@@ -33,18 +34,6 @@ bool is_inside(const ColorOcTree& tree, const Eigen::Vector3d& point) {
 double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf) {
   const double side = 1U << (tree.getTreeDepth() - leaf.getDepth());
   return side * side * side;
-}
-
-Result write_whole(const std::filesystem::path& file, const std::string& content) {
-  auto partial = file;
-  partial += ".part";
-  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-  out << content;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(partial, file, error);
-  if (!out || error) return tl::unexpected(fmt::format("{}: cannot be written", file.string()));
-  return {};
 }
 
 template <class Value>
@@ -97,19 +86,30 @@ std::string to_pcd(const ColorOcTree& tree) {
          points.bytes;
 }
 
-Result write_bt(const ColorOcTree& tree, const std::filesystem::path& file) {
-  std::ostringstream out;
-  if (!tree.writeBinaryConst(out))
-    return tl::unexpected(fmt::format("{}: OctoMap cannot write the tree", file.string()));
-  return write_whole(file, out.str());
+/// Nodes of the tree that binary bytes describe: the root, and two bits that are not 0 for every other.
+std::size_t count_nodes(std::span<const std::uint8_t> bytes) {
+  std::size_t nodes = bytes.empty() ? 0 : 1;
+  for (const std::uint8_t byte : bytes)
+    for (int shift = 0; shift < 8; shift += 2) nodes += (byte >> shift & 3) != 0 ? 1U : 0U;
+  return nodes;
+}
+
+std::string to_bt(const ColorOcTree& tree) {
+  std::ostringstream out;  // the header that octomap::AbstractOccupancyOcTree::writeBinary makes
+  const auto nodes = mapper::to_binary_bytes(tree);
+  out << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line as "
+         "it is!)\n#\n"
+      << "id OcTree\nsize " << count_nodes(nodes) << "\nres " << tree.getResolution() << "\ndata\n"
+      << std::string(nodes.begin(), nodes.end());
+  return out.str();
 }
 
 Result write_pgm(const ColorOcTree& tree, const std::filesystem::path& file, const std::string& up) {
   const auto grid = mapper::make_grid(tree, mapper::axis_of(up), mapper::GridConfig());
   auto yaml = file;
   yaml.replace_extension(".yaml");
-  if (auto written = write_whole(file, mapper::to_pgm(grid)); !written) return written;
-  return write_whole(yaml, mapper::to_map_server_yaml(grid, file.filename().string()));
+  if (auto written = map_file::write_atomically(file, mapper::to_pgm(grid)); !written) return written;
+  return map_file::write_atomically(yaml, mapper::to_map_server_yaml(grid, file.filename().string()));
 }
 
 }  // namespace
@@ -124,9 +124,9 @@ std::string format_of(const std::filesystem::path& file) {
 Result export_map(const ColorOcTree& tree, const std::string& format, const std::filesystem::path& file,
                   const std::string& up) {
   if (format == "ot") return mapper::write_tree(file, tree);
-  if (format == "bt") return write_bt(tree, file);
-  if (format == "ply") return write_whole(file, to_ply(tree));
-  if (format == "pcd") return write_whole(file, to_pcd(tree));
+  if (format == "bt") return map_file::write_atomically(file, to_bt(tree));
+  if (format == "ply") return map_file::write_atomically(file, to_ply(tree));
+  if (format == "pcd") return map_file::write_atomically(file, to_pcd(tree));
   if (format == "pgm") return write_pgm(tree, file, up);
   return tl::unexpected(fmt::format("{}: format '{}', expected one of {}", file.string(), format,
                                     fmt::join(std::begin(kMapFormats), std::end(kMapFormats), ", ")));

@@ -21,13 +21,15 @@ using WriteResult = tl::expected<void, std::string>;
 /// map.ot, as any OctoMap tool reads it.
 WriteResult write_tree(const std::filesystem::path& file, const octomap::ColorOcTree& tree);
 
-/// Reads map.ot. A file that is not an OctoMap ColorOcTree, is cut off, or has bytes behind its end is
+/// Reads map.ot, or a .bt file of OctoMap. What is neither, is cut off, or has bytes behind its end is
 /// refused.
 /// @return one sentence naming the file and what was expected.
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const std::filesystem::path& file);
 
-/// True if the file starts as OctoMap's .ot files do.
+/// True if the file starts as OctoMap's .ot and .bt files do.
 bool looks_like_tree(const std::filesystem::path& file);
+/// True for .bt alone: occupied or free, no more.
+bool looks_like_binary_tree(const std::filesystem::path& file);
 
 /// objects.json.
 WriteResult write_objects(const std::filesystem::path& file, std::span<const MapObject> objects);

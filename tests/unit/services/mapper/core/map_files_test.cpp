@@ -68,8 +68,8 @@ TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
   EXPECT_THAT(refusal(good.substr(0, good.size() / 2)),
               testing::HasSubstr("bad.ot: is damaged: the tree ends after"));
   EXPECT_THAT(refusal(good + "x"), testing::HasSubstr("1 bytes after the last node"));
-  EXPECT_THAT(refusal("P5 picture"), testing::HasSubstr("is not an OctoMap .ot file"));
-  EXPECT_THAT(refusal(""), testing::HasSubstr("is not an OctoMap .ot file"));
+  EXPECT_THAT(refusal("P5 picture"), testing::HasSubstr("is not an OctoMap .ot or .bt file"));
+  EXPECT_THAT(refusal(""), testing::HasSubstr("is not an OctoMap .ot or .bt file"));
   EXPECT_THAT(refusal("# Octomap OcTree file\nid OcTree\nsize 0\nres 0.05\ndata\n"),
               testing::HasSubstr("'OcTree'"));
   EXPECT_THAT(refusal("# Octomap OcTree file\nid ColorOcTree\nres x\ndata\n"),

@@ -16,7 +16,7 @@ constexpr double kNsPerSecond = 1e9;
 std::vector<Eigen::Vector3f> movable_points(const KeyframeRecord& record, const SamplingConfig& config) {
   std::vector<Eigen::Vector3f> points;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (record.use[i] != PixelUse::kMovable && !is_in_movable_cell(record, i)) continue;
+    if (!is_movable(record, i)) continue;
     const float depth = record.depth_m(i);
     if (depth >= static_cast<float>(config.min_range_m) && depth <= static_cast<float>(config.max_range_m))
       points.push_back(record.point_in_camera(i));

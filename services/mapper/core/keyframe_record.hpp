@@ -72,6 +72,9 @@ std::optional<std::string> check(const KeyframeInput& input);
 /// True if the tracker found something that moves there.
 bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
 
+/// True if boxes or the tracker know the pixel as of something movable.
+bool is_movable(const KeyframeRecord& record, std::size_t pixel);
+
 /// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.
 /// @param rays  of this camera and stride, shared between records.
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,

@@ -64,6 +64,7 @@ void read(ConfigReader& r, OctreeConfig& c) {
   r.value("resolution_m", c.resolution_m, 0.01, 1.0, "m");
   r.value("hit", c.hit, 0.01, 5.0);
   r.value("miss", c.miss, -5.0, -0.01);
+  r.value("suspect_miss", c.suspect_miss, -10.0, -0.01);
   r.value("clamp_min", c.clamp_min, 0.001, 0.49);
   r.value("clamp_max", c.clamp_max, 0.51, 0.999);
   r.value("carve_rays", c.carve_rays);

@@ -83,8 +83,9 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
 
 void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history,
                                     MapDelta& delta) {
+  map.movable.see(record, config_);
   make_scan(record, confirmed_use(record, history, config_), config_.octree, config_.sampling, scan_);
-  map.octree.integrate(scan_, record.looked_for_objects, labels_, delta);
+  map.octree.integrate({scan_, record.looked_for_objects, labels_, map.movable, delta});
   map.objects.integrate(record, labels_);
 }
 

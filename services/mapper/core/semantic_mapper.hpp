@@ -71,6 +71,7 @@ class SemanticMapper {
     SemanticOctree octree;
     ObjectDatabase objects;
     SurfaceHistory history;
+    MovableHistory movable;
   };
   /// What an epoch starts with.
   struct Start {
@@ -92,7 +93,10 @@ class SemanticMapper {
   void make_oldest_final();
   void go_on_from(Start start);
   [[nodiscard]] Map empty_map() const {
-    return {SemanticOctree(config_.octree), ObjectDatabase(config_.objects), {}};
+    return {SemanticOctree(config_.octree),
+            ObjectDatabase(config_.objects),
+            {},
+            MovableHistory(config_.octree.resolution_m)};
   }
   [[nodiscard]] MapDelta new_delta() const;
 

@@ -82,13 +82,6 @@ Rgb VoxelMemory::color() const {
   return {channel(0), channel(1), channel(2)};
 }
 
-struct SemanticOctree::Update {
-  const Scan& scan;
-  bool looked_for_objects;
-  const LabelTable& labels;
-  MapDelta& delta;
-};
-
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
     : config_(config),
       lowest_(octomap::logodds(config.clamp_min)),
@@ -108,10 +101,8 @@ std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
   return found == memory_.end() ? std::uint16_t{0} : found->second.label(config_.label_share);
 }
 
-void SemanticOctree::integrate(const Scan& scan, bool looked_for_objects, const LabelTable& labels,
-                               MapDelta& delta) {
-  const Update update{scan, looked_for_objects, labels, delta};
-  for (const auto& block : scan.grid.blocks()) update_block(block, update);
+void SemanticOctree::integrate(const Update& update) {
+  for (const auto& block : update.scan.grid.blocks()) update_block(block, update);
 }
 
 /// Cells in which something was measured are made where they are missing; blind rays change what there is.
@@ -143,7 +134,7 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   for (unsigned index = 0; index < 8; ++index) {
     const auto flags = block.flags[first_cell + index];
     if ((flags & kMeasured) == 0 &&
-        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1))))
+        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1), update.movable)))
       continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
@@ -153,12 +144,21 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   EditableOcTree::refresh(parent);
 }
 
-/// True for an occupied voxel that few keyframes have seen.
-bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key) const {
+/// True for an occupied voxel that few keyframes have seen, or in which something movable has been.
+bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                             const MovableHistory& movable) const {
   if (!tree_.nodeChildExists(parent, index)) return false;
   if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
+  if (movable.was_there(key)) return true;
   const auto found = memory_.find(packed(key));
   return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
+}
+
+/// Paper §IV-C, and what is_weak() and Update::movable add to it.
+double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
+                            const Update& update) const {
+  if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
+  return occupied && update.movable.was_there(key) ? config_.suspect_miss : config_.miss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
@@ -166,11 +166,11 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
   const bool hit = surface != nullptr && surface->is_hit();
   const float before = node->getLogOdds();
   const auto color_before = node->getColor();
-  const float step = static_cast<float>(hit ? config_.hit : config_.miss);  // paper §IV-C
-  node->setLogOdds(std::clamp(before + step, lowest_, highest_));
-  std::uint16_t label = 0;
   const bool was_occupied = before > tree_.getOccupancyThresLog();
   const std::uint16_t label_before = hit && was_occupied ? this->label(key) : std::uint16_t{0};
+  const auto change = static_cast<float>(step(was_occupied, key, surface, update));
+  node->setLogOdds(std::clamp(before + change, lowest_, highest_));
+  std::uint16_t label = 0;
   if (node->getLogOdds() > tree_.getOccupancyThresLog()) {
     label = hit ? remember(node, key, *surface, update) : this->label(key);
   } else if (was_occupied) {

@@ -33,8 +33,8 @@ void append(const octomap::ColorOcTree& tree, const Node& node, std::vector<std:
 /// Counts the voxels that a reader makes against what its input may ask for.
 class VoxelBudget {
  public:
-  explicit VoxelBudget(std::size_t bytes)
-      : left_(std::min(kMaxVoxels, kFreeVoxels + kVoxelsPerByte * bytes)) {}
+  VoxelBudget(std::size_t bytes, std::uint64_t voxels_per_byte)
+      : left_(std::min(kMaxVoxels, kFreeVoxels + voxels_per_byte * bytes)) {}
 
   /// A leaf at this depth stands for all voxels below it. @return false if these are too many.
   bool take_leaf(unsigned depth) {
@@ -59,7 +59,7 @@ void expand(EditableOcTree& tree, Node* leaf, unsigned depth) {
 class FullReader {
  public:
   FullReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
-      : bytes_(bytes), tree_(tree), budget_(bytes.size()) {}
+      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerByte) {}
 
   /// Fault in one sentence; empty if all bytes were read.
   std::string read() {
@@ -144,7 +144,7 @@ class BinaryWriter {
 class BinaryReader {
  public:
   BinaryReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
-      : bytes_(bytes), tree_(tree), budget_(bytes.size()) {}
+      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerBinaryByte) {}
 
   /// Fault in one sentence; empty if all bytes were read.
   std::string read() {

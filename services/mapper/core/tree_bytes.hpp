@@ -32,8 +32,10 @@ tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> tree_from_binar
     std::span<const std::uint8_t> bytes, double resolution_m);
 
 inline constexpr std::uint64_t kMaxVoxels = 100'000'000;
-inline constexpr std::uint64_t kFreeVoxels = 1'000'000;
-inline constexpr std::uint64_t kVoxelsPerByte = 512;
+inline constexpr std::uint64_t kFreeVoxels = 300'000;
+inline constexpr std::uint64_t kVoxelsPerByte = 64;         // tree_from_bytes()
+inline constexpr std::uint64_t kVoxelsPerBinaryByte = 512;  // tree_from_binary_bytes()
+inline constexpr std::uint64_t kBytesPerVoxel = 64;         // of memory, at most
 inline constexpr float kBinaryLogOdds = 2.0F;
 
 }  // namespace rds::mapper

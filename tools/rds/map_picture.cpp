@@ -10,6 +10,7 @@
 
 #include "services/mapper/core/label_table.hpp"
 #include "tools/rds/map_picture_canvas.hpp"
+#include "tools/rds/map_picture_legend.hpp"
 #include "tools/rds/map_picture_voxels.hpp"
 
 namespace rds::tools {
@@ -19,10 +20,11 @@ constexpr int kSupersampling = 2;
 constexpr int kHeaderPx = 56;
 constexpr int kFooterPx = 64;
 constexpr int kMarginPx = 18;
-constexpr double kElevation = 0.62;  // of the angled view [rad]
-constexpr double kSideways = 0.40;   // the eye stands beside the camera's place, turned by this [rad]
-const cv::Scalar kInk(52, 44, 40);
+constexpr double kElevation = 0.62;      // of the angled view [rad]
+constexpr double kSideways = 0.40;       // the eye stands beside the camera's place, turned by this [rad]
 const cv::Vec3f kPathColor(58, 30, 24);  // no label has a dark colour
+const cv::Scalar kStartColor(80, 175, 60);
+const cv::Scalar kEndColor(60, 50, 215);
 
 cv::Vec3b color_of(const std::string& label) {
   const auto rgb = mapper::label_color(label);
@@ -36,11 +38,6 @@ Eigen::Matrix3d level_from_map(const Eigen::Vector3d& up) {
   Eigen::Matrix3d level;
   level << x.transpose(), z.cross(x).transpose(), z.transpose();
   return level;
-}
-
-void put_text(cv::Mat& image, const std::string& text, cv::Point at, double scale, const cv::Scalar& color,
-              int thickness = 1) {
-  cv::putText(image, text, at, cv::FONT_HERSHEY_DUPLEX, scale, color, thickness, cv::LINE_AA);
 }
 
 /// One of the two views while it is drawn, at kSupersampling times its size.
@@ -79,8 +76,8 @@ void draw_trajectory(const std::vector<Eigen::Vector3d>& trajectory, Panel& pane
       panel.canvas.line(panel.project(trajectory[i - 1]), panel.project(trajectory[i]), color, thickness,
                         1.0F, 0.5F);
   if (trajectory.empty()) return;
-  for (const auto& [point, color] : {std::pair(trajectory.front(), cv::Scalar(80, 175, 60)),
-                                     std::pair(trajectory.back(), cv::Scalar(60, 50, 215))}) {
+  for (const auto& [point, color] :
+       {std::pair(trajectory.front(), kStartColor), std::pair(trajectory.back(), kEndColor)}) {
     const auto p = panel.project(point);
     if (!(p.head<2>().cwiseAbs().maxCoeff() < 1e5F)) continue;
     const cv::Point center(static_cast<int>(p.x()), static_cast<int>(p.y()));
@@ -179,23 +176,30 @@ void draw_scale_bar(cv::Mat& image, double pixels_per_m, cv::Point at) {
 }
 
 void draw_legend(const MapScene& scene, const VoxelModel& model, cv::Mat& picture) {
-  const int y = picture.rows - kFooterPx / 2;
-  int x = kMarginPx;
-  const auto entry = [&](const std::string& text, const cv::Scalar& color, bool is_line) {
-    if (is_line)
-      cv::line(picture, {x, y}, {x + 26, y}, color, 4, cv::LINE_AA);
-    else
-      cv::rectangle(picture, cv::Rect(x, y - 9, 18, 18), color, -1);
-    x += is_line ? 34 : 26;
-    put_text(picture, text, {x, y + 6}, 0.55, kInk);
-    int baseline = 0;
-    x += cv::getTextSize(text, cv::FONT_HERSHEY_DUPLEX, 0.55, 1, &baseline).width + 26;
-  };
-  entry("camera path", kPathColor, true);
+  const std::string others = "other surfaces in their own colour";
+  PictureLegend legend(picture, kMarginPx, kFooterPx);
+  if (!scene.trajectory.empty()) {
+    legend.line("camera path", kPathColor);
+    legend.dot("start", kStartColor);
+    legend.dot("end", kEndColor);
+  }
   for (const auto& label : scene.labels)
-    if (!label.empty() && model.count(color_of(label)) > 0 && x < picture.cols - 150)
-      entry(label, color_of(label), false);
-  entry("other surfaces in their own colour", cv::Scalar(150, 158, 165), false);
+    if (!label.empty() && model.count(color_of(label)) > 0 && legend.has_room(label, others))
+      legend.square(label, color_of(label));
+  legend.square(others, cv::Scalar(150, 158, 165));
+}
+
+void draw_captions(cv::Mat& picture, const cv::Rect& angled, const cv::Rect& top) {
+  put_text(picture, "at an angle", angled.tl() + cv::Point(12, 24), 0.5, kInk);
+  put_text(picture, "from above, lines every metre", top.tl() + cv::Point(12, 24), 0.5, kInk);
+}
+
+std::string title_of(const VoxelModel& model, double resolution_m, double max_height_m) {
+  std::string title =
+      fmt::format("Semantic octree map: {} occupied voxels of {:.0f} cm", model.total(), resolution_m * 100);
+  if (model.total() > model.size())
+    title += fmt::format(", shown up to {:.1f} m above the floor", max_height_m);
+  return title;
 }
 
 }  // namespace
@@ -226,10 +230,10 @@ cv::Mat render_map(const MapScene& scene, const PictureOptions& options) {
   draw_scale_bar(picture, pixels_per_m / kSupersampling, top_rect.br() - cv::Point(top_width - 20, 20));
 
   const std::string title = options.title.empty()
-                                ? fmt::format("Semantic octree map: {} occupied voxels of {:.0f} cm",
-                                              model.size(), scene.tree.getResolution() * 100)
+                                ? title_of(model, scene.tree.getResolution(), options.max_height_m)
                                 : options.title;
   put_text(picture, title, {kMarginPx, kHeaderPx - 20}, 0.75, kInk);
+  draw_captions(picture, angled_rect, top_rect);
   draw_legend(scene, model, picture);
   return picture;
 }

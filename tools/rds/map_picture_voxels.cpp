@@ -26,6 +26,7 @@ VoxelModel::VoxelModel(const octomap::ColorOcTree& tree, const Eigen::Matrix3d& 
     voxels_.push_back({leaf.getKey(), level_from_map * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()),
                        cv::Vec3b(color.b, color.g, color.r)});
   }
+  total_ = voxels_.size();
   if (voxels_.empty()) return;
   measure();
   const double highest = floor_ + max_height_m;

@@ -17,6 +17,8 @@ class VoxelModel {
 
   [[nodiscard]] bool empty() const { return voxels_.empty(); }
   [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+  /// Occupied voxels of the whole map, those too high to be shown included.
+  [[nodiscard]] std::size_t total() const { return total_; }
   [[nodiscard]] double floor() const { return floor_; }
   /// Box around all but the outermost half percent at each end of each axis [m, level frame].
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
@@ -39,6 +41,7 @@ class VoxelModel {
 
   Eigen::Matrix3d level_from_map_;
   double resolution_;
+  std::size_t total_ = 0;
   std::vector<Voxel> voxels_;
   std::unordered_set<std::uint64_t> occupied_;  // asked by key only
   Eigen::AlignedBox3d bounds_;

@@ -2,6 +2,7 @@
 #include "services/mapper/core/mapper_config.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace rds::mapper {
@@ -83,8 +84,8 @@ void read(ConfigReader& r, GridConfig& c) {
   r.choice("up", c.up, {"auto", "x", "-x", "y", "-y", "z", "-z"});
   r.value("floor", c.floor);
   char* end = nullptr;
-  std::strtod(c.floor.c_str(), &end);
-  if (c.floor != "auto" && (c.floor.empty() || *end != '\0'))
+  const double floor_m = std::strtod(c.floor.c_str(), &end);
+  if (c.floor != "auto" && (c.floor.empty() || *end != '\0' || !std::isfinite(floor_m)))
     r.violation("floor", c.floor, "expected auto or a height [m]");
   r.value("min_height_m", c.min_height_m, -10.0, 10.0, "m");
   r.value("max_height_m", c.max_height_m, -10.0, 10.0, "m");

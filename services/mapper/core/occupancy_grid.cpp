@@ -7,17 +7,23 @@
 #include <limits>
 #include <map>
 
+#include "services/mapper/core/voxel_walk.hpp"
+
 namespace rds::mapper {
 namespace {
 
-constexpr int kMaxSide = 20000;
+constexpr int kMaxSide = 10000;       // two bytes a cell while it is made
 constexpr double kFloorShare = 0.25;  // of the fullest level that a floor needs
 
 /// Counts of voxels over one cell.
 struct Column {
-  int occupied = 0;
+  std::uint8_t occupied = 0;  // no more than 255
   bool seen_free = false;
 };
+
+Eigen::Vector3d center_of(const octomap::ColorOcTree& tree, const octomap::OcTreeKey& key) {
+  return {tree.keyToCoord(key[0]), tree.keyToCoord(key[1]), tree.keyToCoord(key[2])};
+}
 
 /// Voxels between the height limits in the level frame, each at the four points that leave no cell of a
 /// turned grid empty.
@@ -25,22 +31,18 @@ template <class Visit>
 void for_each_sample(const octomap::ColorOcTree& tree, const Eigen::Matrix3d& grid_from_map, double lowest,
                      double highest, const Visit& visit) {
   const double quarter = tree.getResolution() / 4;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    const Eigen::Vector3d p = grid_from_map * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ());
-    if (p.z() < lowest || p.z() > highest) continue;
-    const bool occupied = tree.isNodeOccupied(*leaf);
-    if (occupied) {
-      visit(p.x(), p.y(), true);
-      continue;
-    }
+  for_each_voxel(tree, [&](const octomap::OcTreeKey& key, const octomap::ColorOcTreeNode& voxel) {
+    const Eigen::Vector3d p = grid_from_map * center_of(tree, key);
+    if (p.z() < lowest || p.z() > highest) return;
+    if (tree.isNodeOccupied(voxel)) return visit(p.x(), p.y(), true);
     for (const double dx : {-quarter, quarter})
       for (const double dy : {-quarter, quarter}) visit(p.x() + dx, p.y() + dy, false);
-  }
+  });
 }
 
 std::int8_t cell_value(const Column& column, int min_occupied) {
   if (column.occupied >= min_occupied) return OccupancyGrid::kOccupied;
-  return column.seen_free || column.occupied > 0 ? OccupancyGrid::kFree : OccupancyGrid::kUnknown;
+  return column.seen_free ? OccupancyGrid::kFree : OccupancyGrid::kUnknown;
 }
 
 }  // namespace
@@ -57,10 +59,10 @@ Eigen::Matrix3d level_frame(const Eigen::Vector3d& up_in_map) {
 
 double floor_height(const octomap::ColorOcTree& tree, const Eigen::Vector3d& up_in_map) {
   std::map<long, int> levels;  // occupied voxels per height
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf))
-      ++levels[std::lround(up_in_map.dot(Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ())) /
-                           tree.getResolution())];
+  for_each_voxel(tree, [&](const octomap::OcTreeKey& key, const octomap::ColorOcTreeNode& voxel) {
+    if (tree.isNodeOccupied(voxel))
+      ++levels[std::lround(up_in_map.dot(center_of(tree, key)) / tree.getResolution())];
+  });
   int fullest = 0;
   for (const auto& [level, count] : levels) fullest = std::max(fullest, count);
   for (const auto& [level, count] : levels)
@@ -100,7 +102,7 @@ OccupancyGrid make_grid(const octomap::ColorOcTree& tree, const Eigen::Vector3d&
     auto& c = columns[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
                       static_cast<std::size_t>(column)];
     if (occupied)
-      ++c.occupied;
+      c.occupied = static_cast<std::uint8_t>(std::min(255, c.occupied + 1));
     else
       c.seen_free = true;
   });

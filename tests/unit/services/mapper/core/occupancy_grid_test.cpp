@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "services/mapper/core/gravity.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -55,6 +56,41 @@ TEST(OccupancyGrid, ATiltedMapGivesTheSameGridWithoutHoles) {
     for (double y = -0.8; y < 0.8; y += 0.05)
       unknown += at_level(grid, tilted * Eigen::Vector3d(x, y, 0)) == OccupancyGrid::kUnknown ? 1 : 0;
   EXPECT_EQ(unknown, 0);
+}
+
+TEST(OccupancyGrid, APrunedMapGivesTheSameGrid) {
+  octomap::ColorOcTree pruned = room();
+  pruned.prune();
+  ASSERT_LT(pruned.getNumLeafNodes(), room().getNumLeafNodes());
+  const auto grid = make_grid(pruned, Eigen::Vector3d::UnitZ(), GridConfig{});
+  EXPECT_EQ(grid.data, make_grid(room(), Eigen::Vector3d::UnitZ(), GridConfig{}).data);
+}
+
+TEST(OccupancyGrid, TooFewOccupiedVoxelsAreNoObstacleButNotFreeEither) {
+  octomap::ColorOcTree tree(0.05);
+  tree.setNodeValue(0.025, 0.025, 0.525, 0.85F);
+  tree.setNodeValue(0.525, 0.025, 0.525, 0.85F);
+  tree.setNodeValue(0.525, 0.025, 0.575, -0.41F);
+  GridConfig config;
+  config.floor = "0";
+  config.min_occupied = 2;
+  const auto grid = make_grid(tree, Eigen::Vector3d::UnitZ(), config);
+  EXPECT_EQ(at_level(grid, {0.025, 0.025, 0}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(at_level(grid, {0.525, 0.025, 0}), OccupancyGrid::kFree);
+  config.min_occupied = 1;
+  const auto strict = make_grid(tree, Eigen::Vector3d::UnitZ(), config);
+  EXPECT_EQ(at_level(strict, {0.025, 0.025, 0}), OccupancyGrid::kOccupied);
+}
+
+TEST(OccupancyGrid, TheFloorMustBeAHeight) {
+  const rds::test::TemporaryFolder folder;
+  for (const std::string floor : {"nan", "inf", "low", "\"\""}) {
+    rds::test::write_text(folder / "mapper.yaml", "grid: {floor: " + floor + "}\n");
+    auto reader = config::ConfigReader::from_file((folder / "mapper.yaml").string());
+    MapperConfig config;
+    read(reader, config);
+    EXPECT_THROW(reader.finish(), config::ConfigError) << floor;
+  }
 }
 
 TEST(OccupancyGrid, AnEmptyMapGivesAnEmptyGrid) {

@@ -9,6 +9,7 @@
 #include "common/messages/image_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "services/mapper/labelled_boxes.hpp"
+#include "services/mapper/spill_file.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for some
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
     : Service(context),
       config_(config),
-      mapper_(config.mapper),
+      mapper_(config.mapper, 0, std::make_unique<SpillFile>(config.mapper.correction.spill_folder)),
       outputs_(context, config.mapper.grid),
       images_inbox_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       boxes_inbox_(mailbox_, kMaxMessages),
@@ -36,6 +37,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size(); });
+  context.diagnostics.gauge("corrections lost", [this] { return corrections_lost_.load(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return images_inbox_.dropped(); });
 }
 
@@ -163,10 +165,23 @@ void MapperService::correct() {
   MapDelta delta = mapper_.apply_poses(poses_);
   poses_changed_by_loop_ = false;
   since_correction_ = 0;
+  report_losses();
   if (delta.is_noop()) return;
   publish(std::move(delta));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("correction").add_ms(took.count());
+}
+
+/// Disk full, or a file that gave back other bytes: the map goes on, some keyframes follow corrections no
+/// more.
+void MapperService::report_losses() {
+  const std::size_t lost = mapper_.corrections_lost();
+  if (lost > corrections_lost_)
+    spdlog::warn("{} keyframes cannot be kept for pose corrections: {} has no room, or lost what was written",
+                 lost,
+                 config_.mapper.correction.spill_folder.empty() ? "the folder for temporary files"
+                                                                : config_.mapper.correction.spill_folder);
+  corrections_lost_ = lost;
 }
 
 void MapperService::integrate_ready() {
@@ -209,6 +224,7 @@ void MapperService::integrate(const Images& images) {
   }
   integrated_by_stamp_.insert_or_assign(frame->stamp_ns,
                                         Integrated{input.id, camera_from_map, frame->camera});
+  report_losses();
   last_keyframe_id_ = input.id;
   last_stamp_ns_ = frame->stamp_ns;
   ++since_full_;

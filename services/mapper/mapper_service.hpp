@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -57,6 +58,7 @@ class MapperService : public service::Service {
   [[nodiscard]] bool is_ready(const Images& images) const;
   void integrate(const Images& images);
   void correct();
+  void report_losses();
   void publish(MapDelta delta);
   void publish_all();
   [[nodiscard]] MapProgress progress() const;
@@ -82,6 +84,7 @@ class MapperService : public service::Service {
   bool poses_changed_by_loop_ = false;
   std::uint64_t last_keyframe_id_ = 0;
   std::int64_t last_stamp_ns_ = 0;
+  std::atomic<std::size_t> corrections_lost_ = 0;  // read by diagnostics
   int since_full_ = 0;
   int since_correction_ = 0;
   bool paused_ = false;

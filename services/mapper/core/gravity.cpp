@@ -65,15 +65,17 @@ Eigen::Vector3d axis_of(const std::string& name) {
   return Eigen::Vector3d::Unit(axis[0] - 'x') * (negative ? -1 : 1);
 }
 
-Eigen::Vector3d estimate_up(std::span<const KeyframeRecord* const> records) {
+Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses,
+                            const std::function<std::optional<KeyframeRecord>(std::size_t)>& record_of) {
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();
-  for (const auto* record : records) guess -= record->map_from_camera.linear().col(1);
+  for (const auto& pose : poses) guess -= pose.linear().col(1);
   if (guess.norm() < 1e-3) return -Eigen::Vector3d::UnitY();
   guess.normalize();
 
   std::vector<Eigen::Vector3d> normals;
-  const std::size_t step = records.size() / kMaxKeyframes + 1;
-  for (std::size_t i = 0; i < records.size(); i += step) append_normals(*records[i], guess, normals);
+  const std::size_t step = poses.size() / kMaxKeyframes + 1;
+  for (std::size_t i = 0; i < poses.size(); i += step)
+    if (const auto record = record_of(i)) append_normals(*record, guess, normals);
 
   Eigen::Vector3d up = guess;
   Eigen::Vector3d mean;

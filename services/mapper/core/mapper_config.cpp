@@ -78,6 +78,8 @@ void read(ConfigReader& r, CorrectionConfig& c) {
   r.value("min_translation_m", c.min_translation_m, 0.0, 10.0, "m");
   r.value("min_rotation_deg", c.min_rotation_deg, 0.0, 180.0, "deg");
   r.value("max_keyframes", c.max_keyframes, 1, 100000);
+  r.value("memory_mb", c.memory_mb, 0.0, 1e6, "MB");
+  r.value("spill_folder", c.spill_folder);
 }
 
 void read(ConfigReader& r, GridConfig& c) {

@@ -12,10 +12,12 @@
 namespace rds::mapper {
 namespace {
 constexpr double kDegree = 3.14159265358979 / 180;
-}
+constexpr double kBytesPerMb = 1e6;
+}  // namespace
 
-SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch)
-    : config_(std::move(config)), map_epoch_(map_epoch) {
+SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
+                               std::unique_ptr<SpillStorage> storage)
+    : config_(std::move(config)), map_epoch_(map_epoch), records_(std::move(storage)) {
   reset(map_epoch);
 }
 
@@ -24,6 +26,7 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
   revision_ = start_.map ? 1 : 0;  // 0 is the empty map, which a reader needs not be told
   labels_ = start_.labels;
   keyframes_.clear();
+  records_.clear();
   base_ = start_.map;
   map_ = std::make_unique<Map>(base_ ? *base_ : empty_map());
   final_keyframes_ = 0;
@@ -48,13 +51,13 @@ MapDelta SemanticMapper::new_delta() const {
   delta.resolution = config_.octree.resolution_m;
   if (!keyframes_.empty()) {
     delta.keyframe_id = keyframes_.rbegin()->first;
-    delta.stamp_ns = keyframes_.rbegin()->second.record.stamp_ns;
+    delta.stamp_ns = keyframes_.rbegin()->second.stamp_ns;
   }
   return delta;
 }
 
 std::shared_ptr<const std::vector<Eigen::Vector3f>> SemanticMapper::rays_of(
-    const geometry::CameraModel& camera) {
+    const geometry::CameraModel& camera) const {
   if (!rays_ || !(camera == ray_camera_)) {
     rays_ = sample_rays(camera, config_.sampling.stride_px);
     ray_camera_ = camera;
@@ -69,16 +72,24 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   auto record = make_record(input, config_.sampling, rays_of(input.camera));
   if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
   mark_doubtful(record, config_);
-  const auto& added =
-      keyframes_.emplace(input.id, Keyframe{std::move(record), input.map_from_camera}).first->second;
+  keyframes_[input.id] = {input.stamp_ns, input.map_from_camera, input.map_from_camera};
+  records_.put(record);
   MapDelta delta = new_delta();
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
-  map_->history.see(added.record, config_);
-  integrate_into(*map_, added.record, map_->history, delta);
+  map_->history.see(record, config_);
+  integrate_into(*map_, record, map_->history, delta);
   delta.revision = ++revision_;
-  make_oldest_final();
+  keep_within_limits();
   return delta;
+}
+
+std::optional<KeyframeRecord> SemanticMapper::record_of(std::uint64_t id) const {
+  auto record = records_.get(id);
+  if (!record) return record;
+  record->rays = rays_of(record->camera);
+  record->map_from_camera = keyframes_.at(id).pose;
+  return record;
 }
 
 void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history,
@@ -89,23 +100,48 @@ void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, cons
   map.objects.integrate(record, labels_);
 }
 
-void SemanticMapper::make_oldest_final() {
-  while (keyframes_.size() > static_cast<std::size_t>(config_.correction.max_keyframes)) {
-    if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
-    MapDelta unused;
-    const KeyframeRecord& oldest = keyframes_.begin()->second.record;
-    base_->history.see(oldest, config_);
-    integrate_into(*base_, oldest, map_->history, unused);
-    keyframes_.erase(keyframes_.begin());
-    ++final_keyframes_;
+/// Its part of the map stays as it is, whatever corrections come.
+void SemanticMapper::make_final(std::uint64_t id) {
+  const auto record = record_of(id);
+  if (!record) return lose(id);
+  if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
+  MapDelta unused;
+  base_->history.see(*record, config_);
+  integrate_into(*base_, *record, map_->history, unused);
+  keyframes_.erase(id);
+  records_.erase(id);
+  ++final_keyframes_;
+}
+
+void SemanticMapper::lose(std::uint64_t id) {
+  keyframes_.erase(id);
+  records_.erase(id);
+  ++final_keyframes_;
+  ++corrections_lost_;
+}
+
+void SemanticMapper::keep_within_limits() {
+  const double limit = config_.correction.memory_mb * kBytesPerMb;
+  while (static_cast<double>(records_.bytes_in_memory()) > limit && records_.in_memory() > 1) {
+    if (records_.spill_oldest()) continue;
+    make_final(records_.oldest_in_memory());
+    ++corrections_lost_;
   }
+  while (keyframes_.size() > static_cast<std::size_t>(config_.correction.max_keyframes))
+    make_final(keyframes_.begin()->first);
 }
 
 bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes) {
-  const auto found = keyframes_.find(keyframe_id);
-  if (found == keyframes_.end()) return false;
-  apply_boxes(found->second.record, boxes, config_, labels_);
-  mark_doubtful(found->second.record, config_);
+  if (!keyframes_.contains(keyframe_id)) return false;
+  auto record = record_of(keyframe_id);
+  if (!record) {
+    lose(keyframe_id);
+    return false;
+  }
+  apply_boxes(*record, boxes, config_, labels_);
+  mark_doubtful(*record, config_);
+  records_.put(*record);
+  keep_within_limits();
   boxes_waiting_ = true;
   return true;
 }
@@ -114,13 +150,13 @@ void SemanticMapper::take_poses(std::span<const KeyframePose> poses) {
   for (const auto& pose : poses) {
     const auto found = keyframes_.find(pose.id);
     if (found != keyframes_.end() && geometry::is_finite(pose.map_from_camera))
-      found->second.record.map_from_camera = pose.map_from_camera;
+      found->second.pose = pose.map_from_camera;
   }
 }
 
 bool SemanticMapper::moved_enough() const {
   return std::ranges::any_of(keyframes_, [&](const auto& entry) {
-    const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.record.map_from_camera;
+    const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.pose;
     return moved.translation().norm() > config_.correction.min_translation_m ||
            geometry::rotation_angle_rad(moved.linear()) > config_.correction.min_rotation_deg * kDegree;
   });
@@ -138,12 +174,17 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 
 MapDelta SemanticMapper::rebuild() {
   auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
-  for (const auto& [id, keyframe] : keyframes_) fresh->history.see(keyframe.record, config_);
-  MapDelta unused;
+  std::vector<std::uint64_t> lost;
+  for (const auto& [id, keyframe] : keyframes_)
+    if (const auto record = record_of(id))
+      fresh->history.see(*record, config_);
+    else
+      lost.push_back(id);
+  for (const auto id : lost) lose(id);
   for (auto& [id, keyframe] : keyframes_) {
-    integrate_into(*fresh, keyframe.record, fresh->history, unused);
-    keyframe.integrated_pose = keyframe.record.map_from_camera;
-    unused = MapDelta{};
+    MapDelta unused;
+    if (const auto record = record_of(id)) integrate_into(*fresh, *record, fresh->history, unused);
+    keyframe.integrated_pose = keyframe.pose;
   }
   MapDelta delta = new_delta();
   map_->octree.difference(fresh->octree, delta);
@@ -156,9 +197,13 @@ MapDelta SemanticMapper::rebuild() {
 Eigen::Vector3d SemanticMapper::up_in_map() const {
   if (config_.grid.up != "auto") return axis_of(config_.grid.up);
   if (start_.up) return *start_.up;
-  std::vector<const KeyframeRecord*> records;
-  for (const auto& [id, keyframe] : keyframes_) records.push_back(&keyframe.record);
-  return estimate_up(records);
+  std::vector<geometry::Pose> poses;
+  std::vector<std::uint64_t> ids;
+  for (const auto& [id, keyframe] : keyframes_) {
+    ids.push_back(id);
+    poses.push_back(keyframe.pose);
+  }
+  return estimate_up(poses, [&](std::size_t i) { return record_of(ids[i]); });
 }
 
 OccupancyGrid SemanticMapper::grid() const {
@@ -167,8 +212,7 @@ OccupancyGrid SemanticMapper::grid() const {
 
 std::vector<KeyframePose> SemanticMapper::keyframe_poses() const {
   std::vector<KeyframePose> poses;
-  for (const auto& [id, keyframe] : keyframes_)
-    poses.push_back({id, keyframe.record.stamp_ns, keyframe.record.map_from_camera});
+  for (const auto& [id, keyframe] : keyframes_) poses.push_back({id, keyframe.stamp_ns, keyframe.pose});
   return poses;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "services/mapper/core/keyframe_store.hpp"
 #include "services/mapper/core/object_database.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
 #include "services/mapper/core/semantic_octree.hpp"
@@ -14,12 +15,14 @@ namespace rds::mapper {
 
 /// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
 ///
-/// Every keyframe is kept (strided), so that the map can be made again when poses or boxes change: after
-/// settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order in
-/// which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
+/// Every keyframe is kept (strided, packed), so that the map can be made again when poses or boxes change:
+/// after settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order
+/// in which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
 class SemanticMapper {
  public:
-  explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0);
+  /// @param storage  takes keyframes beyond `correction.memory_mb`; without it the oldest become final.
+  explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0,
+                          std::unique_ptr<SpillStorage> storage = nullptr);
 
   /// Adds a keyframe with the pose it carries.
   /// @throws std::invalid_argument if check(input) finds a fault or its id is already there.
@@ -63,6 +66,9 @@ class SemanticMapper {
   [[nodiscard]] std::uint64_t map_epoch() const { return map_epoch_; }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   [[nodiscard]] std::size_t keyframes() const { return keyframes_.size() + final_keyframes_; }
+  /// Keyframes that can follow no correction any more because the storage failed: they are final, or, where
+  /// it gave back other bytes than it was given, not in the map any more.
+  [[nodiscard]] std::size_t corrections_lost() const { return corrections_lost_; }
   [[nodiscard]] const MapperConfig& config() const { return config_; }
 
  private:
@@ -80,17 +86,22 @@ class SemanticMapper {
     std::optional<Eigen::Vector3d> up;  // in the map, if it is known
   };
   struct Keyframe {
-    KeyframeRecord record;
-    geometry::Pose integrated_pose;
+    std::int64_t stamp_ns;
+    geometry::Pose pose;             // map_from_camera, newest
+    geometry::Pose integrated_pose;  // that the map was made with
   };
 
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(const geometry::CameraModel& camera);
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(const geometry::CameraModel& camera) const;
+  /// The record of a keyframe with its newest pose; nullopt if the storage failed.
+  [[nodiscard]] std::optional<KeyframeRecord> record_of(std::uint64_t id) const;
   void take_poses(std::span<const KeyframePose> poses);
   [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
   /// @param history  what tells which doubtful surfaces stand.
   void integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history, MapDelta& delta);
-  void make_oldest_final();
+  void make_final(std::uint64_t id);
+  void lose(std::uint64_t id);
+  void keep_within_limits();
   void go_on_from(Start start);
   [[nodiscard]] Map empty_map() const {
     return {SemanticOctree(config_.octree),
@@ -105,14 +116,16 @@ class SemanticMapper {
   std::uint64_t revision_ = 0;
   LabelTable labels_;
   std::map<std::uint64_t, Keyframe> keyframes_;
+  KeyframeStore records_;      // of keyframes_
   Start start_;                // its map is nullptr unless there is a saved one
   std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
   std::unique_ptr<Map> map_;
   std::size_t final_keyframes_ = 0;
+  std::size_t corrections_lost_ = 0;
   bool boxes_waiting_ = false;
   Scan scan_;  // scratch
-  geometry::CameraModel ray_camera_;
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
+  mutable geometry::CameraModel ray_camera_;
+  mutable std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
 };
 
 /// What SemanticMapper::to_bytes() gave, as far as one looks into a map with it: of any resolution.

@@ -8,6 +8,7 @@
 #include <octomap/OcTree.h>
 
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/core/tree_bytes.hpp"
 #include "tests/bench/mapper/recording.hpp"
 
 namespace {
@@ -54,6 +55,31 @@ void integrate_keyframe(benchmark::State& state) {
   }
 }
 BENCHMARK(integrate_keyframe)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
+
+/// A loop closes: 100 keyframes have new poses; until the corrected full map is there as bytes.
+void correct_map_after_loop(benchmark::State& state) {
+  if (skipped(state)) return;
+  constexpr std::size_t kKeyframes = 100;
+  mapper::MapperConfig config;
+  config.octree.resolution_m = static_cast<double>(state.range(0)) / kMmPerM;
+  mapper::SemanticMapper mapper(config, 1);
+  std::vector<mapper::KeyframePose> poses;
+  for (std::size_t i = 0; i < kKeyframes; ++i) {
+    auto input = keyframes()[i % keyframes().size()];
+    input.id = i;
+    input.stamp_ns += static_cast<std::int64_t>(i / keyframes().size()) * 60'000'000'000;
+    mapper.integrate(input);
+    poses.push_back({input.id, input.stamp_ns, input.map_from_camera});
+  }
+  double shift_m = 0.05;
+  for (auto _ : state) {
+    for (auto& pose : poses) pose.map_from_camera.translation().x() += shift_m;
+    shift_m = -shift_m;
+    benchmark::DoNotOptimize(mapper.apply_poses(poses));
+    benchmark::DoNotOptimize(mapper::to_bytes(mapper.tree()));
+  }
+}
+BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
 
 /// The points that the mapper uses, in the map.
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {

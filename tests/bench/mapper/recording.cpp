@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "services/mapper/core/mapper_config.hpp"
+
 namespace rds::bench {
 namespace {
 
@@ -24,6 +26,7 @@ Recording::Recording(const std::filesystem::path& folder, const std::filesystem:
   if (!dataset_.ground_truth()) throw std::runtime_error(folder.string() + "/groundtruth.txt: missing");
   if (boxes_file.empty()) return;
   read_boxes(boxes_file);
+  if (boxes_file.extension() == ".jsonl") return;
   if (std::filesystem::exists(folder / "objects.json")) read_static_objects(folder / "objects.json");
 }
 
@@ -31,6 +34,7 @@ void Recording::read_boxes(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error(file.string() + ": cannot be read");
   has_boxes_ = true;
+  if (file.extension() == ".jsonl") return read_detections(in);
   const auto truth = nlohmann::json::parse(in);
   for (const auto& frame : truth.at("frames")) {
     const double stamp_s = std::stod(frame.at("timestamp").get<std::string>());
@@ -43,6 +47,24 @@ void Recording::read_boxes(const std::filesystem::path& file) {
                        std::nullopt,
                        person.at("distance").get<float>(),
                        true});
+    }
+  }
+}
+
+void Recording::read_detections(std::istream& in) {
+  const mapper::MapperConfig config;
+  for (std::string line; std::getline(in, line);) {
+    const auto frame = nlohmann::json::parse(line);
+    auto& boxes = boxes_[std::llround(frame.at("stamp").get<double>() * 1e6)];
+    for (const auto& detection : frame.at("detections")) {
+      const auto b = detection.at("box").get<std::vector<double>>();
+      const auto label = detection.at("label").get<std::string>();
+      boxes.push_back({label,
+                       detection.at("score").get<float>(),
+                       {b.at(0), b.at(1), b.at(2), b.at(3)},
+                       std::nullopt,
+                       detection.at("depth_m").get<float>(),
+                       config.is_movable(label)});
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
 #include <map>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace rds::bench {
 /// A recorded sequence with ground truth as keyframes for the mapper.
 class Recording {
  public:
-  /// @param boxes_file  people.json of the sequence, or a file of its form; "" if nobody looked for objects.
-  /// Static objects in the folder's objects.json ([{label, center, size}], map frame) count as seen in every
-  /// frame.
+  /// @param boxes_file  people.json of the sequence, or a file of its form; detections.jsonl, or a file of
+  /// its form, which tells of all objects; "" if nobody looked for objects. Static objects in the folder's
+  /// objects.json ([{label, center, size}], map frame) count as seen in every frame.
   /// @throws std::runtime_error naming what is missing.
   Recording(const std::filesystem::path& folder, const std::filesystem::path& boxes_file);
 
@@ -25,6 +26,7 @@ class Recording {
 
  private:
   void read_boxes(const std::filesystem::path& file);
+  void read_detections(std::istream& in);
   void read_static_objects(const std::filesystem::path& file);
 
   image::TumDataset dataset_;

@@ -133,7 +133,7 @@ TEST(Gravity, IsFoundFromTheFloorOfATiltedCamera) {
 }
 
 TEST(Gravity, FallsBackToTheCamerasOwnUpAndToTheConfiguredAxis) {
-  EXPECT_TRUE(estimate_up({}).isApprox(-Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(estimate_up({}, {}).isApprox(-Eigen::Vector3d::UnitY()));
   EXPECT_TRUE(axis_of("-y").isApprox(-Eigen::Vector3d::UnitY()));
   EXPECT_TRUE(axis_of("z").isApprox(Eigen::Vector3d::UnitZ()));
   EXPECT_THROW(axis_of("up"), std::invalid_argument);

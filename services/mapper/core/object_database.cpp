@@ -11,9 +11,12 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kTrim = 0.02;        // share of points outside the boundary at each end
-constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
-constexpr double kInViewShare = 0.8;  // of the projected box inside the picture
+constexpr double kTrim = 0.02;       // share of points outside the boundary at each end
+constexpr double kMinOverlap = 0.3;  // 3-D IoU that makes two sightings one object whatever the class radius
+constexpr double kMinContained = 0.5;  // the same for the share of the smaller one that lies in the larger
+constexpr double kOutward = 4;         // a view that shows more of the object counts so often
+constexpr double kInward = 0.5;        // one that shows less: every view shows a part only
+constexpr double kInViewShare = 0.8;   // of the projected box inside the picture
 constexpr double kOcclusionMarginM = 0.15;  // nearer than the object by this: something stands before it
 constexpr int kProbes = 5;                  // per side of the projected box
 
@@ -22,6 +25,13 @@ double iou(const geometry::Box3& a, const geometry::Box3& b) {
   const double common = overlap.prod();
   const double all = a.size().prod() + b.size().prod() - common;
   return all > 0 ? common / all : 0;
+}
+
+/// Share of the smaller box that lies in the other one.
+double contained(const geometry::Box3& a, const geometry::Box3& b) {
+  const Eigen::Vector3d overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
+  const double smaller = std::min(a.size().prod(), b.size().prod());
+  return smaller > 0 ? overlap.prod() / smaller : 0;
 }
 
 /// What the depth picture says about the place of an object.
@@ -86,7 +96,8 @@ bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const {
   const auto known = config_.class_radius_m.find(label);
   const double radius = known != config_.class_radius_m.end() ? known->second : config_.default_radius_m;
-  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap;
+  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap ||
+         contained(a, b) > kMinContained;
 }
 
 ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
@@ -151,11 +162,20 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
   }
   const double weight =
       std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? config_.border_weight : 1.0);
+  if (entry->weight == 0) {
+    entry->min = box.min;
+    entry->max = box.max;
+  }
   entry->weight += weight;
   const double gain =
       weight / entry->weight;  // every observation counts by its weight, the thousandth as the first
-  entry->min += (box.min - entry->min) * gain;
-  entry->max += (box.max - entry->max) * gain;
+  const auto step = [&](double by, bool outward) {
+    return by * std::min(1.0, gain * (outward ? kOutward : kInward));
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    entry->min[axis] += step(box.min[axis] - entry->min[axis], box.min[axis] < entry->min[axis]);
+    entry->max[axis] += step(box.max[axis] - entry->max[axis], box.max[axis] > entry->max[axis]);
+  }
   entry->score_sum += sighting.score;
   entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
   entry->seen_now = true;

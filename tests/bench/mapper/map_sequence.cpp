@@ -14,6 +14,7 @@
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/map_snapshot.hpp"
 #include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/map_picture.hpp"
 
@@ -79,7 +80,8 @@ int run(const Options& options) {
   const fs::path dataset = options.dataset;
   const bool has_boxes = !options.boxes.empty() && fs::exists(dataset / options.boxes);
   const rds::bench::Recording recording(dataset, has_boxes ? dataset / options.boxes : fs::path());
-  rds::mapper::SemanticMapper mapper(read_config(options.config), 1);
+  rds::mapper::SemanticMapper mapper(read_config(options.config), 1,
+                                     std::make_unique<rds::mapper::SpillFile>(fs::path()));
   std::vector<double> times;
   std::vector<double> delta_shares;  // of the full map's bytes, second half
   std::size_t changed = 0;

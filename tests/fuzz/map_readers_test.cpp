@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spoiled deltas, maps and files: no reader crashes, none takes more memory than it declares.
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <functional>
-#include <iostream>
 
 #include <gmock/gmock.h>
 
@@ -17,8 +13,7 @@
 #include "services/mapper/core/octomap_file.hpp"
 #include "services/mapper/core/octree_replica.hpp"
 #include "services/mapper/map_messages.hpp"
-#include "tests/fuzz/allocation_watch.hpp"
-#include "tests/fuzz/mutation.hpp"
+#include "tests/fuzz/feed.hpp"
 #include "tests/unit/services/mapper/core/random_keyframes.hpp"
 
 namespace rds::fuzz {
@@ -31,14 +26,6 @@ using OctreeDelta = rds_msgs::msg::OctreeDelta;
 
 constexpr std::size_t kMemoryOfSmallThings = 64 * 1024;  // messages, sentences, tables
 constexpr std::size_t kTwoEmptyTrees = 1'280'000;        // OctoMap reserves 0.6 MB for rays in each
-constexpr std::size_t kDefaultInputs = 1'000'000;        // of all readers; RDS_FUZZ_INPUTS: another number
-
-std::size_t inputs_of_a_reader(std::size_t share_percent) {
-  const char* text = std::getenv("RDS_FUZZ_INPUTS");
-  const std::size_t all = text != nullptr ? std::strtoull(text, nullptr, 10) : kDefaultInputs;
-  return all * share_percent / 100;
-}
-
 /// What good bytes are made of: small maps with a few keyframes.
 struct Examples {
   Examples() {
@@ -86,34 +73,6 @@ bool decode(const Bytes& bytes, Message& message) {
 std::size_t expanded(std::uint64_t voxels_per_byte, std::size_t bytes) {
   return kTwoEmptyTrees + kMemoryOfSmallThings +
          mapper::kBytesPerVoxel * (mapper::kFreeVoxels + voxels_per_byte * bytes);
-}
-
-/// Feeds spoiled seeds to a reader, which says whether it accepted them; `bound` is the memory that many
-/// bytes may cost.
-void feed(std::size_t share_percent, const std::vector<Bytes>& seeds,
-          const std::function<std::size_t(std::size_t)>& bound,
-          const std::function<bool(const Bytes&)>& read) {
-  for (const Bytes& seed : seeds) EXPECT_TRUE(read(seed)) << "what is not spoiled is accepted";
-  Mutation mutation(share_percent);
-  std::size_t accepted = 0;
-  std::size_t most_memory = 0;
-  const std::size_t inputs = inputs_of_a_reader(share_percent);
-  const auto started = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < inputs; ++i) {
-    const Bytes input = mutation.of(seeds);
-    const AllocationWatch watch;
-    accepted += read(input) ? 1U : 0U;
-    most_memory = std::max(most_memory, watch.peak_bytes());
-    if (watch.peak_bytes() > bound(input.size())) {
-      ADD_FAILURE() << "input " << i << " of " << input.size() << " bytes took " << watch.peak_bytes()
-                    << " bytes of memory, expected at most " << bound(input.size());
-      break;
-    }
-  }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
-  std::cout << inputs << " inputs, " << accepted << " accepted, at most " << most_memory
-            << " bytes of memory, " << took.count() << " s\n";
-  EXPECT_LT(accepted, inputs) << "nothing was spoiled";
 }
 
 MapDelta to_delta(const OctreeDelta& m) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <utility>
 
 #include "services/mapper/core/object_region.hpp"
 #include "services/mapper/core/segmentation.hpp"
@@ -99,14 +100,16 @@ void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, con
   set_aside_movable_cells(record);
   if (still.empty()) return;
 
-  std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return b->score; });
+  std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
   const auto segments =
       config.segmentation.enabled ? segment(record, config.segmentation) : std::vector<Segment>{};
   record.labels.assign(record.size(), 0);
   for (const auto* box : still) {
     const auto box_px = image_box(*box, record);
     if (!box_px) continue;
-    const auto pixels = static_pixels(*box, *box_px, segments, record, config);
+    auto pixels = static_pixels(*box, *box_px, segments, record, config);
+    std::erase_if(pixels,
+                  [&](std::size_t i) { return record.labels[i] != 0; });  // of what is surer, or nearer
     const auto label = labels.index_of(box->label);
     if (pixels.size() < kMinSightingPixels || label == 0) continue;
     for (const auto i : pixels) record.labels[i] = label;

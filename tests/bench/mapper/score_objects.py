@@ -105,7 +105,9 @@ def main():
     wanted = {i for i, count in enumerate(counts) if count >= args.min_views}
     right = wanted & match.keys()
     spare = {match[i] for i in match.keys() - wanted}
-    wrong = [f for j, f in enumerate(found) if j not in match.values()]
+    hardly_shown = [thing for i, thing in enumerate(truth) if i not in wanted]
+    wrong = [f for j, f in enumerate(found) if j not in match.values() and not any(
+        f["label"] == t["label"] and math.dist(f["center"], t["center"]) < math.hypot(*t["size"]) / 2 for t in hardly_shown)]
     for i, thing in enumerate(truth):
         if i not in wanted and i not in match:
             continue

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kInnerShare = 0.6;  // part of the box, about its centre, in which the object surely lies
 constexpr int kStaticMarginPx = 4;
+constexpr double kStaticBefore = 0.6;   // share of half_depth_m: things stand before tables
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 
 struct DepthInterval {
@@ -80,23 +81,27 @@ double margin_px(const LabelledBox& box, const RegionConfig& config) {
   return box.movable ? config.margin_px : std::min(config.margin_px, kStaticMarginPx);
 }
 
-/// How far an object reaches behind its depth [m]: of a wide static one mostly the front is seen.
+/// How far an object reaches behind its depth [m]: of a large static one mostly the front is seen.
 float reach_behind(const LabelledBox& box, const geometry::Box2& box_px, float depth_m,
                    const RegionConfig& config, const KeyframeRecord& record) {
   const auto half = static_cast<float>(config.half_depth_m);
-  const double width_m = box_px.width() * depth_m / record.camera.fx;
-  return box.movable ? half : std::max(half, static_cast<float>(width_m / 2));
+  const double side_m = std::max(box_px.width(), box_px.height()) * depth_m / record.camera.fx;
+  return box.movable ? half : std::max(half, static_cast<float>(side_m / 2));
 }
 
-cv::Mat near_depth(const cv::Rect& rect, float depth_m, float behind_m, const RegionConfig& config,
+/// And before it [m].
+float reach_before(const LabelledBox& box, const RegionConfig& config) {
+  return static_cast<float>(box.movable ? config.half_depth_m : kStaticBefore * config.half_depth_m);
+}
+
+cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float behind_m,
                    const KeyframeRecord& record) {
   cv::Mat near(rect.size(), CV_8U, cv::Scalar(0));
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
       const auto i = static_cast<std::size_t>((rect.y + y) * record.width + rect.x + x);
       const float behind = record.depth_m(i) - depth_m;
-      const bool inside = record.depth_tenth_mm[i] != 0 &&
-                          behind >= -static_cast<float>(config.half_depth_m) && behind <= behind_m;
+      const bool inside = record.depth_tenth_mm[i] != 0 && behind >= -before_m && behind <= behind_m;
       near.at<std::uint8_t>(y, x) = inside ? 1 : 0;
     }
   return near;
@@ -151,10 +156,9 @@ std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const Labe
   const float depth = depth_in_box(*box_px, limits, record);
   if (depth <= 0) return std::nullopt;
   const double margin = margin_px(box, config);
-  const auto half = static_cast<float>(config.half_depth_m);
   const bool has_extent = box.box_in_map && !(box.depth_m > 0);
   return ObjectPlace{{box_px->x0 - margin, box_px->y0 - margin, box_px->x1 + margin, box_px->y1 + margin},
-                     has_extent ? limits.min_m : depth - half,
+                     has_extent ? limits.min_m : depth - reach_before(box, config),
                      has_extent ? limits.max_m : depth + reach_behind(box, *box_px, depth, config, record)};
 }
 
@@ -167,9 +171,10 @@ std::vector<std::size_t> object_region(const KeyframeRecord& record, const Label
 
   const cv::Rect wide = sampled_rect(*box_px, margin_px(box, config), record);
   cv::Mat parts;
-  const int count = cv::connectedComponents(
-      near_depth(wide, depth, reach_behind(box, *box_px, depth, config, record), config, record), parts, 8,
-      CV_32S);
+  const int count =
+      cv::connectedComponents(near_depth(wide, depth, reach_before(box, config),
+                                         reach_behind(box, *box_px, depth, config, record), record),
+                              parts, 8, CV_32S);
   const auto keep = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl(), config);
   std::vector<std::size_t> region;
   for (int y = 0; y < wide.height; ++y)

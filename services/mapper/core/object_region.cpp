@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInnerShare = 0.6;  // part of the box, about its centre, in which the object surely lies
 constexpr int kStaticMarginPx = 4;
-constexpr double kStaticBefore = 0.6;   // share of half_depth_m: things stand before tables
+constexpr double kStaticBefore = 0.4;   // share of half_depth_m: things stand before tables
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 
 struct DepthInterval {

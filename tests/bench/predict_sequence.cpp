@@ -113,7 +113,9 @@ void run(const Options& options) {
     json boxes = json::array();
     for (const PredictedObject& object : predictor.predict(frame.stamp_ns))
       if (const auto seen = to_image(object, camera_from_map, dataset.camera()))
-        boxes.push_back(to_json(object, seen->box));
+        boxes.push_back(to_json(
+            object,
+            with_reach(seen->box, object.movable ? predictor.config().reach_share : 0, dataset.camera())));
     out << json{{"stamp", geometry::stamp_seconds(frame.stamp_ns)}, {"boxes", boxes}} << '\n';
   }
 }

@@ -12,6 +12,12 @@ CutSides cut_sides(const geometry::OrientedBox& box, const geometry::Pose& camer
           seen->y1 >= camera.height - border_px};
 }
 
+geometry::Box2 with_reach(const geometry::Box2& box, double share, const geometry::CameraModel& camera) {
+  const double x = share * box.width();
+  const double y = share * box.height();
+  return geometry::Box2{box.x0 - x, box.y0 - y, box.x1 + x, box.y1 + y}.clipped(camera.width, camera.height);
+}
+
 std::optional<PredictedBox> to_image(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,
                                      const geometry::CameraModel& camera, const RegionConfig& config) {
   const auto visible = image_box(box, camera_from_map, camera);

@@ -14,6 +14,10 @@ namespace rds::tracker::prediction {
 CutSides cut_sides(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,
                    const geometry::CameraModel& camera, double border_px);
 
+/// The box with its sides moved outwards by a share of its width and height, clipped to the picture: a
+/// network's boxes end before outstretched arms and legs do.
+geometry::Box2 with_reach(const geometry::Box2& box, double share, const geometry::CameraModel& camera);
+
 /// image_box() and the region of the features to drop: the box with its margin, and the depths
 /// centre ± (half the thickness + margin).
 std::optional<PredictedBox> to_image(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,

@@ -9,9 +9,12 @@ std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns,
                                                   const geometry::Pose& camera_from_map,
                                                   const geometry::CameraModel& camera) const {
   std::vector<ImageObject> objects;
-  for (prediction::PredictedObject& object : predictor_.predict(stamp_ns))
-    if (const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region))
-      objects.push_back({std::move(object), box->box});
+  for (prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
+    const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region);
+    if (!box) continue;
+    const double reach = object.movable ? predictor_.config().reach_share : 0;
+    objects.push_back({std::move(object), prediction::with_reach(box->box, reach, camera)});
+  }
   return objects;
 }
 

@@ -42,6 +42,7 @@ void read(config::ConfigReader& reader, PredictionConfig& config) {
   reader.choice("algorithm", config.algorithm, {"paper", "kalman3d"});
   reader.value("movable_labels", config.movable_labels);
   reader.value("min_score", config.min_score, 0.0, 1.0);
+  reader.value("reach_share", config.reach_share, 0.0, 1.0);
   reader.value("duplicate_overlap", config.duplicate_overlap, 0.01, 1.0);
   reader.value("doubtful_share", config.doubtful_share, 0.0, 1.0);
   reader.value("doubtful_score", config.doubtful_score, 0.0, 1.0);

@@ -97,6 +97,14 @@ TEST(ImageProjection, RegionReachesOverTheThicknessAndTheMargins) {
   EXPECT_NEAR(seen->region.max_depth_m, 3 + 0.3 + 0.2, 1e-6);
 }
 
+TEST(ImageProjection, ReachWidensABoxByAShareWithinThePicture) {
+  const geometry::CameraModel camera = scene::camera();
+  EXPECT_EQ(with_reach({100, 200, 200, 300}, 0.1, camera), (geometry::Box2{90, 190, 210, 310}));
+  EXPECT_EQ(with_reach({100, 200, 200, 300}, 0, camera), (geometry::Box2{100, 200, 200, 300}));
+  const double w = camera.width;
+  EXPECT_EQ(with_reach({2, 200, w - 2, 300}, 0.1, camera), (geometry::Box2{0, 190, w, 310}));
+}
+
 TEST(ImageProjection, SeesNothingBehindTheCameraOrBesideThePicture) {
   const auto person = scene::see_person({0, 0, 3}, Pose::Identity());
   ASSERT_TRUE(person);

@@ -23,6 +23,11 @@ geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std:
   return message;
 }
 
+/// A mono8 image of the mask's cells, without pixels if nothing is movable.
+sensor_msgs::msg::Image movable_cells(const MovableMask& movable, const std_msgs::msg::Header& header) {
+  return messages::to_image_message(movable.any() ? movable.cells() : cv::Mat1b(), header);
+}
+
 void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
   flat.insert(flat.end(), v.data(), v.data() + 3);
 }
@@ -108,6 +113,7 @@ void TrackerOutputs::publish_features(const FrameReport& report) {
     message.positions().push_back(verdict.image_px.y());
     message.verdicts().push_back(static_cast<std::uint8_t>(verdict.use));
   }
+  message.movable(movable_cells(report.result.movable, message.header()));
   features_.write(message);
 }
 
@@ -123,8 +129,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.camera_info(messages::to_camera_info(report.frame.camera, header));
   images.color(messages::to_image_message(report.frame.color, header));
   images.depth(messages::to_image_message(report.frame.depth, header));
-  const MovableMask& movable = report.result.movable;
-  images.movable(messages::to_image_message(movable.any() ? movable.cells() : cv::Mat1b(), header));
+  images.movable(movable_cells(report.result.movable, header));
   keyframe_images_.write(images);
   if (!keyframe.in_map) return;
   rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);

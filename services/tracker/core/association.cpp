@@ -18,7 +18,7 @@ constexpr double kDistanceTolerance = 1.2;  // beyond the range of levels
 constexpr double kStraightWindowPx = 2.5;
 constexpr double kObliqueWindowPx = 4;
 constexpr int kFar = 257;
-constexpr double kSureAfterNs = 0.5e9;  // that a point stands still
+constexpr double kSureAfterNs = 0.4e9;  // that a point stands still
 constexpr double kLeastTrust = 0.02;    // in one that may not
 
 /// Removes the matches whose feature turned otherwise than most did.
@@ -217,11 +217,11 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
 }
 
 double trust(const SlamMap& map, const MapPoint& point) {
-  if (point.observations.size() < 2) return kLeastTrust;
-  const Keyframe* first = map.keyframe(point.observations.front().keyframe);
-  const Keyframe* last = map.keyframe(point.observations.back().keyframe);
-  const double seen_ns = static_cast<double>(last->stamp_ns - first->stamp_ns);
-  return std::clamp(seen_ns / kSureAfterNs, kLeastTrust, 1.0);
+  if (point.observations.empty() || 2 * point.found < point.visible) return kLeastTrust;
+  const std::int64_t first_ns = map.keyframe(point.observations.front().keyframe)->stamp_ns;
+  const std::int64_t last_ns = map.keyframe(point.observations.back().keyframe)->stamp_ns;
+  const auto seen_ns = static_cast<double>(std::max(last_ns, point.last_found_ns) - first_ns);
+  return std::clamp(std::pow(seen_ns / kSureAfterNs, 2), kLeastTrust, 1.0);
 }
 
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,

@@ -89,7 +89,7 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
                           TrackedFrame& frame);
 
 /// How sure it is that a point stands still, while something in view does not, from near 0 to 1: by the time
-/// between the first and the last keyframe that saw it in its place.
+/// over which frames found it in its place.
 double trust(const SlamMap& map, const MapPoint& point);
 
 /// Pose from the frame's matches, unless it is given; outliers are removed from frame.points.

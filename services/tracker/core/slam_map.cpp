@@ -104,6 +104,7 @@ void SlamMap::merge(PointId keep, PointId drop) {
   const auto observations = dropped->observations;
   kept->visible += dropped->visible;
   kept->found += dropped->found;
+  kept->last_found_ns = std::max(kept->last_found_ns, dropped->last_found_ns);
   erase_point(drop);
   for (const Observation& o : observations) observe(keep, o.keyframe, o.feature);
   refresh(*kept);

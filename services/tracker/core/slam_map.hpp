@@ -40,6 +40,7 @@ struct MapPoint {
   KeyframeId created_by = kNoId;
   std::uint32_t visible = 1;  // frames that should have seen it
   std::uint32_t found = 1;    // frames that did
+  std::int64_t last_found_ns = 0;  // stamp of the newest of these
   std::uint64_t mark = 0;     // scratch of whoever walks over points
 };
 

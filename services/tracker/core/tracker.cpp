@@ -76,7 +76,6 @@ void Tracker::extract(const image::RgbdFrame& picture, const MovableMask& movabl
   extractor_.extract(images_->level(0), is_movable, features);
   frame.stamp_ns = picture.stamp_ns;
   frame.motion = shutter_motion(picture.stamp_ns);
-  frame.given_fx = given_fx_;
   set_features(picture, std::move(features), frame);
   frame.clear_matches();
   result.times.extract_us = microseconds_since(start);
@@ -100,19 +99,26 @@ image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
   return picture;
 }
 
-/// Where the camera is by the last frame's points or by the motion model; nullopt where neither says
-/// anything.
-std::optional<Pose> Tracker::guess_pose(const image::RgbdFrame& picture) const {
+/// Where the camera is by the last frame's points or by the motion model; unknown where neither says
+/// anything. Points that something moving has taken along are told by where they would have the camera.
+void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) const {
   if (given_poses_) {
-    const auto given = given_poses_(picture.stamp_ns);
-    return given ? std::optional(given->inverse()) : std::nullopt;
+    if (const auto given = given_poses_(picture.stamp_ns)) around.camera_from_map = given->inverse();
+    return;
   }
-  if (!last_ || !has_pose(state_)) return std::nullopt;
-  return follows_points() ? align_with_last(picture) : expected_camera_from_map(picture.stamp_ns);
+  if (!last_ || !has_pose(state_)) return;
+  around.camera_from_map = expected_camera_from_map(picture.stamp_ns);
+  if (!follows_points()) return;
+  const Pose aligned = align_with_last(picture);
+  if (last_->frame.movable_there && jerk(aligned, picture.stamp_ns) > 1)
+    around.aligned = aligned;
+  else
+    around.camera_from_map = aligned;
 }
 
 Tracker::Surroundings Tracker::surroundings(const image::RgbdFrame& picture) {
-  Surroundings around{guess_pose(picture), {}, kNoId};
+  Surroundings around;
+  guess_pose(picture, around);
   if (!last_ || !around.camera_from_map || !(follows_points() || removes_by_depth())) return around;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   around.reference = local.reference;
@@ -147,8 +153,10 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const Surroundings around = surroundings(picture);
   const MovableMask movable = cut_.cut(given, around.camera_from_map, regions, lasting_points(around));
   TrackedFrame frame;
+  frame.given_fx = given_fx_;
   frame.movable_there = movable.any() || !regions.empty();
-  frame.camera_from_map = around.camera_from_map.value_or(expected_camera_from_map(picture.stamp_ns));
+  const Pose guess = around.camera_from_map.value_or(expected_camera_from_map(picture.stamp_ns));
+  frame.camera_from_map = around.aligned.value_or(guess);
   const KeyframeNeed need = find_pose(picture, around, movable, frame, result);
   result.state = state_;
   result.features = static_cast<unsigned>(frame.features->size());

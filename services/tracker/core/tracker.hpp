@@ -105,8 +105,15 @@ class Tracker {
   /// What a new frame should see.
   struct Surroundings {
     std::optional<Pose> camera_from_map;  // by the last frame's points or by the motion model
+    std::optional<Pose> aligned;          // by the last frame's points, where no hand would move it so
     std::vector<PointId> points;          // of the last frame and of the local map around it
     KeyframeId reference = kNoId;
+  };
+  struct FollowedFrame {
+    TrackedFrame frame;
+    std::vector<PointId> looked_for;
+    std::shared_ptr<const FeatureSet>
+        extracted;  // of the same picture, if it was looked at for features, too
   };
   struct KeyframeDepth {
     KeyframeId keyframe = kNoId;
@@ -123,7 +130,7 @@ class Tracker {
   [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
-  [[nodiscard]] std::optional<Pose> guess_pose(const image::RgbdFrame& picture) const;
+  void guess_pose(const image::RgbdFrame& picture, Surroundings& around) const;
   [[nodiscard]] Surroundings surroundings(const image::RgbdFrame& picture);
   [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
   KeyframeNeed find_pose(const image::RgbdFrame& picture, const Surroundings& around,
@@ -135,10 +142,18 @@ class Tracker {
   void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
                     TrackedFrame& frame) const;
   [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
-  bool follow_map(const image::RgbdFrame& picture, const Surroundings& around, const MovableMask& movable,
-                  TrackedFrame& frame);
+  [[nodiscard]] std::optional<FollowedFrame> follow_points_around(const image::RgbdFrame& picture,
+                                                                  const Surroundings& around,
+                                                                  const MovableMask& movable, Pose guess,
+                                                                  const TrackedFrame& begun) const;
+  [[nodiscard]] std::optional<FollowedFrame> follow_map(const image::RgbdFrame& picture,
+                                                        const Surroundings& around,
+                                                        const MovableMask& movable,
+                                                        const TrackedFrame& begun) const;
+  bool accept(FollowedFrame& followed, KeyframeId reference);
   KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
-                                    TrackedFrame& frame, FrameResult& result);
+                                    std::shared_ptr<const FeatureSet> features, TrackedFrame& frame,
+                                    FrameResult& result);
   void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
   void initialize(TrackedFrame& frame, FrameResult& result);
   void follow(TrackedFrame& frame, FrameResult& result);
@@ -150,11 +165,14 @@ class Tracker {
   [[nodiscard]] std::optional<Twist> motion_to(const TrackedFrame& frame) const;
   [[nodiscard]] bool has_jumped(const TrackedFrame& frame) const;
   [[nodiscard]] double jerk(const TrackedFrame& frame) const;
+  [[nodiscard]] double jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const;
+  [[nodiscard]] double support(const TrackedFrame& frame) const;
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
   [[nodiscard]] ShutterMotion shutter_motion(std::int64_t stamp_ns) const;
   [[nodiscard]] double since_last_s(std::int64_t stamp_ns) const;
+  void count_found(const TrackedFrame& frame);
   void note_found(int expected, int found, FoundShare& share, TrackedFrame& frame);
   [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame) const;
   void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);

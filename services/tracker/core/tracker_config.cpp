@@ -41,7 +41,6 @@ void read(config::ConfigReader& r, PoseOptimizationConfig& c) {
 
 void read(config::ConfigReader& r, FollowingConfig& c) {
   r.value("enabled", c.enabled);
-  r.value("while_movable", c.while_movable);
   r.value("points", c.points, 50, 5000);
   r.value("min_points", c.min_points, 10, 5000);
   r.value("min_inlier_share", c.min_inlier_share, 0.0, 1.0);

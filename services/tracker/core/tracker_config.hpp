@@ -54,7 +54,6 @@ struct PoseOptimizationConfig {
 /// Following map points from picture to picture by how they look.
 struct FollowingConfig {
   bool enabled = true;            // false: features are extracted and matched in every frame
-  bool while_movable = false;     // also while movable objects are in view
   int points = 400;               // followed
   int min_points = 50;            // that must agree on a pose; with fewer, features are extracted and matched
   double min_inlier_share = 0.5;  // of the followed points, that must agree

@@ -50,33 +50,56 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
          last_camera_from_map;
 }
 
-bool Tracker::follow_map(const image::RgbdFrame& picture, const Surroundings& around,
-                         const MovableMask& movable, TrackedFrame& frame) {
+/// The points around as the picture shows them near where the guess has them.
+/// @return nullopt where too few agree on a pose.
+std::optional<Tracker::FollowedFrame> Tracker::follow_points_around(const image::RgbdFrame& picture,
+                                                                    const Surroundings& around,
+                                                                    const MovableMask& movable, Pose guess,
+                                                                    const TrackedFrame& begun) const {
   const FollowingConfig& config = config_.following;
-  const bool allowed = follows_points() && (!movable.any() || config.while_movable);
-  const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
-  if (!allowed || !located || !around.camera_from_map) return false;
-  if (around.reference == kNoId || !map_.keyframe(around.reference)->images) return false;
+  FollowedFrame result{begun, {}, nullptr};
+  TrackedFrame& frame = result.frame;
   frame.stamp_ns = picture.stamp_ns;
-  frame.camera_from_map = *around.camera_from_map;
+  frame.camera_from_map = guess;
   frame.motion = shutter_motion(picture.stamp_ns);
   const ObservationModel model(picture.camera, config_.depth);
   FollowedPoints followed =
-      follow_points(map_, around.points, {picture, *images_, movable, frame.camera_from_map, frame.motion},
-                    model, pyramid_, config, run_parts_);
+      follow_points(map_, around.points, {picture, *images_, movable, guess, frame.motion}, model, pyramid_,
+                    config, run_parts_);
   set_features(picture, std::move(followed.features), frame);
   frame.points = std::move(followed.points);
+  result.looked_for = std::move(followed.looked_for);
   const int found = frame.matches();
   const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
-  if (inliers < config.min_points || inliers < config.min_inlier_share * found) return false;
+  if (inliers < config.min_points || inliers < config.min_inlier_share * found) return std::nullopt;
+  return result;
+}
+
+/// From where the frame is expected and, if that is not what the last frame's points say, from there.
+std::optional<Tracker::FollowedFrame> Tracker::follow_map(const image::RgbdFrame& picture,
+                                                          const Surroundings& around,
+                                                          const MovableMask& movable,
+                                                          const TrackedFrame& begun) const {
+  const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
+  if (!follows_points() || !located || !around.camera_from_map) return std::nullopt;
+  if (around.reference == kNoId || !map_.keyframe(around.reference)->images) return std::nullopt;
+  auto best = follow_points_around(picture, around, movable, *around.camera_from_map, begun);
+  if (!around.aligned || (best && jerk(best->frame) <= 1)) return best;
+  auto other = follow_points_around(picture, around, movable, *around.aligned, begun);
+  return other && (!best || support(other->frame) > support(best->frame)) ? std::move(other)
+                                                                          : std::move(best);
+}
+
+/// Makes a followed frame's pose that of the tracker, unless it shows too little of what it should.
+bool Tracker::accept(FollowedFrame& followed, KeyframeId reference) {
+  TrackedFrame& frame = followed.frame;
   for (const PointId id : followed.looked_for) ++map_.point(id)->visible;
-  for (const PointId id : frame.points)
-    if (MapPoint* point = map_.point(id)) ++point->found;
-  note_found(static_cast<int>(followed.looked_for.size()), inliers, found_by_following_, frame);
+  count_found(frame);
+  note_found(static_cast<int>(followed.looked_for.size()), frame.matches(), found_by_following_, frame);
   // Movable objects hide what is expected; then few found points say nothing against the pose.
   const bool sees_enough = frame.movable_there || frame.found_share >= config_.quality.min_found_share;
   if (!sees_enough || has_jumped(frame)) return false;
-  reference_ = around.reference;
+  reference_ = reference;
   state_ = State::kTracking;
   return true;
 }
@@ -84,24 +107,29 @@ bool Tracker::follow_map(const image::RgbdFrame& picture, const Surroundings& ar
 /// By following where that does, else by features.
 KeyframeNeed Tracker::find_pose(const image::RgbdFrame& picture, const Surroundings& around,
                                 const MovableMask& movable, TrackedFrame& frame, FrameResult& result) {
-  TrackedFrame followed = frame;
-  if (!follow_map(picture, around, movable, followed)) return track_features(picture, movable, frame, result);
-  const bool sure = jerk(followed) <= 1 && followed.matches() >= kSurePoints * config_.following.min_points;
-  if (followed.movable_there && !sure) {
-    const KeyframeId reference = reference_;
+  auto followed = follow_map(picture, around, movable, frame);
+  if (!followed || !accept(*followed, around.reference))
+    return track_features(picture, movable, frame, result);
+  const bool sure =
+      jerk(followed->frame) <= 1 && followed->frame.matches() >= kSurePoints * config_.following.min_points;
+  if (frame.movable_there && !sure) {
     const KeyframeNeed need = track_features(picture, movable, frame, result);
-    if (has_pose(state_) && jerk(frame) <= std::max(1.0, jerk(followed))) return need;
-    reference_ = reference;
+    if (has_pose(state_) && support(frame) > support(followed->frame)) return need;
+    reference_ = around.reference;
     state_ = State::kTracking;
+    followed->extracted = frame.features;
   }
-  frame = std::move(followed);
-  return follow_with_keyframe(picture, movable, frame, result);
+  const auto extracted = std::move(followed->extracted);
+  frame = std::move(followed->frame);
+  return follow_with_keyframe(picture, movable, extracted, frame, result);
 }
 
-/// If the map needs the frame, extracts features where the pose is known.
+/// If the map needs the frame, matches features, extracted here unless they are there, where the pose is
+/// known.
 /// @return what the frame is to become.
 KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
-                                           TrackedFrame& frame, FrameResult& result) {
+                                           std::shared_ptr<const FeatureSet> features, TrackedFrame& frame,
+                                           FrameResult& result) {
   if (!last_keyframe_ns_) return KeyframeNeed::kNone;
   const KnownView view = nearest_view(frame);
   const int covered = covered_cells(frame);
@@ -112,12 +140,21 @@ KeyframeNeed Tracker::follow_with_keyframe(const image::RgbdFrame& picture, cons
   facts.seen_by_reference = covered_at_view_;
   const KeyframeNeed need = tracker::keyframe_need(facts, config_.keyframe);
   if (need != KeyframeNeed::kMap) return need;
-  TrackedFrame extracted;
-  extracted.camera_from_map = frame.camera_from_map;
-  extracted.movable_there = frame.movable_there;
-  extract(picture, movable, extracted, result);
+  TrackedFrame extracted = frame;
+  extracted.features = std::move(features);
+  if (extracted.features)
+    extracted.clear_matches();
+  else
+    extract(picture, movable, extracted, result);
   take_over(frame, picture, extracted);
+  TrackedFrame held = extracted;
   refine_with_local_map(extracted, 1);
+  if (frame.movable_there && jerk(extracted) > std::max(1.0, jerk(frame))) {  // what moves took it along
+    held.pose_is_given = true;
+    refine_with_local_map(held, 1);
+    extracted = std::move(held);
+    extracted.pose_is_given = false;
+  }
   if (extracted.static_matches() < config_.quality.min_inliers) return KeyframeNeed::kNone;
   frame = std::move(extracted);
   return KeyframeNeed::kMap;

@@ -66,12 +66,21 @@ bool Tracker::has_jumped(const TrackedFrame& frame) const {
 
 /// How far the pose is from where the camera was expected; above 1 no hand accelerates it so: what moves in
 /// the picture may have been taken for standing still.
-double Tracker::jerk(const TrackedFrame& frame) const {
-  const double gap = since_last_s(frame.stamp_ns);
+double Tracker::jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const {
+  const double gap = since_last_s(stamp_ns);
   if (gap <= 0 || gap > kMaxPredictedGap) return 0;
-  const Twist error = se3_log(frame.camera_from_map * expected_camera_from_map(frame.stamp_ns).inverse());
+  const Twist error = se3_log(camera_from_map * expected_camera_from_map(stamp_ns).inverse());
   return std::max(error.head<3>().norm() / (kPoseNoise + kMaxAcceleration * gap * gap / 2),
                   error.tail<3>().norm() / (kPoseNoise + kMaxTurnAcceleration * gap * gap / 2));
+}
+
+double Tracker::jerk(const TrackedFrame& frame) const {
+  return jerk(frame.camera_from_map, frame.stamp_ns);
+}
+
+/// By how many points a pose is held, of which one that no hand would give the camera needs more.
+double Tracker::support(const TrackedFrame& frame) const {
+  return frame.static_matches() / std::max(1.0, jerk(frame));
 }
 
 bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
@@ -116,11 +125,19 @@ int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
   const PointMatches more =
       match_points(map_, local.points, model, pyramid_, config_.matching, window_factor, frame);
   const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
-  for (const PointId id : frame.points)
-    if (MapPoint* point = map_.point(id)) ++point->found;
+  count_found(frame);
   note_found(seen + more.expected, inliers, found_by_matching_, frame);
   reference_ = local.reference;
   return inliers;
+}
+
+void Tracker::count_found(const TrackedFrame& frame) {
+  for (const PointId id : frame.points) {
+    MapPoint* point = map_.point(id);
+    if (point == nullptr) continue;
+    ++point->found;
+    point->last_found_ns = frame.stamp_ns;
+  }
 }
 
 void Tracker::note_found(int expected, int found, FoundShare& share, TrackedFrame& frame) {
@@ -165,8 +182,7 @@ State Tracker::track_motion(TrackedFrame& frame) {
   const bool was_lost = state_ == State::kLost;
   const int inliers = track_from_last(frame);
   // Movable objects hide what is expected; then few found points say nothing against the pose.
-  const bool hidden = std::ranges::any_of(frame.features->all(), &Feature::movable);
-  const bool sees_enough = hidden || frame.found_share >= quality.min_found_share;
+  const bool sees_enough = frame.movable_there || frame.found_share >= quality.min_found_share;
   if (was_lost && inliers >= config_.relocalization.min_inliers) return State::kRelocalised;
   if (!was_lost && inliers >= quality.min_inliers && sees_enough)
     return has_jumped(frame) ? State::kRelocalised : State::kTracking;

@@ -60,6 +60,20 @@ TEST_F(FramePose, WhileSomethingMovableIsInViewPointsKnownForLongDecide) {
   EXPECT_LT(error_m(true), 0.1 * kMoved_m);
 }
 
+TEST_F(FramePose, PointsThatFramesHaveFoundForHalfASecondDecideAsWell) {
+  const auto set_moved = [&](std::int64_t last_found_ns, std::uint32_t visible) {
+    for (std::size_t i = kStanding; i < kPoints; ++i)
+      if (MapPoint* point = map.point(known[i])) {
+        point->last_found_ns = last_found_ns;
+        point->visible = visible;
+      }
+  };
+  set_moved(2 * kLongNs, 1);
+  EXPECT_GT(error_m(true), 0.8 * kMoved_m);
+  set_moved(2 * kLongNs, 10);  // most frames did not
+  EXPECT_LT(error_m(true), 0.1 * kMoved_m);
+}
+
 TEST_F(FramePose, WithoutMovableObjectsMostPointsDecide) {
   EXPECT_GT(error_m(false), 0.8 * kMoved_m);
 }

@@ -30,7 +30,8 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
   if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
-  if (facts.since_last_s < longest - kJitter) return KeyframeNeed::kNone;
+  const bool looked_just_now = facts.frames_since_last < config.movable_interval_frames;
+  if (facts.since_last_s < longest - kJitter || looked_just_now) return KeyframeNeed::kNone;
   return scarce ? KeyframeNeed::kMap : KeyframeNeed::kLook;
 }
 

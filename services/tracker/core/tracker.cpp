@@ -146,6 +146,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
   index_newest_keyframe();
+  ++frames_since_keyframe_;
   if (!is_usable(given)) return result;
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();

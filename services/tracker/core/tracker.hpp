@@ -205,6 +205,7 @@ class Tracker {
   std::vector<KeyframePose> shown_;               // keyframes that did not enter the map, by id
   std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
   std::optional<std::int64_t> last_keyframe_ns_;  // stamp, of those shown too
+  int frames_since_keyframe_ = 0;
   KeyframeId followed_view_ = kNoId;  // keyframe with the view nearest to the last followed frame's
   int covered_at_view_ = 0;       // cells of the picture with followed points when that became the nearest
   KeyframeId unindexed_ = kNoId;  // keyframe that is not in places_ yet

@@ -70,6 +70,7 @@ void read(config::ConfigReader& r, KeyframeConfig& c) {
   r.value("known_after_s", c.known_after_s, 0.0, 1e6, "s");
   r.value("min_interval_s", c.min_interval_s, 0.0, 10.0, "s");
   r.value("movable_interval_s", c.movable_interval_s, 0.01, 60.0, "s");
+  r.value("movable_interval_frames", c.movable_interval_frames, 1, 1000);
   r.value("static_interval_s", c.static_interval_s, 0.01, 3600.0, "s");
   r.value("changed_share", c.changed_share, 0.01, 1.0);
 }

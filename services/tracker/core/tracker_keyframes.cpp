@@ -108,6 +108,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, double view_cha
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.stamp_ns - *last_keyframe_ns_);
+  facts.frames_since_last = frames_since_keyframe_;
   facts.movable_or_changed = frame.movable_there || changed_;
   return facts;
 }
@@ -142,6 +143,7 @@ void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
     if (mapping_centre_ == kNoId) mapping_centre_ = reference_;  // nothing new: what is there gets better
   }
   last_keyframe_ns_ = frame.stamp_ns;
+  frames_since_keyframe_ = 0;
   changed_ = false;
 }
 
@@ -152,6 +154,7 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   if (follows_points()) map_.keyframe(keyframe.id)->images = images_;
   newest_keyframe_ = reference_ = keyframe.id;
   last_keyframe_ns_ = frame.stamp_ns;
+  frames_since_keyframe_ = 0;
   followed_view_ = kNoId;
   changed_ = false;
   result.keyframe = keyframe_data(map_, keyframe);

@@ -35,15 +35,15 @@ TEST(KeyframePolicy, LooksAgainNowAndThenInACalmScene) {
 TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   KeyframeFacts facts = calm();
   facts.movable_or_changed = true;
-  facts.since_last_s = 0.15;
+  facts.since_last_s = 0.1;
   EXPECT_EQ(need(facts), KeyframeNeed::kLook);
-  facts.since_last_s = 0.12;
+  facts.since_last_s = 0.07;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
 
 TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
   KeyframeFacts facts = calm();
-  facts.since_last_s = 0.15;
+  facts.since_last_s = 0.1;
   facts.inliers = facts.seen = facts.seen_by_reference = 60;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
   facts.movable_or_changed = true;

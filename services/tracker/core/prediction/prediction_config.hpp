@@ -53,9 +53,9 @@ struct PredictionConfig {
   std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
   double min_score = 0.0;          // detections with less are ignored
   double duplicate_overlap = 0.7;  // share of the smaller box: two boxes of one object
-  double doubtful_share = 0.75;    // a box of more of the picture than this …
+  double doubtful_share = 0.9;     // a box of more of the picture than this …
   double doubtful_score = 0.6;     // … with less than this is ignored
-  double reach_share = 0.06;  // of its width and height, by which a movable object is shown larger per side
+  double reach_share = 0.08;  // of its width and height, by which a movable object is shown larger per side
   double border_px = 6;       // a box that ends this near to the picture's edge is cut off by it
   PlaneSortConfig paper;
   Kalman3dConfig kalman3d;

@@ -13,11 +13,11 @@
 #include <tl/expected.hpp>
 
 #include "common/service/service.hpp"
-#include "rds_msgs/msg/KeyFrameImages.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/mapper_service_config.hpp"
+#include "services/mapper/waiting_keyframes.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::mapper {
@@ -32,7 +32,7 @@ class MapperService : public service::Service {
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:
-  using Images = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
+  using Images = WaitingKeyframes::Images;
   using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
 
@@ -74,7 +74,7 @@ class MapperService : public service::Service {
   SemanticMapper mapper_;
   MapOutputs outputs_;
   std::set<std::uint64_t> earlier_epochs_;
-  std::map<std::uint64_t, Images> waiting_;       // by keyframe id
+  WaitingKeyframes waiting_;
   std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
   std::map<std::int64_t, Integrated> integrated_by_stamp_;
   Poses early_poses_;  // of an epoch whose first keyframe has not come yet

@@ -40,11 +40,7 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   const std::uint64_t revision = json.is_object() ? json.value("poses_revision", std::uint64_t{0}) : 0;
   const std::uint64_t keyframes = json.is_object() ? json.value("keyframes", std::uint64_t{0}) : 0;
   wait_for_rest(revision, keyframes);
-  while (!waiting_.empty()) {
-    const Images images = waiting_.begin()->second;
-    waiting_.erase(waiting_.begin());
-    integrate(images);
-  }
+  while (!waiting_.empty()) integrate(waiting_.take_oldest());
   outputs_.publish_delta(mapper_.settle(poses_));
   publish_all();
   outputs_.flush();

@@ -70,6 +70,11 @@ class RunningMapper {
   }
   [[nodiscard]] const service::Diagnostics& diagnostics() const { return diagnostics_; }
   std::uint64_t counter(const std::string& name) { return diagnostics_.counter(name); }
+  [[nodiscard]] std::string figure(const std::string& name) const {
+    for (const auto& [found, value] : diagnostics_.figures())
+      if (found == name) return value;
+    return "";
+  }
 
  private:
   std::unique_ptr<bus::Participant> bus_ = join("mapper");
@@ -146,6 +151,23 @@ TEST_F(MapperOnTheBus, AReaderFollowsAMapperThatIsRestarted) {
   ASSERT_TRUE(mapper->command("reset").success);
   ASSERT_TRUE(wait_for([&] { return reader.revision() == 0; }));
   EXPECT_TRUE(reader.bytes().empty());
+}
+
+TEST_F(MapperOnTheBus, WhilePausedTheOldestKeyframesAreDroppedAndCounted) {
+  start(config());
+  ASSERT_TRUE(mapper->command("pause").success);
+  for (int id = 0; id < 25; ++id) {
+    send(static_cast<std::uint64_t>(id));
+    ASSERT_TRUE(wait_for([&] {
+      return std::stoi(mapper->figure("keyframes waiting")) + std::stoi(mapper->figure("keyframes dropped")) > id;
+    }));
+  }
+  EXPECT_TRUE(wait_for([&] { return mapper->figure("keyframes dropped") == "5"; }));
+  EXPECT_EQ(mapper->figure("keyframes waiting"), "20");
+  ASSERT_TRUE(mapper->command("resume").success);
+  ASSERT_TRUE(has_revision(20));
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(info->keyframes_integrated(), 20U);
 }
 
 TEST_F(MapperOnTheBus, TellsLabelsThatColorsDoNotShow) {

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What MapperService does with messages before any of them changes the map.
+#include <spdlog/spdlog.h>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/keyframe_conversions.hpp"
+#include "services/mapper/labelled_boxes.hpp"
+#include "services/mapper/mapper_service.hpp"
+
+namespace rds::mapper {
+namespace {
+
+constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
+constexpr std::uint8_t kLocal = 0;
+
+}  // namespace
+
+bool MapperService::something_arrived() const {
+  return !images_inbox_.locked_empty() || !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty();
+}
+
+void MapperService::take_arrivals() {
+  while (const auto images = images_inbox_.try_pop()) take(*images);  // first: they begin an epoch
+  while (const auto boxes = boxes_inbox_.try_pop()) take(*boxes);
+  while (const auto poses = poses_inbox_.try_pop()) take(*poses);
+}
+
+/// Messages of an epoch that is over are dropped.
+bool MapperService::is_over(std::uint64_t map_epoch, const std::string& topic) {
+  if (!earlier_epochs_.contains(map_epoch)) return false;
+  context_.diagnostics.reject(topic, "of an earlier map epoch");
+  return true;
+}
+
+/// A new epoch is a new tracker, with the saved map or an empty one.
+/// @param stamp_ns  of what it begins with: earlier boxes are of an epoch that is over.
+void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) {
+  earlier_epochs_.insert(mapper_.map_epoch());
+  spdlog::info("map epoch {:016x}", map_epoch);
+  mapper_.reset(map_epoch);
+  outputs_.begin_map();
+  forget_keyframes();
+  boxes_by_stamp_.erase(boxes_by_stamp_.begin(), boxes_by_stamp_.lower_bound(stamp_ns));
+  if (mapper_.revision() > 0) publish_all();
+  if (const Poses early = std::exchange(early_poses_, nullptr)) take(early);
+}
+
+void MapperService::forget_keyframes() {
+  waiting_.clear();
+  integrated_by_stamp_.clear();
+  poses_.clear();
+  poses_changed_by_loop_ = false;
+  poses_revision_ = loop_revision_ = last_keyframe_id_ = 0;
+}
+
+void MapperService::take(const Images& images) {
+  if (is_over(images->map_epoch(), "rds/keyframe/images")) return;
+  const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
+  if (images->map_epoch() != mapper_.map_epoch()) begin_epoch(images->map_epoch(), stamp);
+  if (integrated_by_stamp_.contains(stamp)) return;
+  waiting_.add(images);
+}
+
+void MapperService::take(const Boxes& boxes) {
+  const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
+  const auto integrated = integrated_by_stamp_.find(stamp);
+  if (integrated == integrated_by_stamp_.end()) {
+    boxes_by_stamp_[stamp] = boxes;
+  } else {
+    const auto& [id, camera_from_map, camera] = integrated->second;
+    if (const auto labelled = labelled_boxes(boxes, camera_from_map, camera))
+      mapper_.set_boxes(id, *labelled);
+  }
+  while (boxes_by_stamp_.size() > kMaxBoxes) boxes_by_stamp_.erase(boxes_by_stamp_.begin());
+}
+
+/// @return nullopt, counted, for a message that cannot be used; boxes that cannot be are counted and left
+/// out.
+std::optional<std::vector<LabelledBox>> MapperService::labelled_boxes(const Boxes& boxes,
+                                                                      const geometry::Pose& camera_from_map,
+                                                                      const geometry::CameraModel& camera) {
+  auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config_.mapper);
+  if (!labelled) {
+    context_.diagnostics.reject("rds/boxes", labelled.error());
+    return std::nullopt;
+  }
+  context_.diagnostics.counter("impossible boxes") += labelled->impossible;
+  return std::move(labelled->boxes);
+}
+
+/// Only keyframes begin an epoch: a loop closer that still speaks of an earlier one must not. Without them
+/// (localize_only) poses do.
+void MapperService::take(const Poses& message) {
+  if (is_over(message->map_epoch(), "rds/keyframe/poses")) return;
+  if (message->map_epoch() != mapper_.map_epoch()) {
+    if (!config_.localize_only) {
+      if (early_poses_ && early_poses_->map_epoch() != message->map_epoch())
+        context_.diagnostics.reject("rds/keyframe/poses", "of an unknown map epoch");
+      early_poses_ = message;
+      return;
+    }
+    begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));
+  }
+  auto poses = messages::to_keyframe_poses(*message);
+  if (!poses) return context_.diagnostics.reject("rds/keyframe/poses", poses.error());
+  if (message->loop_revision() < loop_revision_) return;  // does not know the loop yet that we have applied
+  if (poses->empty()) return;
+  poses_changed_by_loop_ |= message->loop_revision() > loop_revision_;
+  loop_revision_ = message->loop_revision();
+  poses_ = std::move(*poses);
+  if (message->source() == kLocal) poses_revision_ = message->revision();
+}
+
+}  // namespace rds::mapper

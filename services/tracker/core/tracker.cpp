@@ -47,7 +47,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts r
       run_parts_(std::move(run_parts)),
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction, run_parts_),
-      cut_(config.removal, config.depth.max_depth_m),
+      cut_(config.removal, config.depth.max_depth_m, run_parts_),
       map_(config.map, pyramid_),
       calibration_(config.self_calibration) {}
 

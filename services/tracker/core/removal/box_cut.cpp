@@ -6,14 +6,12 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/background_planes.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 
 namespace rds::tracker {
 namespace {
 
 constexpr double kHardlyMeasured = 0.3;  // share of a box's cells that have a depth
-constexpr int kPlaneStride = 2;          // cells, between those that are asked for planes
 constexpr double kThickness_m = 0.25;    // in front of and behind what has moved
 constexpr int kHoleRadius = 3;           // cells around a cell without depth that are asked
 
@@ -55,21 +53,6 @@ void cut_box(const Foreground& picture, const GridGeometry& grid, const MovableR
 void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
                const RemovalConfig& config, cv::Mat1b& mask) {
   for (const MovableRegion& region : regions) cut_box(picture, grid, region, config, mask);
-}
-
-void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Mat1b& suspect,
-                 cv::Mat1b& background, cv::Mat1b& wide) {
-  std::vector<cv::Point> outside;
-  for (int r = 0; r < depth_m.rows; r += kPlaneStride)
-    for (int c = 0; c < depth_m.cols; c += kPlaneStride)
-      if (depth_m(r, c) > 0 && (suspect(r, c) == 0 || background(r, c) != 0)) outside.emplace_back(c, r);
-  for (const Plane& plane : find_planes(depth_m, grid, outside))
-    for (int r = 0; r < depth_m.rows; ++r)
-      for (int c = 0; c < depth_m.cols; ++c)
-        if (depth_m(r, c) > 0 && lies_on(plane, depth_m, grid, {c, r})) {
-          background(r, c) = 255;
-          if (plane.wide) wide(r, c) = 255;
-        }
 }
 
 void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,

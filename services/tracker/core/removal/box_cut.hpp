@@ -27,14 +27,6 @@ void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<co
 void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
                 const RemovalConfig& config, cv::Mat1b& mask);
 
-/// Marks planes that go on outside all suspect parts of a picture: a table, a wall, the floor.
-///
-/// @param suspect  not 0 where something movable may show; what is background already counts nevertheless.
-/// @param background  all planes are marked here …
-/// @param wide        … and those that are wider than a person here.
-void mark_planes(const cv::Mat1f& depth_m, const GridGeometry& grid, const cv::Mat1b& suspect,
-                 cv::Mat1b& background, cv::Mat1b& wide);
-
 /// Marks whole boxes, whatever their depth.
 void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask);
 

@@ -65,8 +65,7 @@ void GridGeometry::make_cell_table() {
               .cast<double>();
       const Eigen::Vector2d px = camera_.project({ray.x(), ray.y(), 1}) / cell_px_;
       const bool inside = px.x() >= 0 && px.y() >= 0 && px.x() < size_.width && px.y() < size_.height;
-      cell_table_(y, x) =
-          inside ? cv::Vec2s(static_cast<short>(px.x()), static_cast<short>(px.y())) : cv::Vec2s(-1, -1);
+      cell_table_(y, x) = inside ? static_cast<int>(px.y()) * size_.width + static_cast<int>(px.x()) : -1;
     }
 }
 

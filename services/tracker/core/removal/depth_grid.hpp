@@ -24,16 +24,20 @@ class GridGeometry {
   [[nodiscard]] const Eigen::Vector3f& ray(int column, int row) const {
     return rays_[static_cast<std::size_t>(row * size_.width + column)];
   }
-  /// The cell in which a point in the camera frame shows, to about a third of a cell; outside the picture
-  /// (-1, -1).
-  [[nodiscard]] cv::Point cell_of(const Eigen::Vector3f& point_in_camera) const {
-    const cv::Point outside(-1, -1);
-    if (!(point_in_camera.z() > kNearest_m)) return outside;
+  /// Index, row by row, of the cell in which a point in the camera frame shows, to about a third of a cell; -1
+  /// outside the picture.
+  [[nodiscard]] int index_of(const Eigen::Vector3f& point_in_camera) const {
+    if (!(point_in_camera.z() > kNearest_m)) return -1;
     const float per_m = 1 / point_in_camera.z();
     const int x = static_cast<int>((point_in_camera.x() * per_m - table_corner_.x()) * table_per_ray_);
     const int y = static_cast<int>((point_in_camera.y() * per_m - table_corner_.y()) * table_per_ray_);
     const bool inside = x >= 0 && y >= 0 && x < cell_table_.cols && y < cell_table_.rows;
-    return inside ? cv::Point(cell_table_(y, x)[0], cell_table_(y, x)[1]) : outside;
+    return inside ? cell_table_(y, x) : -1;
+  }
+  /// The same cell; (-1, -1) outside the picture.
+  [[nodiscard]] cv::Point cell_of(const Eigen::Vector3f& point_in_camera) const {
+    const int index = index_of(point_in_camera);
+    return index < 0 ? cv::Point(-1, -1) : cv::Point(index % size_.width, index / size_.width);
   }
 
  private:
@@ -45,7 +49,7 @@ class GridGeometry {
   void make_cell_table();
 
   std::vector<Eigen::Vector3f> rays_;
-  cv::Mat_<cv::Vec2s> cell_table_;  // cells by ray, so that distortion costs nothing
+  cv::Mat1i cell_table_;  // cells by ray, so that distortion costs nothing
   Eigen::Vector2f table_corner_ = Eigen::Vector2f::Zero();
   float table_per_ray_ = 0;
 };

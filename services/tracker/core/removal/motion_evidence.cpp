@@ -14,26 +14,27 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::max();
 constexpr int kThinnest = 5;        // cells across, of a thing
 constexpr int kWitnesses = 2;       // earlier pictures
-constexpr double kSameShare = 0.4;  // of motion_step_m: so near is the same surface
+constexpr float kSameShare = 0.4F; // of motion_step_m: so near is the same surface
 
 /// Depth [m] of what an earlier picture saw and was not movable, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
                          const geometry::Pose& camera_from_map) {
   const Eigen::Isometry3f here_from_past = (camera_from_map * past.map_from_camera).cast<float>();
   cv::Mat1f here(grid.size(), kNothing);
-  for (int r = 0; r < here.rows; ++r)
+  float* shown = here.ptr<float>();
+  for (int r = 0; r < here.rows; ++r) {
+    const float* depth_m = past.depth_m[r];
+    const std::uint8_t* masked = past.mask.empty() ? nullptr : past.mask[r];
     for (int c = 0; c < here.cols; ++c) {
-      const float z = past.depth_m(r, c);
-      if (!(z > 0) || (!past.mask.empty() && past.mask(r, c) != 0)) continue;
-      const Eigen::Vector3f p = here_from_past * (z * grid.ray(c, r));
-      const cv::Point cell = grid.cell_of(p);
-      if (cell.x < 0) continue;
-      float& shown = here(cell);
-      shown = std::min(shown, p.z());
+      if (!(depth_m[c] > 0) || (masked != nullptr && masked[c] != 0)) continue;
+      const Eigen::Vector3f p = here_from_past * (depth_m[c] * grid.ray(c, r));
+      if (const int cell = grid.index_of(p); cell >= 0) shown[cell] = std::min(shown[cell], p.z());
     }
+  }
   return here;
 }
 
+/// Adds what one earlier picture says. @param before  of it, seen_from_here().
 void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfig& config,
            MotionEvidence& evidence) {
   cv::Mat1f nearest;
@@ -44,12 +45,14 @@ void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfi
   for (int r = 0; r < depth_m.rows; ++r)
     for (int c = 0; c < depth_m.cols; ++c) {
       const float z = depth_m(r, c);
-      if (z <= 0 || farthest(r, c) <= 0) continue;
+      const float far = farthest(r, c);
+      if (z <= 0 || far <= 0) continue;
+      const float near = nearest(r, c);
       const float step = static_cast<float>(config.motion_step_m) * std::max(1.0F, z * z);
-      const float same = static_cast<float>(kSameShare) * step;
-      if (z < nearest(r, c) - step && before(r, c) != kNothing)
+      const float same = kSameShare * step;
+      if (z < near - step && before(r, c) != kNothing)
         evidence.arrived(r, c) = static_cast<std::uint8_t>(std::min(255, evidence.arrived(r, c) + 1));
-      else if (z > nearest(r, c) - same && z < farthest(r, c) + same)
+      else if (z > near - same && z < far + same)
         evidence.standing(r, c) = 255;
     }
 }
@@ -58,10 +61,11 @@ void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfi
 
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
                                  const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
-                                 const RemovalConfig& config) {
+                                 const RemovalConfig& config, const RunParts& run_parts) {
+  std::vector<cv::Mat1f> before(past.size());
+  run_parts(past.size(), [&](std::size_t i) { before[i] = seen_from_here(past[i], grid, camera_from_map); });
   MotionEvidence evidence{cv::Mat1b(grid.size(), std::uint8_t{0}), cv::Mat1b(grid.size(), std::uint8_t{0})};
-  for (const SeenCells& seen : past)
-    judge(depth_m, seen_from_here(seen, grid, camera_from_map), config, evidence);
+  for (const cv::Mat1f& seen : before) judge(depth_m, seen, config, evidence);
   // One earlier picture alone may be wrong: where others saw the place too, they have to agree.
   cv::threshold(evidence.arrived, evidence.arrived,
                 std::min<double>(kWitnesses, static_cast<double>(past.size())) - 0.5, 255, cv::THRESH_BINARY);

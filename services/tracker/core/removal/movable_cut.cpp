@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "services/tracker/core/removal/background_planes.hpp"
 #include "services/tracker/core/removal/box_cut.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 
@@ -51,7 +52,8 @@ MovableCut::Things MovableCut::things_that_moved(const geometry::Pose& camera_fr
   const cv::Mat1f& depth_m = now_.cells.depth_m;
   std::vector<SeenCells> past;
   for (const auto& [stamp, seen] : past_) past.push_back(seen);
-  return arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_), config_);
+  return arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_, run_parts_),
+                  config_);
 }
 
 void MovableCut::mark(std::span<const MovableRegion> regions, const Things& moved,

@@ -27,7 +27,8 @@ struct PictureCells {
 /// this one, for as long as carry_s without support by the others. Owned by one thread.
 class MovableCut {
  public:
-  MovableCut(const RemovalConfig& config, double max_depth_m) : config_(config), max_depth_m_(max_depth_m) {}
+  MovableCut(const RemovalConfig& config, double max_depth_m, RunParts run_parts = run_in_turn)
+      : config_(config), max_depth_m_(max_depth_m), run_parts_(std::move(run_parts)) {}
 
   /// @param camera_from_map  of the picture, near to the truth; nullopt if not known: then boxes only.
   /// @param regions  predicted boxes with their depth intervals.
@@ -65,6 +66,7 @@ class MovableCut {
 
   RemovalConfig config_;
   double max_depth_m_;
+  RunParts run_parts_;
   GridGeometry grid_;
   Now now_;
   std::optional<geometry::Pose> last_pose_;              // map_from_camera of now_

@@ -41,7 +41,8 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size() + waiting_.size(); });
   context.diagnostics.gauge("corrections lost", [this] { return corrections_lost_.load(); });
-  context.diagnostics.gauge("keyframes dropped", [this] { return images_inbox_.dropped() + waiting_.dropped(); });
+  context.diagnostics.gauge("keyframes dropped",
+                            [this] { return images_inbox_.dropped() + waiting_.dropped(); });
 }
 
 void MapperService::subscribe_to_keyframes() {

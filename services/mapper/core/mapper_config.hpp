@@ -76,7 +76,7 @@ struct OctreeConfig {
   double clamp_min = 0.12;  // probabilities
   double clamp_max = 0.97;
   bool carve_rays = true;      // free space along rays of static pixels
-  double suspect_miss = -1.2;  // rays through what was taken for static where something movable has been
+  double suspect_miss = -1.2;  // rays through what SceneHistory holds for something movable that has gone
   int weak_sightings = 2;  // what no more keyframes have seen is lowered where nothing is measured; 0: off
   bool color_by_label = true;  // a labelled voxel shows its label's colour
   double label_share = 0.3;    // of a voxel's votes that a label needs

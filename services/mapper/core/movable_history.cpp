@@ -26,18 +26,25 @@ void MovableHistory::see(const KeyframeRecord& record, const MapperConfig& confi
     const auto key = key_at(at);
     if (packed(key) == last) continue;
     last = packed(key);
-    see_around(key);
+    see_around(key, record.stamp_ns);
   }
 }
 
-void MovableHistory::see_around(const octomap::OcTreeKey& key) {
+void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t stamp_ns) {
   const int half = 1 << cube_bits_ >> 1;
   for (int corner = 0; corner < 8; ++corner) {
     const auto shifted = [&](unsigned axis) {
       return static_cast<std::uint16_t>(key[axis] + ((corner >> axis & 1) != 0 ? half : -half));
     };
-    cubes_.insert(cube({shifted(0), shifted(1), shifted(2)}));
+    cubes_.try_emplace(cube({shifted(0), shifted(1), shifted(2)}), PlaceSightings::at(stamp_ns))
+        .first->second.add(stamp_ns);
   }
+}
+
+const PlaceSightings* MovableHistory::sightings(const octomap::OcTreeKey& key) const {
+  if (cubes_.empty()) return nullptr;
+  const auto found = cubes_.find(cube(key));
+  return found == cubes_.end() ? nullptr : &found->second;
 }
 
 }  // namespace rds::mapper

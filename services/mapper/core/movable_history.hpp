@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <unordered_set>
+#include <unordered_map>
 
 #include "services/mapper/core/mapper_config.hpp"
+#include "services/mapper/core/place_sightings.hpp"
 #include "services/mapper/core/voxel_projector.hpp"
 
 namespace rds::mapper {
@@ -17,10 +18,8 @@ class MovableHistory {
   /// The movable pixels of a keyframe, where its pose puts them.
   void see(const KeyframeRecord& record, const MapperConfig& config);
 
-  /// True if something movable was there, or half a cube beside it.
-  [[nodiscard]] bool was_there(const octomap::OcTreeKey& key) const {
-    return !cubes_.empty() && cubes_.contains(cube(key));
-  }
+  /// Of something movable there, or half a cube beside it; nullptr if there are none.
+  [[nodiscard]] const PlaceSightings* sightings(const octomap::OcTreeKey& key) const;
 
  private:
   [[nodiscard]] std::uint64_t cube(const octomap::OcTreeKey& key) const {
@@ -28,10 +27,10 @@ class MovableHistory {
                    static_cast<std::uint16_t>(key[1] >> cube_bits_),
                    static_cast<std::uint16_t>(key[2] >> cube_bits_)});
   }
-  void see_around(const octomap::OcTreeKey& key);
+  void see_around(const octomap::OcTreeKey& key, std::int64_t stamp_ns);
 
   int cube_bits_;  // voxels of a cube's side, log2
-  std::unordered_set<std::uint64_t> cubes_;
+  std::unordered_map<std::uint64_t, PlaceSightings> cubes_;  // by key only: their order means nothing
 };
 
 }  // namespace rds::mapper

@@ -36,7 +36,7 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
 void SemanticMapper::go_on_from(Start start) {
   const auto& tree = start.map->octree.tree();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) start.map->history.know(leaf.getKey());
+    if (tree.isNodeOccupied(*leaf)) start.map->history.surfaces.know(leaf.getKey());
   const std::uint64_t revision = revision_;
   start_ = std::move(start);
   reset(map_epoch_);
@@ -92,11 +92,11 @@ std::optional<KeyframeRecord> SemanticMapper::record_of(std::uint64_t id) const 
   return record;
 }
 
-void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history,
+void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history,
                                     MapDelta& delta) {
-  map.movable.see(record, config_);
-  make_scan(record, confirmed_use(record, history, config_), config_.octree, config_.sampling, scan_);
-  map.octree.integrate({scan_, record.looked_for_objects, labels_, map.movable, delta});
+  make_scan(record, confirmed_use(record, history.surfaces, config_), config_.octree, config_.sampling,
+            scan_);
+  map.octree.integrate({scan_, record.looked_for_objects, labels_, history, record.stamp_ns, delta});
   map.objects.integrate(record, labels_);
 }
 

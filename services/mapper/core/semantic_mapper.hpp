@@ -9,7 +9,6 @@
 #include "services/mapper/core/object_database.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
 #include "services/mapper/core/semantic_octree.hpp"
-#include "services/mapper/core/surface_history.hpp"
 
 namespace rds::mapper {
 
@@ -76,8 +75,7 @@ class SemanticMapper {
   struct Map {
     SemanticOctree octree;
     ObjectDatabase objects;
-    SurfaceHistory history;
-    MovableHistory movable;
+    SceneHistory history;
   };
   /// What an epoch starts with.
   struct Start {
@@ -97,8 +95,8 @@ class SemanticMapper {
   void take_poses(std::span<const KeyframePose> poses);
   [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
-  /// @param history  what tells which doubtful surfaces stand.
-  void integrate_into(Map& map, const KeyframeRecord& record, const SurfaceHistory& history, MapDelta& delta);
+  /// @param history  what tells which doubtful surfaces stand, and which ones are suspect.
+  void integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history, MapDelta& delta);
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
   void keep_within_limits();
@@ -106,8 +104,7 @@ class SemanticMapper {
   [[nodiscard]] Map empty_map() const {
     return {SemanticOctree(config_.octree),
             ObjectDatabase(config_.objects),
-            {},
-            MovableHistory(config_.octree.resolution_m)};
+            {{}, MovableHistory(config_.octree.resolution_m)}};
   }
   [[nodiscard]] MapDelta new_delta() const;
 

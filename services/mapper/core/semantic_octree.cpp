@@ -134,7 +134,7 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   for (unsigned index = 0; index < 8; ++index) {
     const auto flags = block.flags[first_cell + index];
     if ((flags & kMeasured) == 0 &&
-        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1), update.movable)))
+        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1), update)))
       continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
@@ -144,21 +144,21 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   EditableOcTree::refresh(parent);
 }
 
-/// True for an occupied voxel that few keyframes have seen, or in which something movable has been.
+/// True for an occupied voxel that few keyframes have seen, or that is suspect.
 bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                             const MovableHistory& movable) const {
+                             const Update& update) const {
   if (!tree_.nodeChildExists(parent, index)) return false;
   if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
-  if (movable.was_there(key)) return true;
+  if (update.history.is_suspect(key, update.stamp_ns)) return true;
   const auto found = memory_.find(packed(key));
   return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
 }
 
-/// Paper §IV-C, and what is_weak() and Update::movable add to it.
+/// Paper §IV-C, and what is_weak() and suspects add to it.
 double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const {
   if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
-  return occupied && update.movable.was_there(key) ? config_.suspect_miss : config_.miss;
+  return occupied && update.history.is_suspect(key, update.stamp_ns) ? config_.suspect_miss : config_.miss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,

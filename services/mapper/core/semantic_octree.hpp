@@ -7,7 +7,7 @@
 #include "common/map_file/byte_writer.hpp"
 #include "services/mapper/core/editable_octree.hpp"
 #include "services/mapper/core/label_table.hpp"
-#include "services/mapper/core/movable_history.hpp"
+#include "services/mapper/core/scene_history.hpp"
 #include "services/mapper/core/scan.hpp"
 
 namespace rds::mapper {
@@ -41,8 +41,8 @@ class VoxelMemory {
 /// The semantic octree of paper §IV-C: log-odds +0.85 where a static point was seen, −0.41 where a movable
 /// point was seen or a ray passed, clamped; occupied above p = 0.5. Where a ray should have met an occupied
 /// voxel and nothing was measured, −0.41 too, if few keyframes have seen the voxel. A ray through an occupied
-/// voxel in which something movable has been takes more: the detector missed it now and then. Each voxel
-/// changes at most once per keyframe, hits win over misses.
+/// voxel that is suspect (SceneHistory) takes more: something movable that the detector missed now and then.
+/// Each voxel changes at most once per keyframe, hits win over misses.
 class SemanticOctree {
  public:
   /// One keyframe's news for the octree.
@@ -50,7 +50,8 @@ class SemanticOctree {
     const Scan& scan;
     bool looked_for_objects;
     const LabelTable& labels;
-    const MovableHistory& movable;
+    const SceneHistory& history;
+    std::int64_t stamp_ns;
     MapDelta& delta;  // receives what changed: arrays only
   };
 
@@ -80,7 +81,7 @@ class SemanticOctree {
   void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
                        unsigned first_cell, const Update& update);
   [[nodiscard]] bool is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                             const MovableHistory& movable) const;
+                             const Update& update) const;
   [[nodiscard]] double step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,

@@ -4,11 +4,12 @@
 #include <unordered_map>
 
 #include "services/mapper/core/mapper_config.hpp"
+#include "services/mapper/core/place_sightings.hpp"
 #include "services/mapper/core/voxel_projector.hpp"
 
 namespace rds::mapper {
 
-/// When something static was seen in a voxel: for the first and for the last time.
+/// When and how often something static was seen in a voxel.
 class SurfaceHistory {
  public:
   /// The static pixels of a keyframe, where its pose puts them.
@@ -20,12 +21,11 @@ class SurfaceHistory {
   [[nodiscard]] bool seen_apart(const octomap::OcTreeKey& key, std::int64_t stamp_ns,
                                 std::int64_t apart_ns) const;
 
+  /// Nullptr if there are none.
+  [[nodiscard]] const PlaceSightings* sightings(const octomap::OcTreeKey& key) const;
+
  private:
-  struct Span {
-    std::int64_t first_ns;
-    std::int64_t last_ns;
-  };
-  std::unordered_map<std::uint64_t, Span> spans_;  // looked up by key only: its order means nothing
+  std::unordered_map<std::uint64_t, PlaceSightings> voxels_;  // by key only: their order means nothing
 };
 
 }  // namespace rds::mapper

@@ -156,14 +156,13 @@ TEST_F(MapperOnTheBus, AReaderFollowsAMapperThatIsRestarted) {
 TEST_F(MapperOnTheBus, WhilePausedTheOldestKeyframesAreDroppedAndCounted) {
   start(config());
   ASSERT_TRUE(mapper->command("pause").success);
+  const auto figure = [&](const char* name) { return std::stoi(mapper->figure(name)); };
   for (int id = 0; id < 25; ++id) {
     send(static_cast<std::uint64_t>(id));
-    ASSERT_TRUE(wait_for([&] {
-      return std::stoi(mapper->figure("keyframes waiting")) + std::stoi(mapper->figure("keyframes dropped")) > id;
-    }));
+    ASSERT_TRUE(wait_for([&] { return figure("keyframes waiting") + figure("keyframes dropped") > id; }));
   }
-  EXPECT_TRUE(wait_for([&] { return mapper->figure("keyframes dropped") == "5"; }));
-  EXPECT_EQ(mapper->figure("keyframes waiting"), "20");
+  EXPECT_TRUE(wait_for([&] { return figure("keyframes dropped") == 5; }));
+  EXPECT_EQ(figure("keyframes waiting"), 20);
   ASSERT_TRUE(mapper->command("resume").success);
   ASSERT_TRUE(has_revision(20));
   const std::lock_guard lock(mutex);

@@ -13,10 +13,20 @@ using test::PublishedMap;
 using test::RandomKeyframes;
 constexpr std::uint64_t kEpoch = 0xabcdef;
 
-TEST(OctreeReplica, FollowsARandomSequenceOfKeyframesAndCorrections) {
+class MapperAndReplica : public testing::Test {
+ protected:
+  /// Integrates a keyframe, of which the replica knows. @return the replica's tree.
+  std::vector<std::uint8_t> tree_after_one_keyframe() {
+    EXPECT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
+    return to_bytes(replica.tree());
+  }
+
   RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
+  SemanticMapper mapper{MapperConfig{}, kEpoch};
   OctreeReplica replica;
+};
+
+TEST_F(MapperAndReplica, FollowsARandomSequenceOfKeyframesAndCorrections) {
   for (std::uint64_t id = 0; id < 8; ++id) {
     EXPECT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
     if (id % 4 == 3) {
@@ -27,10 +37,7 @@ TEST(OctreeReplica, FollowsARandomSequenceOfKeyframesAndCorrections) {
   }
 }
 
-TEST(OctreeReplica, JoinsLateWithTheFullMapAndGoesOnWithDeltas) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
+TEST_F(MapperAndReplica, JoinsLateWithTheFullMapAndGoesOnWithDeltas) {
   for (int i = 0; i < 4; ++i) mapper.integrate(keyframes.next());
   EXPECT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kGap);
   EXPECT_FALSE(replica.is_valid());
@@ -42,10 +49,7 @@ TEST(OctreeReplica, JoinsLateWithTheFullMapAndGoesOnWithDeltas) {
   EXPECT_EQ(replica.apply(published.full).status, ReplicaStatus::kOld);
 }
 
-TEST(OctreeReplica, NoticesGapsOtherEpochsAndOtherResolutions) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
+TEST_F(MapperAndReplica, NoticesGapsOtherEpochsAndOtherResolutions) {
   const auto first = mapper.integrate(keyframes.next());
   mapper.integrate(keyframes.next());
   auto third = mapper.integrate(keyframes.next());
@@ -61,12 +65,8 @@ TEST(OctreeReplica, NoticesGapsOtherEpochsAndOtherResolutions) {
   EXPECT_EQ(replica.revision(), 1U);
 }
 
-TEST(OctreeReplica, RejectsHostileDeltasAndStaysAsItWas) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
-  ASSERT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
-  const auto before = to_bytes(replica.tree());
+TEST_F(MapperAndReplica, RejectsHostileDeltasAndStaysAsItWas) {
+  const auto before = tree_after_one_keyframe();
   const auto good = mapper.integrate(keyframes.next());
   const auto status = [&](auto spoil) {
     auto bad = good;
@@ -88,10 +88,7 @@ TEST(OctreeReplica, RejectsHostileDeltasAndStaysAsItWas) {
   EXPECT_EQ(replica.apply(good).status, ReplicaStatus::kApplied);
 }
 
-TEST(OctreeReplica, FollowsAMapperThatBeganAnewInTheSameEpoch) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
+TEST_F(MapperAndReplica, FollowsAMapperThatBeganAnewInTheSameEpoch) {
   for (int i = 0; i < 3; ++i) replica.apply(mapper.integrate(keyframes.next()));
   ASSERT_EQ(replica.revision(), 3U);
   SemanticMapper restarted(MapperConfig{}, kEpoch);
@@ -106,12 +103,8 @@ TEST(OctreeReplica, FollowsAMapperThatBeganAnewInTheSameEpoch) {
   expect_same(replica, restarted);
 }
 
-TEST(OctreeReplica, RefusesAFullMapThatDoesNotFit) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
-  ASSERT_EQ(replica.apply(mapper.integrate(keyframes.next())).status, ReplicaStatus::kApplied);
-  const auto before = to_bytes(replica.tree());
+TEST_F(MapperAndReplica, RefusesAFullMapThatDoesNotFit) {
+  const auto before = tree_after_one_keyframe();
   mapper.integrate(keyframes.next());
   const PublishedMap published(mapper, 0);
   FullMap full = published.full;
@@ -128,10 +121,7 @@ TEST(OctreeReplica, RefusesAFullMapThatDoesNotFit) {
   EXPECT_EQ(replica.apply(published.full).status, ReplicaStatus::kApplied);
 }
 
-TEST(OctreeReplica, DeletingEverythingLeavesAnEmptyTree) {
-  RandomKeyframes keyframes;
-  SemanticMapper mapper(MapperConfig{}, kEpoch);
-  OctreeReplica replica;
+TEST_F(MapperAndReplica, DeletingEverythingLeavesAnEmptyTree) {
   const auto first = mapper.integrate(keyframes.next());
   ASSERT_EQ(replica.apply(first).status, ReplicaStatus::kApplied);
   MapDelta empty;

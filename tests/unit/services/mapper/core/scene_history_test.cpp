@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/scene_history.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/mapper/core/keyframe_objects.hpp"
+#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using test::SyntheticKeyframe;
+
+constexpr double kDepthM = 1.52;
+const cv::Rect kBody(120, 30, 80, 180);
+
+std::int64_t stamp_ns(std::uint64_t keyframe) {
+  return SyntheticKeyframe(keyframe).make().stamp_ns;
+}
+
+class SceneHistoryTest : public testing::Test {
+ protected:
+  void see_static(std::uint64_t keyframe) { see(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM)); }
+  void see_person(std::uint64_t keyframe) {
+    see(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true));
+  }
+  [[nodiscard]] bool is_suspect(std::uint64_t keyframe) const {
+    const octomap::ColorOcTree tree(config_.octree.resolution_m);
+    const Eigen::Vector3d p = test::point_at(160, 120, kDepthM);
+    return history_.is_suspect(tree.coordToKey(p.x(), p.y(), p.z()), stamp_ns(keyframe));
+  }
+
+ private:
+  void see(const KeyframeInput& input) {
+    auto record =
+        make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
+    if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
+    history_.see(record, config_);
+  }
+
+  MapperConfig config_;
+  LabelTable labels_;
+  SceneHistory history_{{}, MovableHistory(config_.octree.resolution_m)};
+};
+
+TEST_F(SceneHistoryTest, WhereNothingMovableHasBeenNothingIsSuspect) {
+  see_static(0);
+  EXPECT_FALSE(is_suspect(1));
+}
+
+TEST_F(SceneHistoryTest, WhatIsStaticTwiceAsOftenAsMovableIsNotSuspect) {
+  for (const std::uint64_t keyframe : {0, 1, 2}) see_static(keyframe);
+  for (const std::uint64_t keyframe : {3, 4}) see_person(keyframe);
+  EXPECT_TRUE(is_suspect(9));
+  see_static(5);
+  EXPECT_FALSE(is_suspect(9));
+}
+
+TEST_F(SceneHistoryTest, WhatIsSeenThereAgainHasNotGone) {
+  see_static(0);
+  for (const std::uint64_t keyframe : {1, 2, 3}) see_person(keyframe);
+  EXPECT_TRUE(is_suspect(4));
+  see_static(5);
+  EXPECT_FALSE(is_suspect(4));
+  EXPECT_TRUE(is_suspect(6));
+}
+
+}  // namespace
+}  // namespace rds::mapper

@@ -38,10 +38,10 @@ struct MapPoint {
   Descriptor descriptor{};                             // nearest to all others of its features
   std::vector<Observation> observations;               // by ascending keyframe, each keyframe once
   KeyframeId created_by = kNoId;
-  std::uint32_t visible = 1;  // frames that should have seen it
-  std::uint32_t found = 1;    // frames that did
+  std::uint32_t visible = 1;       // frames that should have seen it
+  std::uint32_t found = 1;         // frames that did
   std::int64_t last_found_ns = 0;  // stamp of the newest of these
-  std::uint64_t mark = 0;     // scratch of whoever walks over points
+  std::uint64_t mark = 0;          // scratch of whoever walks over points
 };
 
 struct CovisibleKeyframe {

@@ -144,7 +144,8 @@ class Tracker {
   [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
   [[nodiscard]] std::optional<FollowedFrame> follow_points_around(const image::RgbdFrame& picture,
                                                                   const Surroundings& around,
-                                                                  const MovableMask& movable, Pose guess,
+                                                                  const MovableMask& movable,
+                                                                  const Pose& guess,
                                                                   const TrackedFrame& begun) const;
   [[nodiscard]] std::optional<FollowedFrame> follow_map(const image::RgbdFrame& picture,
                                                         const Surroundings& around,

@@ -54,7 +54,8 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
 /// @return nullopt where too few agree on a pose.
 std::optional<Tracker::FollowedFrame> Tracker::follow_points_around(const image::RgbdFrame& picture,
                                                                     const Surroundings& around,
-                                                                    const MovableMask& movable, Pose guess,
+                                                                    const MovableMask& movable,
+                                                                    const Pose& guess,
                                                                     const TrackedFrame& begun) const {
   const FollowingConfig& config = config_.following;
   FollowedFrame result{begun, {}, nullptr};

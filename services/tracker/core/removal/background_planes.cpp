@@ -9,8 +9,8 @@
 namespace rds::tracker {
 namespace {
 
-constexpr int kStride = 2;             // cells, between those that are asked for planes
-constexpr double kStepToNeighbour_m = 0.08;
+constexpr int kStride = 2;  // cells, between those that are asked for planes
+constexpr double kStepToNeighbourM = 0.08;
 
 /// The cells of a picture as points of surfaces.
 class CellSurfaces {
@@ -26,7 +26,7 @@ class CellSurfaces {
     const bool inside = column > 0 && row > 0 && column + 1 < depth_m_.cols && row + 1 < depth_m_.rows;
     const float z = inside ? depth_m_(row, column) : 0;
     const auto joined = [&](float neighbour_m) {
-      return neighbour_m > 0 && one_surface(neighbour_m, z, kStepToNeighbour_m);
+      return neighbour_m > 0 && one_surface(neighbour_m, z, kStepToNeighbourM);
     };
     if (!inside || !joined(depth_m_(row, column + 1)) || !joined(depth_m_(row, column - 1)) ||
         !joined(depth_m_(row + 1, column)) || !joined(depth_m_(row - 1, column)))

@@ -12,7 +12,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr double kHardlyMeasured = 0.3;  // share of a box's cells that have a depth
-constexpr double kThickness_m = 0.25;    // in front of and behind what has moved
+constexpr double kThicknessM = 0.25;     // in front of and behind what has moved
 constexpr int kHoleRadius = 3;           // cells around a cell without depth that are asked
 
 cv::Rect cells_of(const geometry::Box2& box, const GridGeometry& grid, double margin_px) {
@@ -66,8 +66,8 @@ void cut_around(const Foreground& picture, const GridGeometry& grid, const std::
   const int px = grid.cell_px();
   const MovableRegion region{{static_cast<double>(box.x * px), static_cast<double>(box.y * px),
                               static_cast<double>(box.br().x * px), static_cast<double>(box.br().y * px)},
-                             static_cast<float>(*middle - kThickness_m),
-                             static_cast<float>(*middle + kThickness_m)};
+                             static_cast<float>(*middle - kThicknessM),
+                             static_cast<float>(*middle + kThicknessM)};
   for (const cv::Point& cell : cells) mask(cell) = 255;
   grow_surface(picture.in_front_m, around(region.box_px, grid, config.reach_m, region, config), cells, mask);
 }

@@ -24,10 +24,10 @@ class GridGeometry {
   [[nodiscard]] const Eigen::Vector3f& ray(int column, int row) const {
     return rays_[static_cast<std::size_t>(row * size_.width + column)];
   }
-  /// Index, row by row, of the cell in which a point in the camera frame shows, to about a third of a cell; -1
-  /// outside the picture.
+  /// Index, row by row, of the cell in which a point in the camera frame shows, to about a third of a cell;
+  /// -1 outside the picture.
   [[nodiscard]] int index_of(const Eigen::Vector3f& point_in_camera) const {
-    if (!(point_in_camera.z() > kNearest_m)) return -1;
+    if (!(point_in_camera.z() > kNearestM)) return -1;
     const float per_m = 1 / point_in_camera.z();
     const int x = static_cast<int>((point_in_camera.x() * per_m - table_corner_.x()) * table_per_ray_);
     const int y = static_cast<int>((point_in_camera.y() * per_m - table_corner_.y()) * table_per_ray_);
@@ -44,7 +44,7 @@ class GridGeometry {
   geometry::CameraModel camera_;
   int cell_px_ = 1;
   cv::Size size_;
-  static constexpr float kNearest_m = 0.1F;
+  static constexpr float kNearestM = 0.1F;
 
   void make_cell_table();
 

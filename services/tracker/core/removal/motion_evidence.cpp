@@ -14,7 +14,7 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::max();
 constexpr int kThinnest = 5;        // cells across, of a thing
 constexpr int kWitnesses = 2;       // earlier pictures
-constexpr float kSameShare = 0.4F; // of motion_step_m: so near is the same surface
+constexpr float kSameShare = 0.4F;  // of motion_step_m: so near is the same surface
 
 /// Depth [m] of what an earlier picture saw and was not movable, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,

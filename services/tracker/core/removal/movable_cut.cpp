@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNsPerSecond = 1e9;
 constexpr int kLastingCells = 2;  // around a lasting point
-constexpr double kLastingStep_m = 0.03;
+constexpr double kLastingStepM = 0.03;
 
 cv::Mat1f without(const cv::Mat1f& depth_m, const cv::Mat1b& background) {
   cv::Mat1f in_front = depth_m.clone();
@@ -83,7 +83,7 @@ void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
       for (int dx = -kLastingCells; dx <= kLastingCells; ++dx) {
         const cv::Point cell = middle + cv::Point(dx, dy);
         if (!inside.contains(cell) || !(depth_m(cell) > 0)) continue;
-        if (one_surface(depth_m(cell), p.z(), kLastingStep_m)) now_.cells.lasting(cell) = 255;
+        if (one_surface(depth_m(cell), p.z(), kLastingStepM)) now_.cells.lasting(cell) = 255;
       }
   }
 }

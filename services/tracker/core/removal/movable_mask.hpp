@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
@@ -18,8 +20,8 @@ class MovableMask {
   /// @param image_px  in the picture as the camera gives it (with distortion); outside it nothing is movable.
   [[nodiscard]] bool covers(const Eigen::Vector2f& image_px) const {
     if (!any_) return false;
-    const int column = static_cast<int>(image_px.x() + 0.5F) / cell_px_;
-    const int row = static_cast<int>(image_px.y() + 0.5F) / cell_px_;
+    const int column = static_cast<int>(std::lround(image_px.x())) / cell_px_;
+    const int row = static_cast<int>(std::lround(image_px.y())) / cell_px_;
     return column >= 0 && row >= 0 && column < cells_.cols && row < cells_.rows && cells_(row, column) != 0;
   }
   [[nodiscard]] const cv::Mat1b& cells() const { return cells_; }

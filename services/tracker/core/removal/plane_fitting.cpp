@@ -18,9 +18,9 @@ constexpr int kHypotheses = 40;
 constexpr std::size_t kMinSamples = 60;  // of a plane
 constexpr std::size_t kMaxAsked = 300;   // samples that judge a hypothesis
 constexpr std::size_t kNear = 12;        // of the samples in order, that a hypothesis is made of
-constexpr float kNarrow_m = 0.06F;  // standard deviation along the narrower side: a strip of 0.2 m, and …
-constexpr float kWide_m = 0.16F;    // wider than 0.55 m
-constexpr float kMinSine = 0.2F;    // of the triangle that makes a hypothesis
+constexpr float kNarrowM = 0.06F;  // standard deviation along the narrower side: a strip of 0.2 m, and …
+constexpr float kWideM = 0.16F;    // wider than 0.55 m
+constexpr float kMinSine = 0.2F;   // of the triangle that makes a hypothesis
 
 bool agrees(const Plane& plane, const SurfaceSample& sample) {
   return is_near(plane, sample.point) && is_parallel(plane, sample.normal);
@@ -58,8 +58,8 @@ std::optional<Plane> fit(const std::vector<SurfaceSample>& samples) {
   solver.computeDirect(scatter);
   const Eigen::Vector3f normal = solver.eigenvectors().col(0);
   const float variance = solver.eigenvalues()(1) / static_cast<float>(samples.size());
-  if (variance < kNarrow_m * kNarrow_m) return std::nullopt;
-  return Plane{normal, normal.dot(mean), variance > kWide_m * kWide_m};
+  if (variance < kNarrowM * kNarrowM) return std::nullopt;
+  return Plane{normal, normal.dot(mean), variance > kWideM * kWideM};
 }
 
 /// Every so many of the samples that agree with the plane; fewer if they cannot be more than `most`.

@@ -18,30 +18,42 @@ void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pi
   voxel.label_balance = voxel.label == label ? voxel.label_balance + 1 : voxel.label_balance - 1;
 }
 
+/// Index of a voxel's surface, made if there is none yet.
+std::uint32_t slot_of(const octomap::OcTreeKey& key, Scan& scan) {
+  auto& block = scan.grid.block_of(key);
+  const auto cell = ScanGrid::cell_of(key);
+  if ((block.flags[cell] & kSurface) == 0) {
+    block.flags[cell] |= kSurface;
+    block.slot[cell] = static_cast<std::uint32_t>(scan.surfaces.size());
+    scan.surfaces.emplace_back();
+  }
+  return block.slot[cell];
+}
+
 void mark_surfaces(const VoxelProjector& project, std::span<const PixelUse> use, Scan& scan) {
   const auto& record = project.record;
+  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
+  std::uint32_t slot = 0;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (use[i] == PixelUse::kBeyond || use[i] == PixelUse::kBlind || !project.point(i, use[i], at)) continue;
     const auto key = key_at(at);
-    auto& block = scan.grid.block_of(key);
-    const auto cell = ScanGrid::cell_of(key);
-    if ((block.flags[cell] & kSurface) == 0) {
-      block.flags[cell] |= kSurface;
-      block.slot[cell] = static_cast<std::uint32_t>(scan.surfaces.size());
-      scan.surfaces.emplace_back();
-    }
-    add_pixel(scan.surfaces[block.slot[cell]], record, i);
+    if (packed(key) != last) slot = slot_of(key, scan);
+    last = packed(key);
+    add_pixel(scan.surfaces[slot], record, i);
   }
 }
 
 /// One ray per voxel in which a ray ends, to the first pixel in it that is `blind` or, if not, static.
 void carve(const VoxelProjector& project, std::span<const PixelUse> use, bool blind, Scan& scan) {
+  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < use.size(); ++i) {
     if (use[i] == PixelUse::kMovable || (use[i] == PixelUse::kBlind) != blind) continue;
     if (!project.point(i, use[i], at)) continue;
     const auto key = key_at(at);
+    if (packed(key) == last) continue;
+    last = packed(key);
     auto& flags = scan.grid.block_of(key).flags[ScanGrid::cell_of(key)];
     if ((flags & kRayCast) != 0) continue;
     flags |= kRayCast;

@@ -147,10 +147,6 @@ bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
   return record.movable_cells(row, column) != 0;
 }
 
-bool is_movable(const KeyframeRecord& record, std::size_t pixel) {
-  return record.use[pixel] == PixelUse::kMovable || is_in_movable_cell(record, pixel);
-}
-
 void set_aside_movable_cells(KeyframeRecord& record) {
   if (record.cell_px == 0) return;
   for (std::size_t i = 0; i < record.size(); ++i)

@@ -73,7 +73,9 @@ std::optional<std::string> check(const KeyframeInput& input);
 bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
 
 /// True if boxes or the tracker know the pixel as of something movable.
-bool is_movable(const KeyframeRecord& record, std::size_t pixel);
+inline bool is_movable(const KeyframeRecord& record, std::size_t pixel) {
+  return record.use[pixel] == PixelUse::kMovable || (record.cell_px != 0 && is_in_movable_cell(record, pixel));
+}
 
 /// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.
 /// @param rays  of this camera and stride, shared between records.

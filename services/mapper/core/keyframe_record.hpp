@@ -74,7 +74,8 @@ bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
 
 /// True if boxes or the tracker know the pixel as of something movable.
 inline bool is_movable(const KeyframeRecord& record, std::size_t pixel) {
-  return record.use[pixel] == PixelUse::kMovable || (record.cell_px != 0 && is_in_movable_cell(record, pixel));
+  return record.use[pixel] == PixelUse::kMovable ||
+         (record.cell_px != 0 && is_in_movable_cell(record, pixel));
 }
 
 /// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.

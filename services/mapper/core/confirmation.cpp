@@ -35,16 +35,14 @@ std::vector<Support> support_of_surfaces(const KeyframeRecord& record, const Sur
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
   const auto apart_ns = static_cast<std::int64_t>(config.confirmation.apart_s * kNsPerSecond);
   std::vector<Support> support(std::size_t{record.doubt.surfaces} + 1);
-  octomap::OcTreeKey last(0, 0, 0);
+  VoxelRun run;
   bool confirmed = false;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     const auto surface = record.doubt.surface[i];
     if (surface == 0 || !project.point(i, PixelUse::kStatic, at)) continue;
-    if (const auto key = key_at(at); !(key == last)) {
-      last = key;
+    if (const auto key = key_at(at); run.begins_with(key))
       confirmed = history.seen_apart(key, record.stamp_ns, apart_ns);
-    }
     ++support[surface].pixels;
     support[surface].confirmed += confirmed ? 1 : 0;
   }

@@ -18,15 +18,12 @@ void MovableHistory::see(const KeyframeRecord& record, const MapperConfig& confi
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
   const auto nearest = static_cast<float>(config.sampling.min_range_m);
   const auto farthest = static_cast<float>(config.sampling.max_range_m);
-  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
+  VoxelRun run;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!is_movable(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
     if (!project.point(i, PixelUse::kMovable, at)) continue;
-    const auto key = key_at(at);
-    if (packed(key) == last) continue;
-    last = packed(key);
-    see_around(key, record.stamp_ns);
+    if (const auto key = key_at(at); run.begins_with(key)) see_around(key, record.stamp_ns);
   }
 }
 
@@ -36,8 +33,7 @@ void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t stam
     const auto shifted = [&](unsigned axis) {
       return static_cast<std::uint16_t>(key[axis] + ((corner >> axis & 1) != 0 ? half : -half));
     };
-    cubes_.try_emplace(cube({shifted(0), shifted(1), shifted(2)}), PlaceSightings::at(stamp_ns))
-        .first->second.add(stamp_ns);
+    cubes_[cube({shifted(0), shifted(1), shifted(2)})].add(stamp_ns);
   }
 }
 

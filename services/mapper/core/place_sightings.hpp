@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace rds::mapper {
 
-/// When, and in how many keyframes, something was seen in one place.
-struct PlaceSightings {
-  std::int64_t first_ns;
-  std::int64_t last_ns;
-  std::int64_t counted_ns;  // of the keyframe counted last: all pixels of one keyframe come in one go
-  std::uint32_t keyframes;
+/// Stamps [ns] that can be told from any other without overflow.
+inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min() / 2;
+inline constexpr std::int64_t kAfterAll = std::numeric_limits<std::int64_t>::max() / 2;
 
-  static PlaceSightings at(std::int64_t stamp_ns) { return {stamp_ns, stamp_ns, stamp_ns, 1}; }
+/// When, and in how many keyframes, something was seen in one place; in none at first.
+struct PlaceSightings {
+  std::int64_t first_ns = kAfterAll;
+  std::int64_t last_ns = kBeforeAll;
+  std::int64_t counted_ns = kBeforeAll;  // of the keyframe counted last: its pixels come in one go
+  std::uint32_t keyframes = 0;
 
   void add(std::int64_t stamp_ns) {
     first_ns = std::min(first_ns, stamp_ns);

@@ -32,28 +32,25 @@ std::uint32_t slot_of(const octomap::OcTreeKey& key, Scan& scan) {
 
 void mark_surfaces(const VoxelProjector& project, std::span<const PixelUse> use, Scan& scan) {
   const auto& record = project.record;
-  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
+  VoxelRun run;
   std::uint32_t slot = 0;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (use[i] == PixelUse::kBeyond || use[i] == PixelUse::kBlind || !project.point(i, use[i], at)) continue;
-    const auto key = key_at(at);
-    if (packed(key) != last) slot = slot_of(key, scan);
-    last = packed(key);
+    if (const auto key = key_at(at); run.begins_with(key)) slot = slot_of(key, scan);
     add_pixel(scan.surfaces[slot], record, i);
   }
 }
 
 /// One ray per voxel in which a ray ends, to the first pixel in it that is `blind` or, if not, static.
 void carve(const VoxelProjector& project, std::span<const PixelUse> use, bool blind, Scan& scan) {
-  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
+  VoxelRun run;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < use.size(); ++i) {
     if (use[i] == PixelUse::kMovable || (use[i] == PixelUse::kBlind) != blind) continue;
     if (!project.point(i, use[i], at)) continue;
     const auto key = key_at(at);
-    if (packed(key) == last) continue;
-    last = packed(key);
+    if (!run.begins_with(key)) continue;
     auto& flags = scan.grid.block_of(key).flags[ScanGrid::cell_of(key)];
     if ((flags & kRayCast) != 0) continue;
     flags |= kRayCast;

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/surface_history.hpp"
 
-#include <limits>
-
 namespace rds::mapper {
 
 void SurfaceHistory::see(const KeyframeRecord& record, const MapperConfig& config) {
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
-  std::uint64_t last = 0;  // neighbours mostly fall into one voxel; no key is 0
+  VoxelRun run;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (record.use[i] != PixelUse::kStatic || !project.point(i, PixelUse::kStatic, at)) continue;
-    const std::uint64_t key = packed(key_at(at));
-    if (key == last) continue;
-    last = key;
-    voxels_.try_emplace(key, PlaceSightings::at(record.stamp_ns)).first->second.add(record.stamp_ns);
+    if (const auto key = key_at(at); run.begins_with(key)) voxels_[packed(key)].add(record.stamp_ns);
   }
 }
 
 void SurfaceHistory::know(const octomap::OcTreeKey& key) {
-  using Limits = std::numeric_limits<std::int64_t>;
-  voxels_.insert_or_assign(packed(key), PlaceSightings{Limits::min() / 2, Limits::max() / 2, 0, 1});
+  voxels_.insert_or_assign(packed(key), PlaceSightings{kBeforeAll, kAfterAll, 0, 1});
 }
 
 const PlaceSightings* SurfaceHistory::sightings(const octomap::OcTreeKey& key) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+
 #include <octomap/OcTreeKey.h>
 
 #include "services/mapper/core/keyframe_record.hpp"
@@ -16,6 +18,18 @@ inline octomap::OcTreeKey key_at(const Eigen::Vector3d& p) {
 inline std::uint64_t packed(const octomap::OcTreeKey& key) {
   return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
 }
+
+/// Tells where the voxel changes from pixel to pixel: neighbours mostly fall into one, which is looked up
+/// once.
+class VoxelRun {
+ public:
+  [[nodiscard]] bool begins_with(const octomap::OcTreeKey& key) {
+    return std::exchange(last_, packed(key)) != packed(key);
+  }
+
+ private:
+  std::uint64_t last_ = 0;  // packed; no key that can hold a point is 0
+};
 
 /// Where the octree can hold a point; false for NaN.
 inline bool in_key_range(const Eigen::Vector3d& p) {

@@ -75,9 +75,11 @@ void MapReader::on_full(std::shared_ptr<const octomap_msgs::msg::Octomap> messag
   take_full();
 }
 
+/// Another mapper may give the stamp of an earlier one's map again: what is told of that one is over.
 void MapReader::on_info(std::shared_ptr<const rds_msgs::msg::MapInfo> message) {
-  if (!message->describes_full()) return;
   const std::lock_guard lock(mutex_);
+  std::erase_if(infos_, [&](const auto& told) { return told.second->map_id() != message->map_id(); });
+  if (!message->describes_full()) return;
   infos_[messages::to_nanoseconds(message->header().stamp())] = std::move(message);
   take_full();
 }
@@ -97,7 +99,9 @@ void MapReader::take_full() {
   if (!full_) return;
   const auto found = infos_.find(messages::to_nanoseconds(full_->header().stamp()));
   if (found == infos_.end() || found->second->node_count() * kNodeBytes != full_->data().size()) return;
-  const rds_msgs::msg::MapInfo& info = *found->second;
+  const auto described = std::move(found->second);
+  infos_.erase(found);
+  const rds_msgs::msg::MapInfo& info = *described;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(full_->data().data());
   const auto answer = replica_.apply(mapper::FullMap{{bytes, full_->data().size()},
                                                      full_->resolution(),

@@ -11,8 +11,7 @@ namespace rds::mapper {
 /// Applies a keyframe's boxes to its record, replacing what earlier boxes did: marks movable objects, gives
 /// the pixels of static objects their label, and keeps each static object's boundary.
 ///
-/// A static object is the segment of the point cloud that fits its box best; where there is none, what the
-/// depth cut leaves. Where objects overlap, the one with the higher score has the pixel.
+/// Where objects overlap, the one with the higher score has the pixel; the nearer one where scores are equal.
 void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, const MapperConfig& config,
                  LabelTable& labels);
 

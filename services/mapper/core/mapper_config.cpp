@@ -39,12 +39,11 @@ void read(ConfigReader& r, ConfirmationConfig& c) {
 void read(ConfigReader& r, SegmentationConfig& c) {
   r.value("enabled", c.enabled);
   r.value("stride", c.stride, 1, 8);
-  r.value("plane_angle_deg", c.plane_angle_deg, 0.5, 30.0, "deg");
   r.value("plane_distance_m", c.plane_distance_m, 0.001, 0.5, "m");
+  r.value("plane_noise", c.plane_noise, 0.0, 0.1, "1/m");
   r.value("min_plane_share", c.min_plane_share, 0.001, 1.0);
   r.value("min_cluster_share", c.min_cluster_share, 0.0001, 1.0);
   r.value("cluster_distance", c.cluster_distance, 0.001, 0.5);
-  r.value("min_overlap", c.min_overlap, 0.0, 1.0);
 }
 
 void read(ConfigReader& r, ObjectConfig& c) {

@@ -44,13 +44,12 @@ struct ConfirmationConfig {
 
 struct SegmentationConfig {
   bool enabled = true;
-  int stride = 2;  // of the sampled points
-  double plane_angle_deg = 3.0;
-  double plane_distance_m = 0.02;
+  int stride = 2;                  // of the sampled points
+  double plane_distance_m = 0.01;  // of a pixel from its plane, and besides ...
+  double plane_noise = 0.006;      // ... x depth² [1/m]: two standard deviations of structured light
   double min_plane_share = 0.033;  // of the picture (10 000 px of 640×480)
   double min_cluster_share = 0.0033;
   double cluster_distance = 0.015;  // between neighbours, × depth
-  double min_overlap = 0.25;        // IoU of cluster and box in the picture
 
   bool operator==(const SegmentationConfig&) const = default;
 };

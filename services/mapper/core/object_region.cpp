@@ -140,12 +140,15 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.camera);
 }
 
-bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
+bool ObjectPlace::is_in_box(const KeyframeRecord& record, std::size_t pixel) const {
   const int column = static_cast<int>(pixel) % record.width;
   const int row = static_cast<int>(pixel) / record.width;
+  return box_px.contains(column * record.stride, row * record.stride);
+}
+
+bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
   const float depth = record.depth_m(pixel);
-  return box_px.contains(column * record.stride, row * record.stride) && depth >= min_depth_m &&
-         depth <= max_depth_m;
+  return is_in_box(record, pixel) && depth >= min_depth_m && depth <= max_depth_m;
 }
 
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,

@@ -25,6 +25,7 @@ struct ObjectPlace {
   float min_depth_m = 0;
   float max_depth_m = 0;
 
+  [[nodiscard]] bool is_in_box(const KeyframeRecord& record, std::size_t pixel) const;
   [[nodiscard]] bool contains(const KeyframeRecord& record, std::size_t pixel) const;
 };
 

@@ -8,6 +8,7 @@
 #include "services/mapper/core/confirmation.hpp"
 #include "services/mapper/core/gravity.hpp"
 #include "services/mapper/core/keyframe_objects.hpp"
+#include "services/mapper/core/object_extent.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -204,6 +205,12 @@ Eigen::Vector3d SemanticMapper::up_in_map() const {
     poses.push_back(keyframe.pose);
   }
   return estimate_up(poses, [&](std::size_t i) { return record_of(ids[i]); });
+}
+
+std::vector<MapObject> SemanticMapper::objects() const {
+  auto objects = map_->objects.objects();
+  fit_to_voxels(objects, map_->octree, labels_);
+  return objects;
 }
 
 OccupancyGrid SemanticMapper::grid() const {

@@ -55,7 +55,7 @@ class SemanticMapper {
 
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return map_->octree.tree(); }
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return map_->octree.label(key); }
-  [[nodiscard]] std::vector<MapObject> objects() const { return map_->objects.objects(); }
+  [[nodiscard]] std::vector<MapObject> objects() const;
   [[nodiscard]] const LabelTable& labels() const { return labels_; }
   [[nodiscard]] OccupancyGrid grid() const;
   /// Unit vector against gravity in the map frame, as configured or estimated.

@@ -30,34 +30,17 @@ TEST(Segmentation, TakesTheWallAwayAndFindsTheObjectBeforeIt) {
   SegmentationConfig config;
   config.stride = 1;
   const auto segments = segment(record, config);
-  ASSERT_GE(segments.size(), 2U);
-  EXPECT_TRUE(segments.front().is_plane);
-  const Segment* ball = best_segment(segments, {118, 78, 202, 162}, config);
-  ASSERT_NE(ball, nullptr);
-  EXPECT_FALSE(ball->is_plane);
-  EXPECT_GT(geometry::iou(ball->box_px, {120, 80, 200, 160}), 0.7);
-  for (const auto i : ball->pixels) EXPECT_LT(record.depth_m(i), 2.7F);
-}
-
-TEST(Segmentation, AWallBehindABoxIsNotTheObject) {
-  SegmentationConfig config;
-  config.stride = 1;
-  const auto segments = segment(record_of(test::SyntheticKeyframe(0).make()), config);
-  EXPECT_EQ(best_segment(segments, {100, 100, 160, 160}, config), nullptr);
-  const Segment* wall = best_segment(segments, {0, 0, 320, 240}, config);
-  ASSERT_NE(wall, nullptr);
-  EXPECT_TRUE(wall->is_plane);
+  ASSERT_EQ(segments.size(), 2U);
+  ASSERT_TRUE(segments[0].plane);
+  EXPECT_NEAR(std::abs(segments[0].plane->offset_m), 3.0, 0.01);
+  const auto& ball = segments[1];
+  EXPECT_FALSE(ball.plane);
+  EXPECT_GT(geometry::iou(ball.box_px, {120, 80, 200, 160}), 0.7);
+  for (const auto i : ball.pixels) EXPECT_LT(record.depth_m(i), 2.7F);
 }
 
 TEST(Segmentation, NothingMeasuredGivesNothing) {
   EXPECT_TRUE(segment(record_of(test::SyntheticKeyframe(0, 0.0).make()), SegmentationConfig{}).empty());
-}
-
-TEST(Segmentation, ChoosesWithoutDividingByACentreDistanceOfZero) {
-  const std::vector<Segment> segments{{{0, 0, 10, 10}, {}, false}, {{2, 2, 8, 8}, {}, false}};
-  EXPECT_EQ(best_segment(segments, {0, 0, 10, 10}, SegmentationConfig{}), &segments[0]);
-  EXPECT_EQ(best_segment({}, {0, 0, 10, 10}, SegmentationConfig{}), nullptr);
-  EXPECT_EQ(best_segment(segments, {0, 0, 0, 0}, SegmentationConfig{}), nullptr);
 }
 
 }  // namespace

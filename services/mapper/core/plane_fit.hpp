@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace rds::mapper {
+
+/// Points p with normal · p = offset.
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit
+  double offset_m = 0;
+
+  /// Signed [m].
+  [[nodiscard]] double distance_m(const Eigen::Vector3d& point) const { return normal.dot(point) - offset_m; }
+};
+
+/// Points by their sums, so that parts add up to a whole.
+class PointSums {
+ public:
+  void add(const Eigen::Vector3d& p) {
+    ++count_;
+    sum_ += p;
+    products_ += p * p.transpose();
+  }
+  void add(const PointSums& other) {
+    count_ += other.count_;
+    sum_ += other.sum_;
+    products_ += other.products_;
+  }
+
+  [[nodiscard]] double count() const { return count_; }
+  [[nodiscard]] Eigen::Vector3d mean() const { return sum_ / count_; }
+
+  /// The plane of least squares.
+  [[nodiscard]] Plane plane() const {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(covariance());
+    const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    return {normal, normal.dot(mean())};
+  }
+  /// Root mean square of the points' distances from a plane [m].
+  [[nodiscard]] double deviation_m(const Plane& plane) const {
+    const double variance = plane.normal.dot(covariance() * plane.normal);
+    return std::sqrt(std::max(0.0, variance) + std::pow(plane.distance_m(mean()), 2));
+  }
+
+ private:
+  [[nodiscard]] Eigen::Matrix3d covariance() const {
+    return products_ / count_ - mean() * mean().transpose();
+  }
+
+  double count_ = 0;
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace rds::mapper

@@ -32,34 +32,44 @@ GrowthLimits around(const geometry::Box2& box, const GridGeometry& grid, double 
           config.step_m};
 }
 
-void cut_box(const Foreground& picture, const GridGeometry& grid, const MovableRegion& region,
+void cut_box(Foreground& picture, const GridGeometry& grid, const MovableRegion& region,
              const RemovalConfig& config, cv::Mat1b& mask) {
   const cv::Rect box = cells_of(region.box_px, grid, 0);
   if (box.empty()) return;
-  const cv::Mat1f in_box = picture.depth_m(box);
+  const cv::Mat1f in_box = picture.depth_m()(box);
   if (cv::countNonZero(in_box) < kHardlyMeasured * box.area()) mask(box).setTo(255, in_box == 0);
-  const auto surfaces = surfaces_within(picture.in_front_m, around(region.box_px, grid, 0, region, config));
   const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
+  const cv::Mat1f& in_front_m = picture.in_front_m(reach.cells);
+  const auto surfaces = surfaces_within(in_front_m, around(region.box_px, grid, 0, region, config));
   for (const auto& surface : surfaces) {
     if (static_cast<double>(surface.size()) < config.min_component * static_cast<double>(surfaces[0].size()))
       break;
     for (const cv::Point& cell : surface) mask(cell) = 255;
-    grow_surface(picture.in_front_m, reach, surface, mask);
+    grow_surface(in_front_m, reach, surface, mask);
   }
 }
 
 }  // namespace
 
-void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+const cv::Mat1f& Foreground::in_front_m(const cv::Rect& cells) {
+  for (int r = cells.y; r < cells.br().y; ++r)
+    for (int c = cells.x; c < cells.br().x; ++c) {
+      float& in_front_m = in_front_m_(r, c);
+      if (in_front_m == kNotAsked) in_front_m = background_.shows({c, r}) ? 0 : picture_.depth_m(r, c);
+    }
+  return in_front_m_;
+}
+
+void cut_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
                const RemovalConfig& config, cv::Mat1b& mask) {
   for (const MovableRegion& region : regions) cut_box(picture, grid, region, config, mask);
 }
 
-void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+void cut_around(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
                 const RemovalConfig& config, cv::Mat1b& mask) {
   std::vector<float> depths;
   depths.reserve(cells.size());
-  for (const cv::Point& cell : cells) depths.push_back(picture.depth_m(cell));
+  for (const cv::Point& cell : cells) depths.push_back(picture.depth_m()(cell));
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   const cv::Rect box = cv::boundingRect(cells);
@@ -69,7 +79,8 @@ void cut_around(const Foreground& picture, const GridGeometry& grid, const std::
                              static_cast<float>(*middle - kThicknessM),
                              static_cast<float>(*middle + kThicknessM)};
   for (const cv::Point& cell : cells) mask(cell) = 255;
-  grow_surface(picture.in_front_m, around(region.box_px, grid, config.reach_m, region, config), cells, mask);
+  const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
+  grow_surface(picture.in_front_m(reach.cells), reach, cells, mask);
 }
 
 void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask) {

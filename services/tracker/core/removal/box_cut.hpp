@@ -5,26 +5,40 @@
 #include <vector>
 
 #include "services/tracker/core/movable_region.hpp"
-#include "services/tracker/core/removal/depth_grid.hpp"
+#include "services/tracker/core/removal/background.hpp"
 #include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
 
-/// What of a picture can be an object's.
-struct Foreground {
-  const cv::Mat1f& depth_m;  // of the picture
-  cv::Mat1f in_front_m;      // the same without background: 0 there
+/// What of a picture can be an object's: found out only where it is asked for.
+class Foreground {
+ public:
+  /// Both must outlive it.
+  Foreground(const PictureCells& picture, const Background& background)
+      : picture_(picture), background_(background), in_front_m_(picture.depth_m.size(), kNotAsked) {}
+
+  /// Depth [m] of the picture.
+  [[nodiscard]] const cv::Mat1f& depth_m() const { return picture_.depth_m; }
+  /// The same with 0 where background shows; right within these cells only.
+  const cv::Mat1f& in_front_m(const cv::Rect& cells);
+
+ private:
+  static constexpr float kNotAsked = -1;
+
+  const PictureCells& picture_;
+  const Background& background_;
+  cv::Mat1f in_front_m_;
 };
 
 /// Marks (255) in `mask` the objects in boxes, cut out by depth: of each box the surfaces in the foreground
 /// within its depth interval, and what they are connected with up to reach_m beyond the box.
 ///
 /// Where nothing was measured a cell is the object's if its box is hardly measured at all.
-void cut_boxes(const Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+void cut_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
                const RemovalConfig& config, cv::Mat1b& mask);
 
 /// Marks cells that belong to something movable, and what they are connected with up to reach_m around them.
-void cut_around(const Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+void cut_around(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
                 const RemovalConfig& config, cv::Mat1b& mask);
 
 /// Marks whole boxes, whatever their depth.

@@ -54,6 +54,12 @@ class GridGeometry {
   float table_per_ray_ = 0;
 };
 
+/// A picture in cells.
+struct PictureCells {
+  cv::Mat1f depth_m;
+  cv::Mat1b lasting;  // 255 where something shows that has stood still for long
+};
+
 /// Depth [m] of what stands nearest in each cell; 0 where nothing was measured or all is beyond max_depth_m.
 cv::Mat1f depth_in_cells(const image::DepthImage& depth, const GridGeometry& grid, double max_depth_m);
 

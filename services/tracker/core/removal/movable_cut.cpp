@@ -6,7 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/background_planes.hpp"
 #include "services/tracker/core/removal/box_cut.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 
@@ -16,12 +15,6 @@ namespace {
 constexpr double kNsPerSecond = 1e9;
 constexpr int kLastingCells = 2;  // around a lasting point
 constexpr double kLastingStepM = 0.03;
-
-cv::Mat1f without(const cv::Mat1f& depth_m, const cv::Mat1b& background) {
-  cv::Mat1f in_front = depth_m.clone();
-  in_front.setTo(0, background);
-  return in_front;
-}
 
 }  // namespace
 
@@ -58,17 +51,14 @@ MovableCut::Things MovableCut::things_that_moved(const geometry::Pose& camera_fr
 
 void MovableCut::mark(std::span<const MovableRegion> regions, const Things& moved,
                       const std::optional<geometry::Pose>& camera_from_map, const Now& last) {
-  const cv::Mat1f& depth_m = now_.cells.depth_m;
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
   fill_boxes(grid_, regions, suspect);
   for (const auto& cells : moved) suspect(cv::boundingRect(cells)).setTo(255);
-  cv::Mat1b background = now_.cells.lasting.clone();
-  cv::Mat1b wide = background.clone();
-  mark_planes(depth_m, grid_, suspect, background, wide);
-  const Foreground foreground{depth_m, without(depth_m, background)};
+  const Background background(now_.cells, grid_, suspect);
+  Foreground foreground(now_.cells, background);
   cut_boxes(foreground, grid_, regions, config_, now_.mask);
   for (const auto& cells : moved) cut_around(foreground, grid_, cells, config_, now_.mask);
-  if (camera_from_map && last_pose_ && last.widened.any()) carry(last, *camera_from_map, wide);
+  if (camera_from_map && last_pose_ && last.widened.any()) carry(last, *camera_from_map, background);
 }
 
 /// Marks the surfaces right around points that show where they have always been.
@@ -89,7 +79,7 @@ void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
 }
 
 /// Where the parts that were cut from the last picture show now, if they have not moved.
-void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background) {
+void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, const Background& background) {
   const auto passed_s = static_cast<float>(static_cast<double>(now_.stamp_ns - last.stamp_ns) / kNsPerSecond);
   const Eigen::Isometry3f here_from_last = (camera_from_map * *last_pose_).cast<float>();
   for (int r = 0; r < last.mask.rows; ++r)
@@ -99,9 +89,9 @@ void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, c
       if (last.mask(r, c) == 0 || !(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
-      if (cell.x < 0 || background(cell) != 0) continue;
+      if (cell.x < 0) continue;
       const float here = now_.cells.depth_m(cell);
-      if (!(here > 0) || !one_surface(here, p.z(), config_.step_m)) continue;
+      if (!(here > 0) || !one_surface(here, p.z(), config_.step_m) || background.shows_wide(cell)) continue;
       float& unsupported = now_.unsupported_s(cell);
       unsupported = now_.mask(cell) == 0 ? age_s : std::min(unsupported, age_s);
       now_.mask(cell) = 255;
@@ -122,11 +112,10 @@ MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const Mo
   if (config_.method == "box") return whole_boxes(regions);
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
   fill_boxes(grid_, regions, suspect);
-  cv::Mat1b background = picture.lasting.clone();
-  cv::Mat1b wide = background.clone();
-  mark_planes(picture.depth_m, grid_, suspect, background, wide);
+  const Background background(picture, grid_, suspect);
+  Foreground foreground(picture, background);
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  cut_boxes({picture.depth_m, without(picture.depth_m, background)}, grid_, regions, config_, mask);
+  cut_boxes(foreground, grid_, regions, config_, mask);
   return widened(picture.depth_m, mask);
 }
 

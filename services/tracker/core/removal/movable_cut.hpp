@@ -8,17 +8,12 @@
 
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/movable_region.hpp"
+#include "services/tracker/core/removal/background.hpp"
 #include "services/tracker/core/removal/motion_evidence.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 #include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
-
-/// A picture in cells.
-struct PictureCells {
-  cv::Mat1f depth_m;
-  cv::Mat1b lasting;  // 255 where something shows that has stood still for long
-};
 
 /// Says from picture to picture which cells show something movable.
 ///
@@ -60,7 +55,7 @@ class MovableCut {
   void mark(std::span<const MovableRegion> regions, const Things& moved,
             const std::optional<geometry::Pose>& camera_from_map, const Now& last);
   void mark_lasting(std::span<const Eigen::Vector3f> lasting);
-  void carry(const Now& last, const geometry::Pose& camera_from_map, const cv::Mat1b& background);
+  void carry(const Now& last, const geometry::Pose& camera_from_map, const Background& background);
   [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "services/tracker/core/removal/depth_grid.hpp"
+#include "services/tracker/core/removal/plane_fitting.hpp"
+
+namespace rds::tracker {
+
+/// What of a picture is no movable thing: what has stood still for long, and planes that go on outside all
+/// suspect parts: a table, a wall, the floor. Cells are asked one by one, as few of them matter. Picture and
+/// grid must outlive it.
+class Background {
+ public:
+  /// @param suspect  not 0 where something movable may show; what stands still tells of planes nevertheless.
+  Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& suspect);
+
+  [[nodiscard]] bool shows(const cv::Point& cell) const { return shows(cell, false); }
+  /// The same without planes that are no wider than a person.
+  [[nodiscard]] bool shows_wide(const cv::Point& cell) const { return shows(cell, true); }
+
+ private:
+  [[nodiscard]] bool shows(const cv::Point& cell, bool wide) const;
+  [[nodiscard]] Eigen::Vector3f point(int column, int row) const;
+  [[nodiscard]] Eigen::Vector3f normal(int column, int row) const;
+  [[nodiscard]] std::vector<SurfaceSample> samples_outside(const cv::Mat1b& suspect) const;
+
+  const PictureCells& picture_;
+  const GridGeometry& grid_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace rds::tracker

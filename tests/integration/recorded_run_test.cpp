@@ -42,11 +42,12 @@ TEST(RecordedRun, KeepsPeopleOutOfPoseAndMapAndGivesTheSameBytesOverEitherBus) {
     ASSERT_EQ(result.status, 0) << bus << ": " << result.standard_error;
   }
   const auto figures = score(dataset, place / "fast", shared() / "data/7scenes_kitchen");
-  EXPECT_GE(figures["tracked"].get<double>(), 0.99);
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.12);
-  EXPECT_GE(figures["box_recall"].get<double>(), 0.6);
-  EXPECT_LE(figures["residue"].get<double>(), 0.06);
+  EXPECT_GE(figures["tracked"].get<double>(), 1.0);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.056);
+  EXPECT_GE(figures["box_recall"].get<double>(), 0.94);
+  EXPECT_LE(figures["residue"].get<double>(), 0.02);
   EXPECT_GE(figures["static_recall"].get<double>(), 0.85);
+  EXPECT_GE(figures["map_precision"].get<double>(), 0.965);
   for (const char* file : {"trajectory.txt", "predictions.jsonl", "map.ot"})
     for (const char* other : {"cyclone", "mixed"})
       EXPECT_EQ(read_text(place / "fast" / file), read_text(place / other / file)) << file << " of " << other;

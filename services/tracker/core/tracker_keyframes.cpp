@@ -188,11 +188,12 @@ std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   return job;
 }
 
-/// A keyframe that nobody has learned from, of a scene in which nothing is known to move.
+/// A keyframe that nobody has learned from, at least half of whose features show what stands still.
 bool Tracker::teaches_calibration(KeyframeId id) const {
   const Keyframe* keyframe = map_.keyframe(id);
   const bool is_new = calibrated_with_ == kNoId || id > calibrated_with_;
-  return is_new && keyframe != nullptr && std::ranges::count(keyframe->movable, true) == 0;
+  return is_new && keyframe != nullptr &&
+         2 * std::ranges::count(keyframe->movable, true) <= std::ssize(keyframe->movable);
 }
 
 void Tracker::apply(const LocalMappingResult& result) {

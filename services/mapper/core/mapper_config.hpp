@@ -60,7 +60,7 @@ struct ObjectConfig {
   double default_radius_m = 0.6;
   int min_observations = 2;   // an object is reported from here on
   double hit = 0.85;          // log-odds of existence per observation
-  double miss = 0.15;         // not detected though in view
+  double miss = 0.05;         // not detected though in view
   double seen_through = 0.6;  // the camera measured something behind it
   double max_existence = 3.5;
   double border_weight = 0.25;  // of an observation cut by the picture's border
@@ -78,7 +78,7 @@ struct OctreeConfig {
   double suspect_miss = -1.2;  // rays through what SceneHistory holds for something movable that has gone
   int weak_sightings = 2;  // what no more keyframes have seen is lowered where nothing is measured; 0: off
   bool color_by_label = true;  // a labelled voxel shows its label's colour
-  double label_share = 0.3;    // of a voxel's votes that a label needs
+  double label_share = 0.5;    // of a voxel's votes that a label needs
 
   bool operator==(const OctreeConfig&) const = default;
 };

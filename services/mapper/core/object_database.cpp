@@ -11,12 +11,11 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kTrim = 0.02;       // share of points outside the boundary at each end
-constexpr double kMinOverlap = 0.3;  // 3-D IoU that makes two sightings one object whatever the class radius
-constexpr double kMinContained = 0.5;  // the same for the share of the smaller one that lies in the larger
-constexpr double kOutward = 4;         // a view that shows more of the object counts so often
-constexpr double kInward = 0.1;        // one that shows less: every view shows a part only
-constexpr double kInViewShare = 0.8;   // of the projected box inside the picture
+constexpr double kTrim = 0.02;        // share of points outside the boundary at each end
+constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
+constexpr double kOutward = 4;        // a view that shows more of the object counts so often
+constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
+constexpr double kInViewShare = 0.8;  // of the projected box inside the picture
 constexpr double kOcclusionMarginM = 0.15;  // nearer than the object by this: something stands before it
 constexpr int kProbes = 5;                  // per side of the projected box
 
@@ -25,13 +24,6 @@ double iou(const geometry::Box3& a, const geometry::Box3& b) {
   const double common = overlap.prod();
   const double all = a.size().prod() + b.size().prod() - common;
   return all > 0 ? common / all : 0;
-}
-
-/// Share of the smaller box that lies in the other one.
-double contained(const geometry::Box3& a, const geometry::Box3& b) {
-  const Eigen::Vector3d overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
-  const double smaller = std::min(a.size().prod(), b.size().prod());
-  return smaller > 0 ? overlap.prod() / smaller : 0;
 }
 
 /// What the depth picture says about the place of an object.
@@ -96,8 +88,8 @@ bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const {
   const auto known = config_.class_radius_m.find(label);
   const double radius = known != config_.class_radius_m.end() ? known->second : config_.default_radius_m;
-  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap ||
-         contained(a, b) > kMinContained;
+  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap || a.contains(b.center()) ||
+         b.contains(a.center());
 }
 
 ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
@@ -202,6 +194,13 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   const auto view = look_at(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
   if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
   entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
+}
+
+std::vector<geometry::Box3> ObjectDatabase::unsighted() const {
+  std::vector<geometry::Box3> boxes;
+  for (const auto& entry : entries_)
+    if (!entry.seen_now) boxes.push_back({entry.min, entry.max});
+  return boxes;
 }
 
 std::vector<MapObject> ObjectDatabase::objects() const {

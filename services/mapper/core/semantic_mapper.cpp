@@ -97,8 +97,9 @@ void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, cons
                                     MapDelta& delta) {
   make_scan(record, confirmed_use(record, history.surfaces, config_), config_.octree, config_.sampling,
             scan_);
-  map.octree.integrate({scan_, record.looked_for_objects, labels_, history, record.stamp_ns, delta});
   map.objects.integrate(record, labels_);
+  map.octree.integrate(
+      {scan_, record.looked_for_objects, map.objects.unsighted(), labels_, history, record.stamp_ns, delta});
 }
 
 /// Its part of the map stays as it is, whatever corrections come.

@@ -182,11 +182,23 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
     append_voxel(update.delta, key, *node, label);
 }
 
+/// A network that misses an object in most keyframes does not know its voxels to be of none.
+bool SemanticOctree::is_of_unsighted(const octomap::OcTreeKey& key, const Update& update) const {
+  if (update.unsighted.empty()) return false;
+  const auto p = tree_.keyToCoord(key);
+  const Eigen::Vector3d center(p.x(), p.y(), p.z());
+  const Eigen::Vector3d voxel = Eigen::Vector3d::Constant(config_.resolution_m);
+  return std::ranges::any_of(update.unsighted, [&](const geometry::Box3& box) {
+    return geometry::Box3{box.min - voxel, box.max + voxel}.contains(center);
+  });
+}
+
 std::uint16_t SemanticOctree::remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
                                        const Update& update) {
   auto& memory = memory_[packed(key)];
   memory.see_color(surface);
-  if (update.looked_for_objects) memory.vote(surface.label);
+  if (update.looked_for_objects && (surface.label != 0 || !is_of_unsighted(key, update)))
+    memory.vote(surface.label);
   const auto label = memory.label(config_.label_share);
   const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : memory.color();
   node->setColor(color[0], color[1], color[2]);

@@ -7,8 +7,8 @@
 #include "common/map_file/byte_writer.hpp"
 #include "services/mapper/core/editable_octree.hpp"
 #include "services/mapper/core/label_table.hpp"
-#include "services/mapper/core/scene_history.hpp"
 #include "services/mapper/core/scan.hpp"
+#include "services/mapper/core/scene_history.hpp"
 
 namespace rds::mapper {
 
@@ -49,6 +49,7 @@ class SemanticOctree {
   struct Update {
     const Scan& scan;
     bool looked_for_objects;
+    std::vector<geometry::Box3> unsighted;  // objects that it says nothing about
     const LabelTable& labels;
     const SceneHistory& history;
     std::int64_t stamp_ns;
@@ -86,6 +87,7 @@ class SemanticOctree {
                             const Update& update) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                     const Update& update);
+  [[nodiscard]] bool is_of_unsighted(const octomap::OcTreeKey& key, const Update& update) const;
   std::uint16_t remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
                          const Update& update);
 

@@ -4,16 +4,29 @@
 
 score_objects.py DATASET OUT [--every N] [--range M] [--detections FILE]
 
-The map frame must be the dataset's (`rds run --poses DATASET/groundtruth.txt`, or map_sequence). A true object counts as
-to be found if in at least --min-views of the frames (every N-th) its box in the picture is mostly there (--detections has a
-box of its label with IoU >= 0.5, nearer than --range). What was found of an object that hardly showed is neither right
-nor wrong.
+The map is laid on the dataset's frame by its keyframes (rigid, least squares). A true object counts as to be found if in
+at least --min-views of the frames (every N-th) its box in the picture is mostly there (--detections has a box of its label
+with IoU >= 0.5, nearer than --range). What was found of an object that hardly showed is neither right nor wrong.
+--labels-of FILE asks only for labels that a run's detections.jsonl has at all.
+
+Two shares tell how right the labels of the voxels (map.ot) are, a voxel's width of tolerance:
+labelled  of the occupied voxels in the true boxes of found objects, what they stand on left out: have a label that is
+          true there
+true      of the voxels that bear a found object's label, in its found box: lie in a true box of that label
 """
 import argparse
 import bisect
 import json
 import math
 import pathlib
+import struct
+
+import numpy as np
+
+# As maps show labels (services/mapper/core/label_table.cpp).
+COLORS = {
+    "chair": (31, 119, 180), "sofa": (148, 103, 189), "diningtable": (255, 127, 14), "tvmonitor": (23, 190, 207),
+    "bottle": (44, 160, 44), "pottedplant": (106, 191, 75)}
 
 
 def read_camera(path):
@@ -85,6 +98,70 @@ def pair(truth, found, near):
     return match
 
 
+def world_from_map(out, poses):
+    """Rotation and translation that lay the keyframes of a run on the true poses."""
+    stamps, rows = poses
+    _, keyframes = read_poses(out / "keyframes.txt")
+    true = np.array([rows[min(bisect.bisect_left(stamps, k[0] - 1e-4), len(rows) - 1)][1:4] for k in keyframes])
+    own = np.array([k[1:4] for k in keyframes])
+    u, _, vt = np.linalg.svd((true - true.mean(0)).T @ (own - own.mean(0)))
+    rotation = u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt
+    return rotation, true.mean(0) - rotation @ own.mean(0)
+
+
+def read_map(path):
+    """Centres [m] and colours of the occupied voxels of a ColorOcTree, and their width [m]."""
+    header, _, data = path.read_bytes().partition(b"\ndata\n")
+    width = float(header.split(b"\nres ")[1].split()[0])
+    centers, colors, at = [], [], 0
+
+    def read(center, half):
+        nonlocal at
+        log_odds, r, g, b, children = struct.unpack_from("<f4B", data, at)
+        at += 8
+        if children == 0 and log_odds > 0:
+            side = np.arange(-half + width / 2, half, width)
+            cells = np.stack(np.meshgrid(side, side, side), -1).reshape(-1, 3) + center
+            centers.append(cells)
+            colors.append(np.tile((r, g, b), (len(cells), 1)))
+        for i in range(8):
+            if children >> i & 1:
+                read(center + np.where([i & 1, i & 2, i & 4], half / 2, -half / 2), half / 2)
+
+    read(np.zeros(3), width * 2 ** 15)
+    return np.concatenate(centers), np.concatenate(colors), width
+
+
+def inside(points, thing, margin, above=0.0):
+    """Points in a thing's box, grown by a margin; its lower face raised by `above` [m]."""
+    low = np.array(thing["center"]) - np.array(thing["size"]) / 2 - margin
+    high = np.array(thing["center"]) + np.array(thing["size"]) / 2 + margin
+    return ((points >= low + (0, 0, above)) & (points <= high)).all(1)
+
+
+def label_shares(out, truth, strange, found, match, frame):
+    """Counts of voxels (right, all) for the two shares; what is in the boxes of strange things may be of them."""
+    in_map, colors, width = read_map(out / "map.ot")
+    rotation, translation = frame
+    in_world = in_map @ rotation.T + translation
+    bears = {label: (colors == color).all(1) for label, color in COLORS.items()}
+    true = {label: np.zeros(len(in_map), bool) for label in COLORS}
+    for thing in truth:
+        true[thing["label"]] |= inside(in_world, thing, width)
+    right = np.zeros(len(in_map), bool)
+    for label in COLORS:
+        right |= bears[label] & true[label]
+    asked = np.zeros(len(in_map), bool)
+    for i in match:
+        asked |= inside(in_world, truth[i], 0.0, above=width)
+    for thing in strange:
+        asked &= ~inside(in_world, thing, width)
+    borne = np.zeros(len(in_map), bool)
+    for j in match.values():
+        borne |= bears[found[j]["label"]] & inside(in_map, found[j]["box"], 0.0)
+    return ((right & asked).sum(), asked.sum()), ((right & borne).sum(), borne.sum())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("dataset", type=pathlib.Path)
@@ -94,13 +171,23 @@ def main():
     parser.add_argument("--near", type=float, default=0.15, help="of the centres [m]")
     parser.add_argument("--range", type=float, default=4.0, help="[m]")
     parser.add_argument("--min-views", type=int, default=5)
+    parser.add_argument("--labels-of", type=pathlib.Path, help="detections.jsonl")
     args = parser.parse_args()
     truth = json.loads((args.dataset / "objects.json").read_text())
     found = json.loads((args.out / "objects.json").read_text())
     lines = (args.detections or args.dataset / "detections_truth.jsonl").read_text().splitlines()
     frames = [json.loads(line) for line in lines[::args.every]]
-    counts = views(truth, frames, read_poses(args.dataset / "groundtruth.txt"), read_camera(args.dataset / "camera.yaml"),
-                   args.range)
+    poses = read_poses(args.dataset / "groundtruth.txt")
+    frame = world_from_map(args.out, poses)
+    for thing in found:
+        thing["box"] = {"center": thing["center"], "size": thing["size"]}  # in the map
+        thing["center"] = [round(float(c), 4) for c in frame[0] @ np.array(thing["center"]) + frame[1]]
+    strange = []
+    if args.labels_of:
+        known = {d["label"] for line in args.labels_of.read_text().splitlines() for d in json.loads(line)["detections"]}
+        strange = [thing for thing in truth if thing["label"] not in known]
+        truth = [thing for thing in truth if thing["label"] in known]
+    counts = views(truth, frames, poses, read_camera(args.dataset / "camera.yaml"), args.range)
     match = pair(truth, found, args.near)
     wanted = {i for i, count in enumerate(counts) if count >= args.min_views}
     right = wanted & match.keys()
@@ -123,6 +210,11 @@ def main():
     print(f"wanted {len(wanted)} right {len(right)} wrong {len(wrong)} unasked {len(spare)} "
           f"precision {precision:.3f} recall {recall:.3f} F1 {f1:.3f} "
           f"people {sum(f['label'] == 'person' for f in found)}")
+
+    if not match or not (args.out / "map.ot").exists():
+        return
+    for name, (good, count) in zip(("labelled", "true"), label_shares(args.out, truth, strange, found, match, frame)):
+        print(f"{name} {good / max(1, count):.3f} of {count} voxels")
 
 
 if __name__ == "__main__":

@@ -55,6 +55,45 @@ TEST(ObjectDatabase, KeepsNeighboursOfTheSameClassApart) {
   EXPECT_EQ(mapper.objects().size(), 2U);
 }
 
+TEST(ObjectDatabase, ASightingWhoseMiddleLiesInAnObjectIsOfIt) {
+  const cv::Rect table(0, 80, 240, 80);
+  const cv::Rect end_and_more(170, 60, 130, 140);
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 3; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(table, 2.0).box("diningtable", table, false));
+  for (; id < 5; ++id)
+    mapper.integrate(
+        SyntheticKeyframe(id).rectangle(end_and_more, 2.0).box("diningtable", end_and_more, false));
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
+TEST(ObjectDatabase, KeepsWithItsLabelsWhatTheDetectorSeldomFinds) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 2; ++id) mapper.integrate(with_chair(id));
+  for (; id < 25; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  EXPECT_EQ(mapper.objects().size(), 1U);
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  EXPECT_EQ((Rgb{color.r, color.g, color.b}), label_color("chair"));
+}
+
+TEST(ObjectDatabase, ForgetsWhatWasFoundTwiceAndThenNeverAgain) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 2; ++id) mapper.integrate(with_chair(id));
+  for (; id < 60; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  EXPECT_TRUE(mapper.objects().empty());
+  for (; id < 80; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  EXPECT_NE((Rgb{color.r, color.g, color.b}), label_color("chair"));
+}
+
 TEST(ObjectDatabase, MovableObjectsNeverEnter) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 4; ++id)

@@ -93,6 +93,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
+  if (tracker_.has_lost_young_map(frame.stamp_ns)) reset();
 }
 
 void TrackerService::sort_in_arrivals() {
@@ -254,10 +255,11 @@ void TrackerService::reset() {
   objects_.reset();
   outputs_.set_epoch(map_epoch_);
   boxes_.clear();
+  keyframes_with_boxes_due_.clear();
   loop_answers_.clear();
   mappings_.clear();
   loop_revision_ = loops_closed_ = 0;
-  spdlog::info("reset, map epoch {:016x}", map_epoch_);
+  spdlog::info("begins again, map epoch {:016x}", map_epoch_);
 }
 
 }  // namespace rds::tracker

@@ -90,6 +90,9 @@ class Tracker {
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
   /// Pose of the last frame that had one, as the map stands now; identity before that.
   [[nodiscard]] Pose last_map_from_camera() const;
+  /// True when the camera has been lost for longer than this map was ever tracked in, and the map is young:
+  /// reset() loses little then. Never of a map that was saved, nor with given poses.
+  [[nodiscard]] bool has_lost_young_map(std::int64_t stamp_ns) const;
   /// Forgets everything.
   void reset();
 

@@ -16,6 +16,7 @@ namespace {
 constexpr double kNsPerSecond = 1e9;
 constexpr double kMaxPredictedGap = 0.5;  // s; beyond, constant velocity is a guess
 constexpr double kMaxBridgedGap = 2;      // s; beyond, the last frame says nothing about where the camera is
+constexpr double kLostForGoodS = 1;       // at least, before a young map is given up
 constexpr int kEnoughMatches = 20;        // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;        // after it
 constexpr double kWideWindow = 4;         // times the motion window, when velocity failed
@@ -76,6 +77,15 @@ double Tracker::jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const {
 
 double Tracker::jerk(const TrackedFrame& frame) const {
   return jerk(frame.camera_from_map, frame.stamp_ns);
+}
+
+bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
+  const Keyframe* first = map_.keyframe(0);
+  const bool is_own = map_.first_free_keyframe() == 0 && !config_.localize_only && !given_poses_;
+  if (state_ != State::kLost || !is_own || first == nullptr || !last_) return false;
+  const double tracked_s = static_cast<double>(last_->frame.stamp_ns - first->stamp_ns) / kNsPerSecond;
+  return tracked_s < config_.quality.young_map_s &&
+         since_last_s(stamp_ns) > std::max(kLostForGoodS, tracked_s);
 }
 
 /// By how many points a pose is held, of which one that no hand would give the camera needs more.

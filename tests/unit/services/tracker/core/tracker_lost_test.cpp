@@ -46,6 +46,29 @@ TEST(TrackerLost, StaysLostWhereNothingIsKnown) {
   EXPECT_EQ(tracker.track(test::picture_of_wall(truth(4), 50 * kFrameNs), {}).state, State::kRelocalised);
 }
 
+bool gives_up(Tracker& tracker, int first, int frames) {
+  for (int i = first; i < first + frames; ++i) tracker.track(test::dark_picture(i * kFrameNs), {});
+  return tracker.has_lost_young_map((first + frames - 1) * kFrameNs);
+}
+
+TEST(TrackerLost, GivesUpAYoungMapAfterASecondOrAsLongAsItWasTracked) {
+  const int second = static_cast<int>(1'000'000'000 / kFrameNs);
+  Tracker brief(small_config());
+  for (int i = 0; i < 6; ++i) step(brief, i);
+  EXPECT_FALSE(brief.has_lost_young_map(5 * kFrameNs));
+  EXPECT_FALSE(gives_up(brief, 6, second - 2));
+  EXPECT_TRUE(gives_up(brief, 6 + second - 2, 4));
+  brief.reset();
+  EXPECT_EQ(step(brief, 8).state, State::kTracking);
+  EXPECT_FALSE(gives_up(brief, 9, 3));
+
+  TrackerConfig patient = small_config();
+  patient.quality.young_map_s = 0;
+  Tracker never(patient);
+  for (int i = 0; i < 6; ++i) step(never, i);
+  EXPECT_FALSE(gives_up(never, 6, 3 * second));
+}
+
 TEST(TrackerLost, AJumpToAKnownPlaceIsSaidToBeOne) {
   Tracker tracker(small_config());
   for (int i = 0; i < 50; ++i) ASSERT_EQ(step(tracker, i).state, State::kTracking) << i;

@@ -8,10 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "services/mapper/core/trimmed_box.hpp"
+
 namespace rds::mapper {
 namespace {
 
-constexpr double kTrim = 0.02;        // share of points outside the boundary at each end
 constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
 constexpr double kOutward = 4;        // a view that shows more of the object counts so often
 constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
@@ -59,19 +60,11 @@ nlohmann::json rounded(const Eigen::Vector3d& v) {
 }  // namespace
 
 geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
-  geometry::Box3 box;
-  std::vector<double> values(sighting.points_in_camera.size());
-  if (values.empty()) return box;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::transform(sighting.points_in_camera, values.begin(), [&](const auto& p) {
-      return (map_from_camera * p.template cast<double>())[axis];
-    });
-    std::ranges::sort(values);
-    const auto cut = static_cast<std::size_t>(kTrim * static_cast<double>(values.size()));
-    box.min[axis] = values[cut];
-    box.max[axis] = values[values.size() - 1 - cut];
-  }
-  return box;
+  if (sighting.points_in_camera.empty()) return {};
+  std::vector<Eigen::Vector3d> in_map;
+  in_map.reserve(sighting.points_in_camera.size());
+  for (const auto& p : sighting.points_in_camera) in_map.emplace_back(map_from_camera * p.cast<double>());
+  return trimmed_box(in_map);
 }
 
 void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "services/mapper/core/trimmed_box.hpp"
+
 namespace rds::mapper {
 namespace {
 
 constexpr double kReachM = 0.15;       // around the box of the sightings
-constexpr double kTrim = 0.02;         // share of voxels outside the extent at each end
 constexpr std::size_t kMinVoxels = 8;  // fewer say nothing
 
 geometry::Box3 box_of(const MapObject& object) {
@@ -46,19 +47,6 @@ std::vector<Eigen::Vector3d> voxels_of(const MapObject& object, const std::vecto
   return voxels;
 }
 
-void fit(MapObject& object, const std::vector<Eigen::Vector3d>& voxels, double voxel_m) {
-  std::vector<double> values(voxels.size());
-  const auto cut = static_cast<std::size_t>(kTrim * static_cast<double>(values.size()));
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::transform(voxels, values.begin(), [&](const auto& v) { return v[axis]; });
-    std::ranges::sort(values);
-    const double low = values[cut];
-    const double high = values[values.size() - 1 - cut];
-    object.center[axis] = (low + high) / 2;
-    object.size[axis] = high - low + voxel_m;
-  }
-}
-
 }  // namespace
 
 void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, const LabelTable& labels) {
@@ -66,7 +54,10 @@ void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, c
   for (auto& object : objects) {
     const auto index = std::ranges::find(labels.names(), object.label) - labels.names().begin();
     const auto voxels = voxels_of(object, all, octree, static_cast<std::uint16_t>(index));
-    if (voxels.size() >= kMinVoxels) fit(object, voxels, octree.tree().getResolution());
+    if (voxels.size() < kMinVoxels) continue;
+    const geometry::Box3 centers = trimmed_box(voxels);
+    object.center = centers.center();
+    object.size = centers.size() + Eigen::Vector3d::Constant(octree.tree().getResolution());
   }
 }
 

@@ -90,8 +90,9 @@ class Tracker {
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
   /// Pose of the last frame that had one, as the map stands now; identity before that.
   [[nodiscard]] Pose last_map_from_camera() const;
-  /// True when the camera has been lost for longer than this map was ever tracked in, and the map is young:
-  /// reset() loses little then. Never of a map that was saved, nor with given poses.
+  /// True when the camera has been lost, in pictures that were searched for it, for longer than this map was
+  /// ever tracked in, and the map is young: reset() loses little then. Never of a map that was saved, nor
+  /// with given poses.
   [[nodiscard]] bool has_lost_young_map(std::int64_t stamp_ns) const;
   /// Forgets everything.
   void reset();
@@ -216,6 +217,7 @@ class Tracker {
   KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;
+  std::optional<std::int64_t> lost_since_ns_;
   std::uint64_t mark_ = 0;
   std::deque<KeyframeDepth> depth_of_keyframes_;  // of those whose boxes may still come
   std::vector<PointId> recent_points_;

@@ -82,10 +82,10 @@ double Tracker::jerk(const TrackedFrame& frame) const {
 bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
   const Keyframe* first = map_.keyframe(0);
   const bool is_own = map_.first_free_keyframe() == 0 && !config_.localize_only && !given_poses_;
-  if (state_ != State::kLost || !is_own || first == nullptr || !last_) return false;
+  if (!lost_since_ns_ || !is_own || first == nullptr || !last_) return false;
   const double tracked_s = static_cast<double>(last_->frame.stamp_ns - first->stamp_ns) / kNsPerSecond;
-  return tracked_s < config_.quality.young_map_s &&
-         since_last_s(stamp_ns) > std::max(kLostForGoodS, tracked_s);
+  const double lost_s = static_cast<double>(stamp_ns - *lost_since_ns_) / kNsPerSecond;
+  return tracked_s < config_.quality.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
 }
 
 /// By how many points a pose is held, of which one that no hand would give the camera needs more.
@@ -204,7 +204,9 @@ State Tracker::track_motion(TrackedFrame& frame) {
 }
 
 void Tracker::remember(TrackedFrame&& frame, State state) {
+  if (state == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.stamp_ns;
   if (!has_pose(state)) return;
+  lost_since_ns_.reset();
   cut_.remember(frame.camera_from_map.inverse());
   velocity_ = state == State::kRelocalised ? std::nullopt : motion_to(frame);
   const Pose reference_from_camera = map_.pose_of(reference_).inverse() * frame.camera_from_map.inverse();

@@ -62,6 +62,11 @@ TEST(TrackerLost, GivesUpAYoungMapAfterASecondOrAsLongAsItWasTracked) {
   EXPECT_EQ(step(brief, 8).state, State::kTracking);
   EXPECT_FALSE(gives_up(brief, 9, 3));
 
+  Tracker paused(small_config());
+  for (int i = 0; i < 6; ++i) step(paused, i);
+  EXPECT_FALSE(gives_up(paused, 4 * second, second / 2)) << "was not looked for during the gap";
+  EXPECT_TRUE(gives_up(paused, 4 * second + second / 2, second));
+
   TrackerConfig patient = small_config();
   patient.quality.young_map_s = 0;
   Tracker never(patient);

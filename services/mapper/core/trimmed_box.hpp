@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "common/geometry/box.hpp"
+
+namespace rds::mapper {
+
+/// Box [m] around points without their outliers: per axis, 2nd to 98th percentile. There must be a point.
+inline geometry::Box3 trimmed_box(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kTrim = 0.02;
+  geometry::Box3 box;
+  std::vector<double> values(points.size());
+  const auto cut = static_cast<std::size_t>(kTrim * static_cast<double>(values.size()));
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(points, values.begin(), [&](const auto& p) { return p[axis]; });
+    std::ranges::sort(values);
+    box.min[axis] = values[cut];
+    box.max[axis] = values[values.size() - 1 - cut];
+  }
+  return box;
+}
+
+}  // namespace rds::mapper

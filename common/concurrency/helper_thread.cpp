@@ -5,7 +5,8 @@
 
 namespace rds::concurrency {
 
-HelperThread::HelperThread() : thread_([this](const std::stop_token& stop) { help(stop); }) {}
+HelperThread::HelperThread()
+    : thread_([this](const std::stop_token& stop) { help(stop); }), processor_(thread_.native_handle()) {}
 
 void HelperThread::run(std::size_t count, const std::function<void(std::size_t)>& part) {
   {
@@ -14,7 +15,10 @@ void HelperThread::run(std::size_t count, const std::function<void(std::size_t)>
     count_ = count;
     next_ = 0;
   }
-  if (count > 1) changed_.notify_all();
+  if (count > 1) {
+    processor_.keep_off_mine();
+    changed_.notify_all();
+  }
   do_parts();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return begun_ == 0; });

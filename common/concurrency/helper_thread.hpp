@@ -9,6 +9,8 @@
 #include <stop_token>
 #include <thread>
 
+#include "common/concurrency/other_processor.hpp"
+
 namespace rds::concurrency {
 
 /// A thread that helps another with work made of independent parts, and sleeps in between.
@@ -33,7 +35,8 @@ class HelperThread {
   std::size_t next_ = 0;   // part that nobody has begun
   std::size_t begun_ = 0;  // parts that are being done
   std::exception_ptr failure_;
-  std::jthread thread_;  // last: it uses the members above
+  std::jthread thread_;  // it uses the members above
+  OtherProcessor processor_;
 };
 
 }  // namespace rds::concurrency

@@ -63,8 +63,8 @@ struct Scene {
   [[nodiscard]] FollowedPoints follow(std::span<const PointId> ids, const image::RgbdFrame& frame,
                                       const ImagePyramid& images,
                                       const RunParts& run_parts = run_in_turn) const {
-    return follow_points(*map, ids, {frame, images, {}, last_camera_from_map, {}}, model, pyramid,
-                         config.following, run_parts);
+    return PointSearch(*map, ids, {frame, images, last_camera_from_map, {}}, model, pyramid, config.following)
+        .find({}, run_parts);
   }
 
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {

@@ -2,6 +2,8 @@
 #include "services/tracker/core/point_following.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <utility>
 
 #include "services/tracker/core/feature_alignment.hpp"
 
@@ -13,67 +15,17 @@ constexpr double kPatchRadius = 4;  // px, at the feature's level
 constexpr float kCell = 32;         // px, side of the parts of the picture that points are spread over
 constexpr std::size_t kPointsPerPart = 32;
 
-/// A map point that the picture should show.
-struct Expected {
-  const MapPoint* point;
-  Eigen::Vector2f image_px;
-  int level;
-  bool hidden;  // by something movable
-};
+std::size_t parts_of(std::size_t points) {
+  return (points + kPointsPerPart - 1) / kPointsPerPart;
+}
 
 /// True if what surrounds a point is movable, even in part: the patch would pull it along.
-bool is_hidden(const FollowingView& view, const Eigen::Vector2f& px, double scale) {
-  if (!view.movable.any()) return false;
+bool is_hidden(const MovableMask& movable, const Eigen::Vector2f& px, double scale) {
   const auto radius = static_cast<float>(kPatchRadius * scale);
-  return view.movable.covers(px) || view.movable.covers(px + Eigen::Vector2f(radius, radius)) ||
-         view.movable.covers(px + Eigen::Vector2f(radius, -radius)) ||
-         view.movable.covers(px + Eigen::Vector2f(-radius, radius)) ||
-         view.movable.covers(px + Eigen::Vector2f(-radius, -radius));
-}
-
-std::vector<Expected> expect(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-                             const Eigen::Vector3d& camera_in_map, const ObservationModel& model,
-                             const ScalePyramid& pyramid) {
-  const geometry::CameraModel& camera = view.picture.camera;
-  const FeatureSet bounds(camera, {});
-  const Eigen::Vector2f largest(static_cast<float>(camera.width - 1) - kBorder,
-                                static_cast<float>(camera.height - 1) - kBorder);
-  std::vector<Expected> all;
-  for (const PointId id : points) {
-    const MapPoint* point = map.point(id);
-    if (point == nullptr) continue;
-    const auto projected = project_point(*point, view.camera_from_map, camera_in_map, bounds, model, pyramid);
-    if (!projected) continue;
-    const Eigen::Vector2f px =
-        project_rolling(camera, view.motion, view.camera_from_map * point->position).cast<float>();
-    if ((px.array() >= kBorder).all() && (px.array() <= largest.array()).all())
-      all.push_back({point, px, projected->level,
-                     is_hidden(view, px, pyramid.scale(projected->level)) && trust(map, *point) < 1});
-  }
-  return all;
-}
-
-/// Indices: the most observed point of each cell of the picture, then the second of each, and so on.
-std::vector<std::size_t> spread(const std::vector<Expected>& expected, const geometry::CameraModel& camera) {
-  const auto columns = static_cast<std::size_t>(static_cast<float>(camera.width) / kCell) + 1;
-  const auto rows = static_cast<std::size_t>(static_cast<float>(camera.height) / kCell) + 1;
-  std::vector<std::vector<std::size_t>> cells(columns * rows);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const Eigen::Vector2f cell = expected[i].image_px / kCell;
-    cells[static_cast<std::size_t>(cell.y()) * columns + static_cast<std::size_t>(cell.x())].push_back(i);
-  }
-  std::size_t fullest = 0;
-  for (auto& cell : cells) {
-    std::ranges::stable_sort(cell, std::ranges::greater{},
-                             [&](std::size_t i) { return expected[i].point->observations.size(); });
-    fullest = std::max(fullest, cell.size());
-  }
-  std::vector<std::size_t> order;
-  order.reserve(expected.size());
-  for (std::size_t rank = 0; rank < fullest; ++rank)
-    for (const auto& cell : cells)
-      if (rank < cell.size()) order.push_back(cell[rank]);
-  return order;
+  return movable.covers(px) || movable.covers(px + Eigen::Vector2f(radius, radius)) ||
+         movable.covers(px + Eigen::Vector2f(radius, -radius)) ||
+         movable.covers(px + Eigen::Vector2f(-radius, radius)) ||
+         movable.covers(px + Eigen::Vector2f(-radius, -radius));
 }
 
 /// The observation from the nearest place whose picture is kept; null if there is none.
@@ -113,26 +65,6 @@ PatchWarp warp_of(const Keyframe& keyframe, const Feature& feature, const MapPoi
   return warp;
 }
 
-std::optional<Feature> find(const SlamMap& map, const Expected& expected, const FollowingView& view,
-                            const Eigen::Vector3d& camera_in_map, const ScalePyramid& pyramid,
-                            const FollowingConfig& config) {
-  const MapPoint& point = *expected.point;
-  const Observation* seen = nearest_view(map, point, camera_in_map);
-  if (seen == nullptr) return std::nullopt;
-  const Keyframe& keyframe = *map.keyframe(seen->keyframe);
-  const Feature& known = (*keyframe.features)[seen->feature];
-  const auto aligned = align_feature(warp_of(keyframe, known, point, view, pyramid), view.images,
-                                     expected.image_px, config.max_shift_px);
-  if (!aligned || static_cast<double>(aligned->correlation) < config.min_correlation) return std::nullopt;
-  Feature feature;
-  feature.px = feature.image_px = aligned->image_px;
-  feature.angle_rad = known.angle_rad;
-  feature.level = static_cast<std::uint8_t>(expected.level);
-  feature.descriptor = point.descriptor;
-  feature.matchable = false;
-  return feature;
-}
-
 Feature hidden_feature(const Eigen::Vector2f& image_px) {
   Feature feature;
   feature.px = feature.image_px = image_px;
@@ -143,35 +75,131 @@ Feature hidden_feature(const Eigen::Vector2f& image_px) {
 
 }  // namespace
 
-FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-                             const ObservationModel& model, const ScalePyramid& pyramid,
-                             const FollowingConfig& config, const RunParts& run_parts) {
-  const Eigen::Vector3d camera_in_map = view.camera_from_map.inverse().translation();
-  const auto expected = expect(map, points, view, camera_in_map, model, pyramid);
-  const auto order = spread(expected, view.picture.camera);
-  std::vector<std::optional<Feature>> found(order.size());
+PointSearch::PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
+                         const ObservationModel& model, const ScalePyramid& pyramid,
+                         const FollowingConfig& config)
+    : map_(map),
+      view_(view),
+      pyramid_(pyramid),
+      config_(config),
+      camera_in_map_(view.camera_from_map.inverse().translation()) {
+  expect(points, model);
+  spread();
+}
+
+void PointSearch::expect(std::span<const PointId> points, const ObservationModel& model) {
+  const geometry::CameraModel& camera = view_.picture.camera;
+  const FeatureSet bounds(camera, {});
+  const Eigen::Vector2f largest(static_cast<float>(camera.width - 1) - kBorder,
+                                static_cast<float>(camera.height - 1) - kBorder);
+  expected_.reserve(points.size());
+  for (const PointId id : points) {
+    const MapPoint* point = map_.point(id);
+    if (point == nullptr) continue;
+    const auto projected =
+        project_point(*point, view_.camera_from_map, camera_in_map_, bounds, model, pyramid_);
+    if (!projected) continue;
+    const Eigen::Vector2f px =
+        project_rolling(camera, view_.motion, view_.camera_from_map * point->position).cast<float>();
+    if ((px.array() >= kBorder).all() && (px.array() <= largest.array()).all())
+      expected_.push_back({.point = point, .image_px = px, .level = projected->level, .found = {}});
+  }
+}
+
+/// Puts first the most observed point of each cell of the picture, then the second of each, and so on.
+void PointSearch::spread() {
+  const geometry::CameraModel& camera = view_.picture.camera;
+  const auto columns = static_cast<std::size_t>(static_cast<float>(camera.width) / kCell) + 1;
+  const auto rows = static_cast<std::size_t>(static_cast<float>(camera.height) / kCell) + 1;
+  std::vector<std::vector<std::size_t>> cells(columns * rows);
+  for (std::size_t i = 0; i < expected_.size(); ++i) {
+    const Eigen::Vector2f cell = expected_[i].image_px / kCell;
+    cells[static_cast<std::size_t>(cell.y()) * columns + static_cast<std::size_t>(cell.x())].push_back(i);
+  }
+  std::size_t fullest = 0;
+  for (auto& cell : cells) {
+    std::ranges::stable_sort(cell, std::ranges::greater{},
+                             [this](std::size_t i) { return expected_[i].point->observations.size(); });
+    fullest = std::max(fullest, cell.size());
+  }
+  std::vector<Expected> in_order;
+  in_order.reserve(expected_.size());
+  for (std::size_t rank = 0; rank < fullest; ++rank)
+    for (const auto& cell : cells)
+      if (rank < cell.size()) in_order.push_back(expected_[cell[rank]]);
+  expected_ = std::move(in_order);
+}
+
+void PointSearch::hide(const MovableMask& movable) {
+  if (!movable.any()) return;
+  for (Expected& e : expected_)
+    e.hidden = is_hidden(movable, e.image_px, pyramid_.scale(e.level)) && trust(map_, *e.point) < 1;
+}
+
+/// No more than are wanted at least have to be looked for.
+std::size_t PointSearch::batch_end(std::size_t begin, std::size_t wanted) const {
+  return std::min(expected_.size(), begin + wanted);
+}
+
+std::optional<Feature> PointSearch::look_for(const Expected& expected) const {
+  const MapPoint& point = *expected.point;
+  const Observation* seen = nearest_view(map_, point, camera_in_map_);
+  if (seen == nullptr) return std::nullopt;
+  const Keyframe& keyframe = *map_.keyframe(seen->keyframe);
+  const Feature& known = (*keyframe.features)[seen->feature];
+  const auto aligned = align_feature(warp_of(keyframe, known, point, view_, pyramid_), view_.images,
+                                     expected.image_px, config_.max_shift_px);
+  if (!aligned || static_cast<double>(aligned->correlation) < config_.min_correlation) return std::nullopt;
+  Feature feature;
+  feature.px = feature.image_px = aligned->image_px;
+  feature.angle_rad = known.angle_rad;
+  feature.level = static_cast<std::uint8_t>(expected.level);
+  feature.descriptor = point.descriptor;
+  feature.matchable = false;
+  return feature;
+}
+
+void PointSearch::look(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < std::min(end, begin + kPointsPerPart); ++i) {
+    Expected& e = expected_[i];
+    if (!e.hidden && !e.looked_for) e.found = look_for(e);
+    e.looked_for = true;
+  }
+}
+
+void PointSearch::look_ahead(const RunParts& run_parts, const std::function<void()>& beside) {
+  const auto wanted = static_cast<std::size_t>(config_.points);
+  const std::size_t due = batch_end(0, wanted);
+  const std::size_t likely = batch_end(due, wanted);  // in place of those that are not found
+  std::atomic<bool> waited_for = false;
+  run_parts(1 + parts_of(likely), [&](std::size_t part) {
+    if (part == 0) {
+      beside();
+      waited_for = true;
+    } else if (const std::size_t begin = (part - 1) * kPointsPerPart; begin < due || !waited_for) {
+      look(begin, likely);
+    }
+  });
+}
+
+FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run_parts) {
+  hide(movable);
   FollowedPoints followed;
-  auto wanted = static_cast<std::size_t>(config.points);
-  for (std::size_t begin = 0; begin < order.size() && wanted > 0;) {
-    // No more than are wanted at least have to be looked for.
-    const std::size_t end = std::min(order.size(), begin + wanted);
-    run_parts((end - begin + kPointsPerPart - 1) / kPointsPerPart, [&](std::size_t part) {
-      const std::size_t first = begin + part * kPointsPerPart;
-      for (std::size_t i = first; i < std::min(end, first + kPointsPerPart); ++i)
-        if (const Expected& e = expected[order[i]]; !e.hidden)
-          found[i] = find(map, e, view, camera_in_map, pyramid, config);
-    });
-    for (; begin < end; ++begin) {
-      const Expected& e = expected[order[begin]];
+  auto wanted = static_cast<std::size_t>(config_.points);
+  for (std::size_t i = 0; i < expected_.size() && wanted > 0;) {
+    const std::size_t end = batch_end(i, wanted);
+    run_parts(parts_of(end - i), [&](std::size_t part) { look(i + part * kPointsPerPart, end); });
+    for (; i < end; ++i) {
+      const Expected& e = expected_[i];
       if (e.hidden) {
         followed.features.push_back(hidden_feature(e.image_px));
         followed.points.push_back(kNoId);
         continue;
       }
       followed.looked_for.push_back(e.point->id);
-      if (!found[begin]) continue;
+      if (!e.found) continue;
       --wanted;
-      followed.features.push_back(*found[begin]);
+      followed.features.push_back(*e.found);
       followed.points.push_back(e.point->id);
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +18,6 @@ namespace rds::tracker {
 struct FollowingView {
   const image::RgbdFrame& picture;
   const ImagePyramid& images;               // of the picture
-  const MovableMask& movable;               // where static points are hidden
   Pose camera_from_map = Pose::Identity();  // near to the truth: features are a few pixels off at most
   ShutterMotion motion;
 };
@@ -31,9 +32,42 @@ struct FollowedPoints {
 /// Finds map points in a picture by the patch around the feature of the keyframe that saw them from nearest.
 ///
 /// The most observed points of every part of the picture come first, until config.points are found. A point
-/// whose patch looks otherwise there is hidden or gone and is left out.
-FollowedPoints follow_points(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-                             const ObservationModel& model, const ScalePyramid& pyramid,
-                             const FollowingConfig& config, const RunParts& run_parts = run_in_turn);
+/// whose patch looks otherwise there is hidden or gone and is left out. What it is made of has to outlive it,
+/// unchanged.
+class PointSearch {
+ public:
+  PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
+              const ObservationModel& model, const ScalePyramid& pyramid, const FollowingConfig& config);
+
+  /// Looks for the points that come first before it is known what is movable, and does something else beside.
+  /// What find() says does not depend on it.
+  void look_ahead(const RunParts& run_parts, const std::function<void()>& beside);
+  /// @param movable  where static points are hidden.
+  FollowedPoints find(const MovableMask& movable, const RunParts& run_parts = run_in_turn);
+
+ private:
+  struct Expected {  // a map point that the picture should show
+    const MapPoint* point = nullptr;
+    Eigen::Vector2f image_px = Eigen::Vector2f::Zero();
+    int level = 0;
+    bool hidden = false;  // by something movable
+    bool looked_for = false;
+    std::optional<Feature> found;
+  };
+
+  void expect(std::span<const PointId> points, const ObservationModel& model);
+  void spread();
+  void hide(const MovableMask& movable);
+  void look(std::size_t begin, std::size_t end);
+  [[nodiscard]] std::optional<Feature> look_for(const Expected& expected) const;
+  [[nodiscard]] std::size_t batch_end(std::size_t begin, std::size_t wanted) const;
+
+  const SlamMap& map_;
+  FollowingView view_;
+  const ScalePyramid& pyramid_;
+  const FollowingConfig& config_;
+  Eigen::Vector3d camera_in_map_;
+  std::vector<Expected> expected_;  // in the order in which they are looked for
+};
 
 }  // namespace rds::tracker

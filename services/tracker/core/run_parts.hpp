@@ -15,4 +15,10 @@ inline void run_in_turn(std::size_t count, const std::function<void(std::size_t)
   for (std::size_t i = 0; i < count; ++i) part(i);
 }
 
+/// Calls both, also at the same time.
+inline void run_both(const RunParts& run_parts, const std::function<void()>& first,
+                     const std::function<void()>& second) {
+  run_parts(2, [&](std::size_t part) { part == 0 ? first() : second(); });
+}
+
 }  // namespace rds::tracker

@@ -47,7 +47,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts r
       run_parts_(std::move(run_parts)),
       pyramid_(config.extraction.levels, config.extraction.scale_factor),
       extractor_(config.extraction, run_parts_),
-      cut_(config.removal, config.depth.max_depth_m, run_parts_),
+      cut_(config.removal, config.depth.max_depth_m),
       map_(config.map, pyramid_),
       calibration_(config.self_calibration) {}
 
@@ -116,16 +116,15 @@ void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) 
     around.camera_from_map = aligned;
 }
 
-Tracker::Surroundings Tracker::surroundings(const image::RgbdFrame& picture) {
-  Surroundings around;
-  guess_pose(picture, around);
-  if (!last_ || !around.camera_from_map || !(follows_points() || removes_by_depth())) return around;
+/// What the frame should see, by the guess.
+void Tracker::look_around(const image::RgbdFrame& picture, Surroundings& around) {
+  if (!last_ || !around.camera_from_map || !(follows_points() || removes_by_depth())) return;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   around.reference = local.reference;
   std::ranges::copy_if(last_->frame.points, std::back_inserter(around.points),
                        [&](PointId id) { return map_.point(id) != nullptr; });
   around.points.insert(around.points.end(), local.points.begin(), local.points.end());
-  return around;
+  if (can_follow(around)) around.search.emplace(search_around(picture, around, *around.camera_from_map));
 }
 
 /// Those of the points around, in the camera frame, that have been found where they are for long.
@@ -142,6 +141,36 @@ std::vector<Eigen::Vector3f> Tracker::lasting_points(const Surroundings& around)
   return lasting;
 }
 
+void Tracker::beside_cut(const std::function<void()>& tracking, const std::function<void()>& cutting) const {
+  if (config_.removal.method == "off") return tracking();
+  run_both(run_parts_, tracking, cutting);
+}
+
+/// Gets ready what a picture is searched with for points, and for what is movable.
+void Tracker::look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around) {
+  beside_cut(
+      [&] {
+        look_at(picture);
+        guess_pose(picture, around);
+      },
+      [&] { cut_.look_at(given); });
+  beside_cut([&] { look_around(picture, around); },
+             [&] {
+               if (around.camera_from_map) cut_.compare(*around.camera_from_map);
+             });
+}
+
+/// The points around are looked for beside.
+MovableMask Tracker::cut_movable(std::span<const MovableRegion> regions, Surroundings& around) {
+  MovableMask movable;
+  const auto cut = [&] { movable = cut_.cut(regions, lasting_points(around)); };
+  if (around.search)
+    around.search->look_ahead(run_parts_, cut);
+  else
+    cut();
+  return movable;
+}
+
 FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
@@ -150,9 +179,9 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   if (!is_usable(given)) return result;
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();
-  look_at(picture);
-  const Surroundings around = surroundings(picture);
-  const MovableMask movable = cut_.cut(given, around.camera_from_map, regions, lasting_points(around));
+  Surroundings around;
+  look(given, picture, around);
+  const MovableMask movable = cut_movable(regions, around);
   TrackedFrame frame;
   frame.given_fx = given_fx_;
   frame.movable_there = movable.any() || !regions.empty();

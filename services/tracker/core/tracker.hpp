@@ -112,6 +112,7 @@ class Tracker {
     std::optional<Pose> aligned;          // by the last frame's points, where no hand would move it so
     std::vector<PointId> points;          // of the last frame and of the local map around it
     KeyframeId reference = kNoId;
+    std::optional<PointSearch> search;  // for the points, where they can be followed
   };
   struct FollowedFrame {
     TrackedFrame frame;
@@ -135,10 +136,13 @@ class Tracker {
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
   void guess_pose(const image::RgbdFrame& picture, Surroundings& around) const;
-  [[nodiscard]] Surroundings surroundings(const image::RgbdFrame& picture);
+  void beside_cut(const std::function<void()>& tracking, const std::function<void()>& cutting) const;
+  void look_around(const image::RgbdFrame& picture, Surroundings& around);
   [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
-  KeyframeNeed find_pose(const image::RgbdFrame& picture, const Surroundings& around,
-                         const MovableMask& movable, TrackedFrame& frame, FrameResult& result);
+  void look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around);
+  [[nodiscard]] MovableMask cut_movable(std::span<const MovableRegion> regions, Surroundings& around);
+  KeyframeNeed find_pose(const image::RgbdFrame& picture, Surroundings& around, const MovableMask& movable,
+                         TrackedFrame& frame, FrameResult& result);
   KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,
                               TrackedFrame& frame, FrameResult& result);
   void extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
@@ -146,13 +150,14 @@ class Tracker {
   void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
                     TrackedFrame& frame) const;
   [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
-  [[nodiscard]] std::optional<FollowedFrame> follow_points_around(const image::RgbdFrame& picture,
-                                                                  const Surroundings& around,
-                                                                  const MovableMask& movable,
-                                                                  const Pose& guess,
-                                                                  const TrackedFrame& begun) const;
-  [[nodiscard]] std::optional<FollowedFrame> follow_map(const image::RgbdFrame& picture,
-                                                        const Surroundings& around,
+  [[nodiscard]] bool can_follow(const Surroundings& around) const;
+  [[nodiscard]] PointSearch search_around(const image::RgbdFrame& picture, const Surroundings& around,
+                                          const Pose& guess) const;
+  [[nodiscard]] std::optional<FollowedFrame> follow_points(const image::RgbdFrame& picture,
+                                                           PointSearch& search, const Pose& guess,
+                                                           const MovableMask& movable,
+                                                           const TrackedFrame& begun) const;
+  [[nodiscard]] std::optional<FollowedFrame> follow_map(const image::RgbdFrame& picture, Surroundings& around,
                                                         const MovableMask& movable,
                                                         const TrackedFrame& begun) const;
   bool accept(FollowedFrame& followed, KeyframeId reference);

@@ -50,27 +50,38 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
          last_camera_from_map;
 }
 
-/// The points around as the picture shows them near where the guess has them.
-/// @return nullopt where too few agree on a pose.
-std::optional<Tracker::FollowedFrame> Tracker::follow_points_around(const image::RgbdFrame& picture,
-                                                                    const Surroundings& around,
-                                                                    const MovableMask& movable,
-                                                                    const Pose& guess,
-                                                                    const TrackedFrame& begun) const {
+bool Tracker::can_follow(const Surroundings& around) const {
+  const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
+  return follows_points() && located && around.camera_from_map && around.reference != kNoId &&
+         map_.keyframe(around.reference)->images;
+}
+
+/// For the points around, near where the guess has them.
+PointSearch Tracker::search_around(const image::RgbdFrame& picture, const Surroundings& around,
+                                   const Pose& guess) const {
+  const ObservationModel model(picture.camera, config_.depth);
+  return {map_,  around.points, {picture, *images_, guess, shutter_motion(picture.stamp_ns)},
+          model, pyramid_,      config_.following};
+}
+
+/// The points that are found, and the pose they agree on.
+/// @return nullopt where too few do.
+std::optional<Tracker::FollowedFrame> Tracker::follow_points(const image::RgbdFrame& picture,
+                                                             PointSearch& search, const Pose& guess,
+                                                             const MovableMask& movable,
+                                                             const TrackedFrame& begun) const {
   const FollowingConfig& config = config_.following;
   FollowedFrame result{begun, {}, nullptr};
   TrackedFrame& frame = result.frame;
   frame.stamp_ns = picture.stamp_ns;
   frame.camera_from_map = guess;
   frame.motion = shutter_motion(picture.stamp_ns);
-  const ObservationModel model(picture.camera, config_.depth);
-  FollowedPoints followed =
-      follow_points(map_, around.points, {picture, *images_, movable, guess, frame.motion}, model, pyramid_,
-                    config, run_parts_);
+  FollowedPoints followed = search.find(movable, run_parts_);
   set_features(picture, std::move(followed.features), frame);
   frame.points = std::move(followed.points);
   result.looked_for = std::move(followed.looked_for);
   const int found = frame.matches();
+  const ObservationModel model(picture.camera, config_.depth);
   const int inliers = optimize_frame(map_, model, pyramid_, config_.pose, frame);
   if (inliers < config.min_points || inliers < config.min_inlier_share * found) return std::nullopt;
   return result;
@@ -78,15 +89,13 @@ std::optional<Tracker::FollowedFrame> Tracker::follow_points_around(const image:
 
 /// From where the frame is expected and, if that is not what the last frame's points say, from there.
 std::optional<Tracker::FollowedFrame> Tracker::follow_map(const image::RgbdFrame& picture,
-                                                          const Surroundings& around,
-                                                          const MovableMask& movable,
+                                                          Surroundings& around, const MovableMask& movable,
                                                           const TrackedFrame& begun) const {
-  const bool located = state_ == State::kTracking || state_ == State::kRelocalised;
-  if (!follows_points() || !located || !around.camera_from_map) return std::nullopt;
-  if (around.reference == kNoId || !map_.keyframe(around.reference)->images) return std::nullopt;
-  auto best = follow_points_around(picture, around, movable, *around.camera_from_map, begun);
+  if (!around.search) return std::nullopt;
+  auto best = follow_points(picture, *around.search, *around.camera_from_map, movable, begun);
   if (!around.aligned || (best && jerk(best->frame) <= 1)) return best;
-  auto other = follow_points_around(picture, around, movable, *around.aligned, begun);
+  PointSearch search = search_around(picture, around, *around.aligned);
+  auto other = follow_points(picture, search, *around.aligned, movable, begun);
   return other && (!best || support(other->frame) > support(best->frame)) ? std::move(other)
                                                                           : std::move(best);
 }
@@ -106,7 +115,7 @@ bool Tracker::accept(FollowedFrame& followed, KeyframeId reference) {
 }
 
 /// By following where that does, else by features.
-KeyframeNeed Tracker::find_pose(const image::RgbdFrame& picture, const Surroundings& around,
+KeyframeNeed Tracker::find_pose(const image::RgbdFrame& picture, Surroundings& around,
                                 const MovableMask& movable, TrackedFrame& frame, FrameResult& result) {
   auto followed = follow_map(picture, around, movable, frame);
   if (!followed || !accept(*followed, around.reference))

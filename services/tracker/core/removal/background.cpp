@@ -33,9 +33,11 @@ bool Background::shows(const cv::Point& cell, bool wide) const {
   if (picture_.lasting(cell) != 0) return true;
   if (!(picture_.depth_m(cell) > 0)) return false;
   const Eigen::Vector3f p = point(cell.x, cell.y);
-  return std::ranges::any_of(planes_, [&](const Plane& plane) {
-    return (plane.wide || !wide) && is_near(plane, p) && is_parallel(plane, normal(cell.x, cell.y));
-  });
+  const auto may_show = [&](const Plane& plane) { return (plane.wide || !wide) && is_near(plane, p); };
+  if (std::ranges::none_of(planes_, may_show)) return false;
+  const Eigen::Vector3f n = normal(cell.x, cell.y);
+  return std::ranges::any_of(planes_,
+                             [&](const Plane& plane) { return may_show(plane) && is_parallel(plane, n); });
 }
 
 Eigen::Vector3f Background::point(int column, int row) const {

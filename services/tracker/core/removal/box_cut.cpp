@@ -52,11 +52,12 @@ void cut_box(Foreground& picture, const GridGeometry& grid, const MovableRegion&
 }  // namespace
 
 const cv::Mat1f& Foreground::in_front_m(const cv::Rect& cells) {
-  for (int r = cells.y; r < cells.br().y; ++r)
-    for (int c = cells.x; c < cells.br().x; ++c) {
-      float& in_front_m = in_front_m_(r, c);
-      if (in_front_m == kNotAsked) in_front_m = background_.shows({c, r}) ? 0 : picture_.depth_m(r, c);
-    }
+  for (int r = cells.y; r < cells.br().y; ++r) {
+    const float* depth_m = picture_.depth_m[r];
+    float* in_front_m = in_front_m_[r];
+    for (int c = cells.x; c < cells.br().x; ++c)
+      if (in_front_m[c] == kNotAsked) in_front_m[c] = background_.shows({c, r}) ? 0 : depth_m[c];
+  }
   return in_front_m_;
 }
 

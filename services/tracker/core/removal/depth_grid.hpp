@@ -31,8 +31,11 @@ class GridGeometry {
     const float per_m = 1 / point_in_camera.z();
     const int x = static_cast<int>((point_in_camera.x() * per_m - table_corner_.x()) * table_per_ray_);
     const int y = static_cast<int>((point_in_camera.y() * per_m - table_corner_.y()) * table_per_ray_);
-    const bool inside = x >= 0 && y >= 0 && x < cell_table_.cols && y < cell_table_.rows;
-    return inside ? cell_table_(y, x) : -1;
+    if (x < 0 || y < 0 || x >= table_size_.width || y >= table_size_.height) return -1;
+    if (!cell_table_.empty()) return cell_table_(y, x);
+    const int column = column_table_[static_cast<std::size_t>(x)];
+    const int row = row_table_[static_cast<std::size_t>(y)];
+    return column < 0 || row < 0 ? -1 : row * size_.width + column;
   }
   /// The same cell; (-1, -1) outside the picture.
   [[nodiscard]] cv::Point cell_of(const Eigen::Vector3f& point_in_camera) const {
@@ -46,10 +49,14 @@ class GridGeometry {
   cv::Size size_;
   static constexpr float kNearestM = 0.1F;
 
-  void make_cell_table();
+  void make_tables();
+  [[nodiscard]] cv::Point cell_of_entry(int x, int y) const;
 
   std::vector<Eigen::Vector3f> rays_;
-  cv::Mat1i cell_table_;  // cells by ray, so that distortion costs nothing
+  std::vector<int> column_table_;  // by ray; -1 outside the picture
+  std::vector<int> row_table_;
+  cv::Mat1i cell_table_;  // by ray, where the picture is distorted; it hardly fits the processor's cache
+  cv::Size table_size_;
   Eigen::Vector2f table_corner_ = Eigen::Vector2f::Zero();
   float table_per_ray_ = 0;
 };

@@ -61,11 +61,10 @@ void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfi
 
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
                                  const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
-                                 const RemovalConfig& config, const RunParts& run_parts) {
-  std::vector<cv::Mat1f> before(past.size());
-  run_parts(past.size(), [&](std::size_t i) { before[i] = seen_from_here(past[i], grid, camera_from_map); });
+                                 const RemovalConfig& config) {
   MotionEvidence evidence{cv::Mat1b(grid.size(), std::uint8_t{0}), cv::Mat1b(grid.size(), std::uint8_t{0})};
-  for (const cv::Mat1f& seen : before) judge(depth_m, seen, config, evidence);
+  for (const SeenCells& seen : past)
+    judge(depth_m, seen_from_here(seen, grid, camera_from_map), config, evidence);
   // One earlier picture alone may be wrong: where others saw the place too, they have to agree.
   cv::threshold(evidence.arrived, evidence.arrived,
                 std::min<double>(kWitnesses, static_cast<double>(past.size())) - 0.5, 255, cv::THRESH_BINARY);

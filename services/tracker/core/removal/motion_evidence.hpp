@@ -7,7 +7,6 @@
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"
 #include "services/tracker/core/removal/removal_config.hpp"
-#include "services/tracker/core/run_parts.hpp"
 
 namespace rds::tracker {
 
@@ -30,7 +29,7 @@ struct MotionEvidence {
 /// changes nothing. Parts that the earlier picture knew as movable say nothing.
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
                                  const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
-                                 const RemovalConfig& config, const RunParts& run_parts);
+                                 const RemovalConfig& config);
 
 /// The things that have arrived, as far as they were seen to arrive. What is small is noise; where too much
 /// of what can be judged has arrived the pose is wrong, and there is nothing.

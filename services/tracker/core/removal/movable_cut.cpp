@@ -18,47 +18,49 @@ constexpr double kLastingStepM = 0.03;
 
 }  // namespace
 
-MovableMask MovableCut::cut(const image::RgbdFrame& picture,
-                            const std::optional<geometry::Pose>& camera_from_map,
-                            std::span<const MovableRegion> regions,
-                            std::span<const Eigen::Vector3f> lasting) {
-  if (config_.method == "off") return {};
+void MovableCut::look_at(const image::RgbdFrame& picture) {
+  if (config_.method == "off") return;
   if (picture.camera != grid_.camera()) {
     forget();
     grid_ = GridGeometry(picture.camera);
   }
-  const Now last = std::exchange(now_, Now());
+  last_ = std::exchange(now_, Now());
   now_.stamp_ns = picture.stamp_ns;
   now_.cells.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
+}
+
+void MovableCut::compare(const geometry::Pose& camera_from_map) {
+  if (config_.method != "depth") return;
+  now_.camera_from_map = camera_from_map;
+  if (!config_.motion) return;
+  const cv::Mat1f& depth_m = now_.cells.depth_m;
+  std::vector<SeenCells> past;
+  for (const auto& [stamp, seen] : past_) past.push_back(seen);
+  now_.moved = arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_), config_);
+}
+
+MovableMask MovableCut::cut(std::span<const MovableRegion> regions,
+                            std::span<const Eigen::Vector3f> lasting) {
+  if (config_.method == "off") return {};
   if (config_.method == "box") return whole_boxes(regions);
   now_.mask = cv::Mat1b(grid_.size(), std::uint8_t{0});
   now_.unsupported_s = cv::Mat1f(grid_.size(), 0.0F);
   mark_lasting(lasting);
-  const auto moved = camera_from_map && config_.motion ? things_that_moved(*camera_from_map) : Things();
-  if (!regions.empty() || !moved.empty() || last.widened.any()) mark(regions, moved, camera_from_map, last);
+  if (!regions.empty() || !now_.moved.empty() || last_.widened.any()) mark(regions);
   last_pose_.reset();
   if (cv::countNonZero(now_.mask) > 0) now_.widened = widened(now_.cells.depth_m, now_.mask);
   return now_.widened;
 }
 
-MovableCut::Things MovableCut::things_that_moved(const geometry::Pose& camera_from_map) const {
-  const cv::Mat1f& depth_m = now_.cells.depth_m;
-  std::vector<SeenCells> past;
-  for (const auto& [stamp, seen] : past_) past.push_back(seen);
-  return arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_, run_parts_),
-                  config_);
-}
-
-void MovableCut::mark(std::span<const MovableRegion> regions, const Things& moved,
-                      const std::optional<geometry::Pose>& camera_from_map, const Now& last) {
+void MovableCut::mark(std::span<const MovableRegion> regions) {
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
   fill_boxes(grid_, regions, suspect);
-  for (const auto& cells : moved) suspect(cv::boundingRect(cells)).setTo(255);
+  for (const auto& cells : now_.moved) suspect(cv::boundingRect(cells)).setTo(255);
   const Background background(now_.cells, grid_, suspect);
   Foreground foreground(now_.cells, background);
   cut_boxes(foreground, grid_, regions, config_, now_.mask);
-  for (const auto& cells : moved) cut_around(foreground, grid_, cells, config_, now_.mask);
-  if (camera_from_map && last_pose_ && last.widened.any()) carry(last, *camera_from_map, background);
+  for (const auto& cells : now_.moved) cut_around(foreground, grid_, cells, config_, now_.mask);
+  if (now_.camera_from_map && last_pose_ && last_.widened.any()) carry(background);
 }
 
 /// Marks the surfaces right around points that show where they have always been.
@@ -79,14 +81,15 @@ void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
 }
 
 /// Where the parts that were cut from the last picture show now, if they have not moved.
-void MovableCut::carry(const Now& last, const geometry::Pose& camera_from_map, const Background& background) {
-  const auto passed_s = static_cast<float>(static_cast<double>(now_.stamp_ns - last.stamp_ns) / kNsPerSecond);
-  const Eigen::Isometry3f here_from_last = (camera_from_map * *last_pose_).cast<float>();
-  for (int r = 0; r < last.mask.rows; ++r)
-    for (int c = 0; c < last.mask.cols; ++c) {
-      const float age_s = last.unsupported_s(r, c) + passed_s;
-      const float z = last.cells.depth_m(r, c);
-      if (last.mask(r, c) == 0 || !(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
+void MovableCut::carry(const Background& background) {
+  const auto passed_s =
+      static_cast<float>(static_cast<double>(now_.stamp_ns - last_.stamp_ns) / kNsPerSecond);
+  const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_pose_).cast<float>();
+  for (int r = 0; r < last_.mask.rows; ++r)
+    for (int c = 0; c < last_.mask.cols; ++c) {
+      const float age_s = last_.unsupported_s(r, c) + passed_s;
+      const float z = last_.cells.depth_m(r, c);
+      if (last_.mask(r, c) == 0 || !(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
       if (cell.x < 0) continue;
@@ -135,6 +138,7 @@ void MovableCut::forget() {
   past_.clear();
   last_pose_.reset();
   now_ = Now();
+  last_ = Now();
 }
 
 }  // namespace rds::tracker

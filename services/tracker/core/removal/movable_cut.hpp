@@ -19,17 +19,19 @@ namespace rds::tracker {
 ///
 /// Three sources: the objects in predicted boxes, cut out by depth; what stands where nothing stood before
 /// (a mover that no network knows, an arm out of its box); and what was cut from the last picture, carried to
-/// this one, for as long as carry_s without support by the others. Owned by one thread.
+/// this one, for as long as carry_s without support by the others. For one thread at a time.
 class MovableCut {
  public:
-  MovableCut(const RemovalConfig& config, double max_depth_m, RunParts run_parts = run_in_turn)
-      : config_(config), max_depth_m_(max_depth_m), run_parts_(std::move(run_parts)) {}
+  MovableCut(const RemovalConfig& config, double max_depth_m) : config_(config), max_depth_m_(max_depth_m) {}
 
-  /// @param camera_from_map  of the picture, near to the truth; nullopt if not known: then boxes only.
+  /// First: takes in a picture's depth.
+  void look_at(const image::RgbdFrame& picture);
+  /// Then, where the picture's pose is known, near to the truth: what has changed since earlier pictures?
+  /// Without, cut() knows of boxes only.
+  void compare(const geometry::Pose& camera_from_map);
   /// @param regions  predicted boxes with their depth intervals.
   /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
-  MovableMask cut(const image::RgbdFrame& picture, const std::optional<geometry::Pose>& camera_from_map,
-                  std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
+  MovableMask cut(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
   /// The pose of the picture that was cut last. Pictures without are not compared with.
   void remember(const geometry::Pose& map_from_camera);
   /// What cut_late() needs of the picture that was cut last, when its boxes come.
@@ -41,30 +43,30 @@ class MovableCut {
   void forget();
 
  private:
+  using Things = std::vector<std::vector<cv::Point>>;
+
   struct Now {
     std::int64_t stamp_ns = 0;
     PictureCells cells;
+    std::optional<geometry::Pose> camera_from_map;  // as it was guessed
+    Things moved;
     cv::Mat1b mask;           // without rim
     cv::Mat1f unsupported_s;  // for how long, where the mask is set
     MovableMask widened;      // with rim; empty where nothing is set
   };
 
-  using Things = std::vector<std::vector<cv::Point>>;
-
-  [[nodiscard]] Things things_that_moved(const geometry::Pose& camera_from_map) const;
-  void mark(std::span<const MovableRegion> regions, const Things& moved,
-            const std::optional<geometry::Pose>& camera_from_map, const Now& last);
+  void mark(std::span<const MovableRegion> regions);
   void mark_lasting(std::span<const Eigen::Vector3f> lasting);
-  void carry(const Now& last, const geometry::Pose& camera_from_map, const Background& background);
+  void carry(const Background& background);
   [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
 
   RemovalConfig config_;
   double max_depth_m_;
-  RunParts run_parts_;
   GridGeometry grid_;
   Now now_;
-  std::optional<geometry::Pose> last_pose_;              // map_from_camera of now_
+  Now last_;
+  std::optional<geometry::Pose> last_pose_;  // map_from_camera of last_, and of now_ once it is known
   std::deque<std::pair<std::int64_t, SeenCells>> past_;  // by stamp
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace rds::tracker {
 namespace {
@@ -17,11 +16,6 @@ bool is_within(const cv::Mat1f& depth_m, const GrowthLimits& limits, const cv::P
 }
 
 }  // namespace
-
-bool one_surface(float depth_a_m, float depth_b_m, double step_m) {
-  const float nearer = std::min(depth_a_m, depth_b_m);
-  return std::abs(depth_a_m - depth_b_m) <= static_cast<float>(step_m) * std::max(1.0F, nearer * nearer);
-}
 
 void grow_surface(const cv::Mat1f& depth_m, const GrowthLimits& limits, std::vector<cv::Point> seeds,
                   cv::Mat1b& mask) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -16,7 +18,10 @@ struct GrowthLimits {
 };
 
 /// True if two neighbouring cells with these depths [m] can show one surface.
-bool one_surface(float depth_a_m, float depth_b_m, double step_m);
+inline bool one_surface(float depth_a_m, float depth_b_m, double step_m) {
+  const float nearer = std::min(depth_a_m, depth_b_m);
+  return std::abs(depth_a_m - depth_b_m) <= static_cast<float>(step_m) * std::max(1.0F, nearer * nearer);
+}
 
 /// Marks (255) in `mask` all cells within the limits that `seeds` (cells marked in `mask` already) are
 /// connected with.

@@ -21,6 +21,14 @@ ImagePyramid pyramid_of(const image::RgbdFrame& frame) {
   return {gray, kLevels};
 }
 
+void expect_same(const FollowedPoints& a, const FollowedPoints& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.looked_for, b.looked_for);
+  ASSERT_EQ(a.features.size(), b.features.size());
+  for (std::size_t i = 0; i < a.features.size(); ++i)
+    EXPECT_EQ(a.features[i].image_px, b.features[i].image_px);
+}
+
 /// A map of one keyframe that saw a wall, and a view of the wall from elsewhere.
 class PointFollowing : public ::testing::Test {
  protected:
@@ -38,8 +46,16 @@ class PointFollowing : public ::testing::Test {
   }
 
   FollowedPoints follow(const MovableMask& movable = {}, const RunParts& run_parts = run_in_turn) {
-    return follow_points(map, all, {picture, images, movable, camera.inverse(), {}},
-                         ObservationModel(picture.camera, DepthConfig{}), pyramid, config, run_parts);
+    return search().find(movable, run_parts);
+  }
+
+  PointSearch search() {
+    return {map,
+            all,
+            {picture, images, camera.inverse(), {}},
+            ObservationModel(picture.camera, DepthConfig{}),
+            pyramid,
+            config};
   }
 
   double offset_px(const FollowedPoints& followed, std::size_t i) {
@@ -85,12 +101,12 @@ TEST_F(PointFollowing, FindsTheSameWithAHelper) {
   for (const int points : {0, 30, 130, 400}) {
     config.points = points;
     const FollowedPoints alone = follow(movable);
-    const FollowedPoints helped = follow(movable, with_helper);
-    EXPECT_EQ(alone.points, helped.points);
-    EXPECT_EQ(alone.looked_for, helped.looked_for);
-    ASSERT_EQ(alone.features.size(), helped.features.size());
-    for (std::size_t i = 0; i < alone.features.size(); ++i)
-      EXPECT_EQ(alone.features[i].image_px, helped.features[i].image_px);
+    expect_same(alone, follow(movable, with_helper));
+    PointSearch ahead = search();
+    int beside = 0;
+    ahead.look_ahead(with_helper, [&] { ++beside; });
+    EXPECT_EQ(beside, 1);
+    expect_same(alone, ahead.find(movable, with_helper));
   }
 }
 

@@ -18,10 +18,16 @@ constexpr std::int64_t kFrameNs = 100'000'000;
 
 class MovableCutting : public testing::Test {
  protected:
-  MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {
-    MovableMask mask = cut.cut(picture, Pose::Identity(), regions, {});
+  static MovableMask look(MovableCut& cut, const image::RgbdFrame& picture,
+                          const std::vector<MovableRegion>& regions) {
+    cut.look_at(picture);
+    cut.compare(Pose::Identity());
+    MovableMask mask = cut.cut(regions, {});
     cut.remember(Pose::Identity());
     return mask;
+  }
+  MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {
+    return look(cut, picture, regions);
   }
 
   RemovalConfig config;
@@ -98,7 +104,9 @@ TEST_F(MovableCutting, CarriesWhatLostItsBoxForAWhile) {
 TEST_F(MovableCutting, APoseThatIsWrongShowsNoMotion) {
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   const Pose wrong = test::pose(0, 0, -0.8);
-  EXPECT_FALSE(cut.cut(room({}, 8 * kFrameNs), wrong, {}, {}).any());
+  cut.look_at(room({}, 8 * kFrameNs));
+  cut.compare(wrong);
+  EXPECT_FALSE(cut.cut({}, {}).any());
 }
 
 TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
@@ -110,7 +118,8 @@ TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
       if (test::shows(picture, x, y))
         lasting.push_back(picture.depth.at(x, y) *
                           picture.camera.ray({static_cast<double>(x), static_cast<double>(y)}).cast<float>());
-  const MovableMask mask = cut.cut(picture, Pose::Identity(), std::vector{region_of(shelf)}, lasting);
+  cut.look_at(picture);
+  const MovableMask mask = cut.cut(std::vector{region_of(shelf)}, lasting);
   EXPECT_LT(compare(mask, picture).of_somebody, 0.1);
 }
 
@@ -142,8 +151,7 @@ TEST_F(MovableCutting, SameCallsSameMask) {
     const image::RgbdFrame picture = room({0.1 * i, 1.8}, i * kFrameNs);
     const std::vector<MovableRegion> regions{region_of(somebody, 5)};
     const MovableMask first = look(picture, regions);
-    const MovableMask second = other.cut(picture, Pose::Identity(), regions, {});
-    other.remember(Pose::Identity());
+    const MovableMask second = look(other, picture, regions);
     EXPECT_EQ(cv::countNonZero(first.cells() != second.cells()), 0);
   }
 }

@@ -67,8 +67,8 @@ void mark_doubtful(KeyframeRecord& record, const MapperConfig& config) {
   doubtful.assign(record.size(), false);
   bool any = false;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (record.use[i] != PixelUse::kStatic) continue;
-    doubtful[i] = near.contains(record.point_in_camera(i));
+    doubtful[i] = record.use[i] == PixelUse::kUnsure ||
+                  (record.use[i] == PixelUse::kStatic && near.contains(record.point_in_camera(i)));
     any = any || doubtful[i];
   }
   if (any)
@@ -80,13 +80,17 @@ void mark_doubtful(KeyframeRecord& record, const MapperConfig& config) {
 std::vector<PixelUse> confirmed_use(const KeyframeRecord& record, const SurfaceHistory& history,
                                     const MapperConfig& config) {
   std::vector<PixelUse> use = record.use;
-  if (record.doubt.surface.empty()) return use;
+  if (record.doubt.surface.empty()) {
+    std::ranges::replace(use, PixelUse::kUnsure, PixelUse::kNone);
+    return use;
+  }
   const auto support = support_of_surfaces(record, history, config);
   std::vector<bool> standing(support.size());
   for (std::size_t s = 1; s < support.size(); ++s)
     standing[s] = stands(support[s], record.size(), config.confirmation);
   for (std::size_t i = 0; i < record.size(); ++i)
-    if (record.doubt.near_movable[i] && !standing[record.doubt.surface[i]]) use[i] = PixelUse::kNone;
+    if (record.doubt.near_movable[i])
+      use[i] = standing[record.doubt.surface[i]] ? PixelUse::kStatic : PixelUse::kNone;
   return use;
 }
 

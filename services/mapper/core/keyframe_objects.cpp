@@ -39,7 +39,7 @@ void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, con
   record.sightings.clear();
   record.looked_for_objects = true;
   std::vector<const LabelledBox*> still;
-  std::vector<std::vector<std::size_t>> moving;
+  std::vector<ObjectRegion> moving;
   for (const auto& box : boxes)
     if (box.movable)
       moving.push_back(object_region(record, box, config.region));

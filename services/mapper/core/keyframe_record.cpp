@@ -147,10 +147,14 @@ bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
   return record.movable_cells(row, column) != 0;
 }
 
+void make_unsure(PixelUse& use) {
+  use = use == PixelUse::kStatic || use == PixelUse::kUnsure ? PixelUse::kUnsure : PixelUse::kNone;
+}
+
 void set_aside_movable_cells(KeyframeRecord& record) {
   if (record.cell_px == 0) return;
   for (std::size_t i = 0; i < record.size(); ++i)
-    if (record.use[i] != PixelUse::kMovable && is_in_movable_cell(record, i)) record.use[i] = PixelUse::kNone;
+    if (record.use[i] != PixelUse::kMovable && is_in_movable_cell(record, i)) make_unsure(record.use[i]);
 }
 
 }  // namespace rds::mapper

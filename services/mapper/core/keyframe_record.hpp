@@ -10,11 +10,12 @@ namespace rds::mapper {
 
 /// What a sampled pixel may do in the octree.
 enum class PixelUse : std::uint8_t {
-  kNone,     // no depth, flying pixel, rim of a movable object, in a movable cell
+  kNone,     // no depth, flying pixel
   kStatic,   // inserted as occupied; its ray carves
   kMovable,  // lowered, never inserted
   kBeyond,   // measured farther than max_range: only its ray carves
   kBlind,    // nothing was measured all around: its ray lowers surfaces that few keyframes have seen
+  kUnsure,   // in the rim of a movable object or in a movable cell: as static if its surface is confirmed
 };
 
 /// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
@@ -83,7 +84,10 @@ inline bool is_movable(const KeyframeRecord& record, std::size_t pixel) {
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
                            std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
 
-/// Pixels in movable cells are not used, unless a box says that they are of a movable object.
+/// What was measured in range counts with its surface only, if that is confirmed; all else not at all.
+void make_unsure(PixelUse& use);
+
+/// make_unsure() in movable cells, unless a box says that a pixel is of a movable object.
 void set_aside_movable_cells(KeyframeRecord& record);
 
 /// Sets `use` from the depth alone (what make_record does, and what forgets earlier boxes).

@@ -24,7 +24,7 @@ void read(ConfigReader& r, RegionConfig& c) {
   r.value("half_depth_m", c.half_depth_m, 0.05, 2.0, "m");
   r.value("margin_px", c.margin_px, 0, 200, "px");
   r.value("rim_px", c.rim_px, 0, 50, "px");
-  r.value("min_component", c.min_component, 0.0, 1.0);
+  r.value("sure_part", c.sure_part, 0.0, 1.0);
   r.value("min_inside", c.min_inside, 0.0, 1.0);
 }
 

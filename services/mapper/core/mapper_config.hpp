@@ -24,8 +24,8 @@ struct SamplingConfig {
 struct RegionConfig {
   double half_depth_m = 0.35;  // object = |depth − object depth| below this
   int margin_px = 24;          // the box is widened by this before the cut
-  int rim_px = 8;              // around a movable object: neither inserted nor lowered
-  double min_component = 0.0;  // connected parts smaller than this share of the largest are dropped
+  int rim_px = 8;              // around a movable object: unsure
+  double sure_part = 0.05;     // parts of a movable object smaller than this share of the largest are unsure
   double min_inside = 0.05;    // a part must lie inside the unwidened box by this share
 
   bool operator==(const RegionConfig&) const = default;

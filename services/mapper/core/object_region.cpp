@@ -41,8 +41,8 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
     for (int x = rect.x; x < rect.x + rect.width; ++x) {
       const auto i = static_cast<std::size_t>(y * record.width + x);
       const float d = record.depth_m(i);
-      if (d > 0 && record.use[i] != PixelUse::kNone && d >= limits.min_m && d <= limits.max_m)
-        depths.push_back(d);
+      const bool used = record.use[i] != PixelUse::kNone && record.use[i] != PixelUse::kUnsure;
+      if (d > 0 && used && d >= limits.min_m && d <= limits.max_m) depths.push_back(d);
     }
   return depths;
 }
@@ -107,9 +107,9 @@ cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float be
   return near;
 }
 
-/// Labels of the connected parts of `near` that belong to the object.
-std::vector<bool> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside,
-                                  const RegionConfig& config) {
+/// Of each connected part of `near`: its size as a share of the largest; 0 where it is not of the object.
+std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside,
+                                    const RegionConfig& config) {
   std::vector<int> area(static_cast<std::size_t>(count), 0);
   std::vector<int> area_inside(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < parts.rows; ++y)
@@ -119,12 +119,11 @@ std::vector<bool> parts_of_object(const cv::Mat& parts, int count, const cv::Rec
       if (inside.contains({x, y})) ++area_inside[part];
     }
   area[0] = area_inside[0] = 0;  // the background
-  const int largest = *std::ranges::max_element(area_inside);
-  std::vector<bool> keep(area.size(), false);
+  const double largest = *std::ranges::max_element(area_inside);
+  std::vector<double> shares(area.size(), 0);
   for (std::size_t part = 1; part < area.size(); ++part)
-    keep[part] = area_inside[part] > 0 && area_inside[part] >= config.min_component * largest &&
-                 area_inside[part] >= config.min_inside * area[part];
-  return keep;
+    if (area_inside[part] >= config.min_inside * area[part]) shares[part] = area_inside[part] / largest;
+  return shares;
 }
 
 }  // namespace
@@ -165,8 +164,7 @@ std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const Labe
                      has_extent ? limits.max_m : depth + reach_behind(box, *box_px, depth, config, record)};
 }
 
-std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
-                                       const RegionConfig& config) {
+ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box, const RegionConfig& config) {
   const auto box_px = image_box(box, record);
   if (!box_px) return {};
   const float depth = depth_in_box(*box_px, depth_limits(box, record, config), record);
@@ -178,28 +176,32 @@ std::vector<std::size_t> object_region(const KeyframeRecord& record, const Label
       cv::connectedComponents(near_depth(wide, depth, reach_before(box, config),
                                          reach_behind(box, *box_px, depth, config, record), record),
                               parts, 8, CV_32S);
-  const auto keep = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl(), config);
-  std::vector<std::size_t> region;
+  const auto shares = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl(), config);
+  const double sure = box.movable ? config.sure_part : 0;
+  ObjectRegion region;
   for (int y = 0; y < wide.height; ++y)
-    for (int x = 0; x < wide.width; ++x)
-      if (keep[static_cast<std::size_t>(parts.at<int>(y, x))])
-        region.push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
+    for (int x = 0; x < wide.width; ++x) {
+      const double share = shares[static_cast<std::size_t>(parts.at<int>(y, x))];
+      if (share > 0)
+        (share >= sure ? region.pixels : region.unsure)
+            .push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
+    }
   return region;
 }
 
-void mark_movable(KeyframeRecord& record, const std::vector<std::size_t>& region,
-                  const RegionConfig& config) {
-  if (region.empty()) return;
+void mark_movable(KeyframeRecord& record, const ObjectRegion& region, const RegionConfig& config) {
+  if (region.pixels.empty()) return;
   cv::Mat mask(record.height, record.width, CV_8U, cv::Scalar(0));
-  for (const auto i : region) mask.data[i] = 1;
+  for (const auto i : region.pixels) mask.data[i] = 1;
   const int radius = (config.rim_px + record.stride - 1) / record.stride;
   cv::Mat rim;
   cv::dilate(mask, rim, cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
+  for (const auto i : region.unsure) rim.data[i] = 1;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (mask.data[i] != 0 && record.use[i] != PixelUse::kNone && record.use[i] != PixelUse::kBeyond)
       record.use[i] = PixelUse::kMovable;
     else if (rim.data[i] != 0 && record.use[i] != PixelUse::kMovable)
-      record.use[i] = PixelUse::kNone;
+      make_unsure(record.use[i]);
   }
 }
 

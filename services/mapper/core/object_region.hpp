@@ -9,15 +9,20 @@ namespace rds::mapper {
 /// @return nullopt if it is not finite or has no area inside the picture.
 std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record);
 
+/// Sampled pixels of an object, ascending.
+struct ObjectRegion {
+  std::vector<std::size_t> pixels;
+  std::vector<std::size_t> unsure;  // of a movable object: small parts, which may be of what it stands among
+};
+
 /// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.
 ///
 /// The object's depth is the mean of median and lower third of the depths in the box's inner part (or near
 /// `box.depth_m`, or inside the 3-D box, if given); its pixels are those near that depth in the widened box,
 /// in connected parts that lie in the box.
-/// @return indices of sampled pixels, ascending; empty if the box has no usable depth.
+/// @return nothing if the box has no usable depth.
 /// Source: depth mask inside the box (NGD-SLAM); paper §IV-C asks for points inside the 3-D box.
-std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box,
-                                       const RegionConfig& config);
+ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box, const RegionConfig& config);
 
 /// Where an object is in a keyframe: inside this box of the picture, between these depths.
 struct ObjectPlace {
@@ -34,7 +39,7 @@ struct ObjectPlace {
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
                                         const RegionConfig& config);
 
-/// Marks the region as movable, and a rim around it as unusable.
-void mark_movable(KeyframeRecord& record, const std::vector<std::size_t>& region, const RegionConfig& config);
+/// Marks the region as movable; its unsure parts and a rim around it as unsure.
+void mark_movable(KeyframeRecord& record, const ObjectRegion& region, const RegionConfig& config);
 
 }  // namespace rds::mapper

@@ -44,7 +44,7 @@ std::vector<std::size_t> static_object(const KeyframeRecord& record, const Label
   const auto place = object_place(record, box, config.region);
   if (!place) return {};
   std::vector<bool> is_object(record.size(), false);
-  for (const auto i : object_region(record, box, config.region)) is_object[i] = true;
+  for (const auto i : object_region(record, box, config.region).pixels) is_object[i] = true;
   std::vector<Plane> elsewhere;
   for (const auto& segment : segments) {
     if (!overlap(segment.box_px, place->box_px)) continue;

@@ -57,6 +57,19 @@ TEST(Confirmation, NearTheTrackersCellsToo) {
   EXPECT_EQ(use_at(record, {}, 40, 60), PixelUse::kStatic);
 }
 
+TEST(Confirmation, InTheTrackersCellsASurfaceStandsIfTheRestOfItDoes) {
+  const auto in_cells = [](std::uint64_t id) {
+    return SyntheticKeyframe(id).rectangle(kLegs, kPersonM).movable_cells({120, 160, 80, 20});
+  };
+  const auto record = record_of(in_cells(kTwoSeconds));
+  SurfaceHistory seen_free;
+  seen_free.see(record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM)), {});
+  EXPECT_EQ(use_at(record, seen_free, 160, 170), PixelUse::kStatic);
+  SurfaceHistory seen_in_cells;  // says nothing of what is in them
+  seen_in_cells.see(record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM).movable_cells(kLegs)), {});
+  EXPECT_EQ(use_at(record, seen_in_cells, 160, 170), PixelUse::kNone);
+}
+
 TEST(Confirmation, WhatIsSeenAtAnotherTimeStands) {
   const auto record = record_of(person_with_legs(kTwoSeconds));
   const auto history_of = [](std::uint64_t id) {

@@ -24,15 +24,29 @@ PixelUse use_at(const KeyframeRecord& record, int x_px, int y_px) {
   return record.use[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
 }
 
-TEST(KeyframeObjects, CutsAPersonOutOfHisBoxAndLeavesARimUnused) {
+TEST(KeyframeObjects, CutsAPersonOutOfHisBoxAndLeavesARimUnsure) {
   const cv::Rect person(120, 40, 80, 200);
   LabelTable labels;
   const auto record = record_of(
       SyntheticKeyframe(0).rectangle(person, 1.5).box("person", {90, 20, 140, 220}, true).make(), labels);
   EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, 116, 120), PixelUse::kNone);
+  EXPECT_EQ(use_at(record, 116, 120), PixelUse::kUnsure);
   EXPECT_EQ(use_at(record, 95, 120), PixelUse::kStatic);
   EXPECT_TRUE(record.sightings.empty());
+}
+
+TEST(KeyframeObjects, ASmallPartBesideAPersonIsUnsure) {
+  const cv::Rect person(120, 40, 80, 180);
+  const cv::Rect bag(215, 150, 14, 30);
+  LabelTable labels;
+  const auto record = record_of(SyntheticKeyframe(0)
+                                    .rectangle(person, 1.5)
+                                    .rectangle(bag, 1.6)
+                                    .box("person", {110, 30, 130, 200}, true)
+                                    .make(),
+                                labels);
+  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
+  EXPECT_EQ(use_at(record, 222, 164), PixelUse::kUnsure);
 }
 
 TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
@@ -49,18 +63,18 @@ TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
   }
 }
 
-TEST(KeyframeObjects, MovableCellsAreNotUsedUnlessABoxKnowsTheObject) {
+TEST(KeyframeObjects, MovableCellsAreUnsureUnlessABoxKnowsTheObject) {
   const cv::Rect person(120, 40, 80, 200);
   auto keyframe = SyntheticKeyframe(0).rectangle(person, 1.5).movable_cells({40, 40, 80, 80});
   const MapperConfig config;
   const auto unboxed = make_record(keyframe, config.sampling, sample_rays(test::small_camera(), 2));
-  EXPECT_EQ(use_at(unboxed, 60, 60), PixelUse::kNone);
+  EXPECT_EQ(use_at(unboxed, 60, 60), PixelUse::kUnsure);
   EXPECT_EQ(use_at(unboxed, 60, 140), PixelUse::kStatic);
   LabelTable labels;
   keyframe.movable_cells({160, 120, 40, 40});
   const auto boxed = record_of(keyframe.box("person", {90, 20, 140, 220}, true).make(), labels);
   EXPECT_EQ(use_at(boxed, 180, 140), PixelUse::kMovable);
-  EXPECT_EQ(use_at(boxed, 60, 60), PixelUse::kNone);
+  EXPECT_EQ(use_at(boxed, 60, 60), PixelUse::kUnsure);
 }
 
 TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
@@ -91,7 +105,7 @@ TEST(KeyframeObjects, ABoxWithoutDepthHasNoRegion) {
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);
   const LabelledBox box{"person", 1.0F, {110, 60, 190, 140}, std::nullopt, 0.0F, true};
-  EXPECT_TRUE(object_region(record, box, RegionConfig{}).empty());
+  EXPECT_TRUE(object_region(record, box, RegionConfig{}).pixels.empty());
   EXPECT_FALSE(object_place(record, box, RegionConfig{}).has_value());
 }
 

@@ -78,6 +78,7 @@ float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, 
 void complete_features(const geometry::CameraModel& camera, const image::DepthImage& depth,
                        double max_depth_m, std::vector<Feature>& features) {
   for (Feature& f : features) {
+    if (f.movable && !f.matchable) continue;
     f.depth_m = depth_at(depth, f.image_px, max_depth_m);
     const Eigen::Vector2d px = camera.undistort(f.image_px.cast<double>());
     if (px.allFinite()) f.px = px.cast<float>();

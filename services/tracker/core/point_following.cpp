@@ -2,7 +2,6 @@
 #include "services/tracker/core/point_following.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "services/tracker/core/feature_alignment.hpp"
@@ -159,27 +158,15 @@ std::optional<Feature> PointSearch::look_for(const Expected& expected) const {
   return feature;
 }
 
-void PointSearch::look(std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin; i < std::min(end, begin + kPointsPerPart); ++i) {
-    Expected& e = expected_[i];
-    if (!e.hidden && !e.looked_for) e.found = look_for(e);
-    e.looked_for = true;
-  }
+void PointSearch::look_at(Expected& expected) const {
+  if (!expected.hidden && !expected.looked_for) expected.found = look_for(expected);
+  expected.looked_for = true;
 }
 
-void PointSearch::look_ahead(const RunParts& run_parts, const std::function<void()>& beside) {
+void PointSearch::look_ahead(const std::atomic<bool>& enough) {
   const auto wanted = static_cast<std::size_t>(config_.points);
-  const std::size_t due = batch_end(0, wanted);
-  const std::size_t likely = batch_end(due, wanted);  // in place of those that are not found
-  std::atomic<bool> waited_for = false;
-  run_parts(1 + parts_of(likely), [&](std::size_t part) {
-    if (part == 0) {
-      beside();
-      waited_for = true;
-    } else if (const std::size_t begin = (part - 1) * kPointsPerPart; begin < due || !waited_for) {
-      look(begin, likely);
-    }
-  });
+  const std::size_t likely = batch_end(batch_end(0, wanted), wanted);  // also in place of those not found
+  for (std::size_t i = 0; i < likely && !enough; ++i) look_at(expected_[i]);
 }
 
 FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run_parts) {
@@ -188,7 +175,10 @@ FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run
   auto wanted = static_cast<std::size_t>(config_.points);
   for (std::size_t i = 0; i < expected_.size() && wanted > 0;) {
     const std::size_t end = batch_end(i, wanted);
-    run_parts(parts_of(end - i), [&](std::size_t part) { look(i + part * kPointsPerPart, end); });
+    run_parts(parts_of(end - i), [&](std::size_t part) {
+      const std::size_t first = i + part * kPointsPerPart;
+      for (std::size_t k = first; k < std::min(end, first + kPointsPerPart); ++k) look_at(expected_[k]);
+    });
     for (; i < end; ++i) {
       const Expected& e = expected_[i];
       if (e.hidden) {

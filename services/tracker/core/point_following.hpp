@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <atomic>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,9 +39,10 @@ class PointSearch {
   PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
               const ObservationModel& model, const ScalePyramid& pyramid, const FollowingConfig& config);
 
-  /// Looks for the points that come first before it is known what is movable, and does something else beside.
-  /// What find() says does not depend on it.
-  void look_ahead(const RunParts& run_parts, const std::function<void()>& beside);
+  /// Looks for the points that come first, before it is known what is movable. What find() says does not
+  /// depend on it.
+  /// @param enough  set, by another thread, when the result is waited for.
+  void look_ahead(const std::atomic<bool>& enough);
   /// @param movable  where static points are hidden.
   FollowedPoints find(const MovableMask& movable, const RunParts& run_parts = run_in_turn);
 
@@ -58,7 +59,7 @@ class PointSearch {
   void expect(std::span<const PointId> points, const ObservationModel& model);
   void spread();
   void hide(const MovableMask& movable);
-  void look(std::size_t begin, std::size_t end);
+  void look_at(Expected& expected) const;
   [[nodiscard]] std::optional<Feature> look_for(const Expected& expected) const;
   [[nodiscard]] std::size_t batch_end(std::size_t begin, std::size_t wanted) const;
 

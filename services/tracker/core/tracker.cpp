@@ -2,6 +2,7 @@
 #include "services/tracker/core/tracker.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 #include "services/tracker/core/relocalization.hpp"
@@ -116,21 +117,20 @@ void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) 
     around.camera_from_map = aligned;
 }
 
-/// What the frame should see, by the guess.
-void Tracker::look_around(const image::RgbdFrame& picture, Surroundings& around) {
-  if (!last_ || !around.camera_from_map || !(follows_points() || removes_by_depth())) return;
+/// The points that the frame should see, if it is where the last one was.
+void Tracker::look_around(Surroundings& around) {
+  if (!last_ || !(follows_points() || removes_by_depth())) return;
   const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
   around.reference = local.reference;
   std::ranges::copy_if(last_->frame.points, std::back_inserter(around.points),
                        [&](PointId id) { return map_.point(id) != nullptr; });
   around.points.insert(around.points.end(), local.points.begin(), local.points.end());
-  if (can_follow(around)) around.search.emplace(search_around(picture, around, *around.camera_from_map));
 }
 
 /// Those of the points around, in the camera frame, that have been found where they are for long.
 std::vector<Eigen::Vector3f> Tracker::lasting_points(const Surroundings& around) const {
   std::vector<Eigen::Vector3f> lasting;
-  if (!removes_by_depth()) return lasting;
+  if (!removes_by_depth() || !around.camera_from_map) return lasting;
   for (const PointId id : around.points) {
     const MapPoint& point = *map_.point(id);
     if (point.observations.size() < kLastingObservers || point.found < kLastingFound ||
@@ -141,33 +141,35 @@ std::vector<Eigen::Vector3f> Tracker::lasting_points(const Surroundings& around)
   return lasting;
 }
 
-void Tracker::beside_cut(const std::function<void()>& tracking, const std::function<void()>& cutting) const {
-  if (config_.removal.method == "off") return tracking();
-  run_both(run_parts_, tracking, cutting);
-}
-
 /// Gets ready what a picture is searched with for points, and for what is movable.
 void Tracker::look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around) {
-  beside_cut(
+  run_both(
+      run_parts_,
       [&] {
         look_at(picture);
         guess_pose(picture, around);
       },
-      [&] { cut_.look_at(given); });
-  beside_cut([&] { look_around(picture, around); },
-             [&] {
-               if (around.camera_from_map) cut_.compare(*around.camera_from_map);
-             });
+      [&] {
+        cut_.look_at(given);
+        look_around(around);
+      });
 }
 
-/// The points around are looked for beside.
-MovableMask Tracker::cut_movable(std::span<const MovableRegion> regions, Surroundings& around) {
+/// Where they can be followed, the points around are looked for beside.
+MovableMask Tracker::cut_movable(const image::RgbdFrame& picture, std::span<const MovableRegion> regions,
+                                 Surroundings& around) {
   MovableMask movable;
-  const auto cut = [&] { movable = cut_.cut(regions, lasting_points(around)); };
-  if (around.search)
-    around.search->look_ahead(run_parts_, cut);
-  else
-    cut();
+  std::atomic<bool> is_cut = false;
+  const auto cut = [&] {
+    if (around.camera_from_map) cut_.compare(*around.camera_from_map);
+    movable = cut_.cut(regions, lasting_points(around));
+    is_cut = true;
+  };
+  run_both(run_parts_, cut, [&] {
+    if (!can_follow(around)) return;
+    around.search.emplace(search_around(picture, around, *around.camera_from_map));
+    around.search->look_ahead(is_cut);
+  });
   return movable;
 }
 
@@ -181,7 +183,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const auto start = Clock::now();
   Surroundings around;
   look(given, picture, around);
-  const MovableMask movable = cut_movable(regions, around);
+  const MovableMask movable = cut_movable(picture, regions, around);
   TrackedFrame frame;
   frame.given_fx = given_fx_;
   frame.movable_there = movable.any() || !regions.empty();

@@ -136,11 +136,11 @@ class Tracker {
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
   void look_at(const image::RgbdFrame& picture);
   void guess_pose(const image::RgbdFrame& picture, Surroundings& around) const;
-  void beside_cut(const std::function<void()>& tracking, const std::function<void()>& cutting) const;
-  void look_around(const image::RgbdFrame& picture, Surroundings& around);
+  void look_around(Surroundings& around);
   [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
   void look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around);
-  [[nodiscard]] MovableMask cut_movable(std::span<const MovableRegion> regions, Surroundings& around);
+  [[nodiscard]] MovableMask cut_movable(const image::RgbdFrame& picture,
+                                        std::span<const MovableRegion> regions, Surroundings& around);
   KeyframeNeed find_pose(const image::RgbdFrame& picture, Surroundings& around, const MovableMask& movable,
                          TrackedFrame& frame, FrameResult& result);
   KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,

@@ -14,6 +14,9 @@ namespace rds::tracker {
 /// How a camera's pictures are divided into square cells, some 160 across.
 class GridGeometry {
  public:
+  using Numbers = Eigen::Array<float, Eigen::Dynamic, 1, 0, 256, 1>;  // of some points
+  using Cells = Eigen::Array<int, Eigen::Dynamic, 1, 0, 256, 1>;
+
   GridGeometry() = default;
   explicit GridGeometry(const geometry::CameraModel& camera);
 
@@ -31,11 +34,16 @@ class GridGeometry {
     const float per_m = 1 / point_in_camera.z();
     const int x = static_cast<int>((point_in_camera.x() * per_m - table_corner_.x()) * table_per_ray_);
     const int y = static_cast<int>((point_in_camera.y() * per_m - table_corner_.y()) * table_per_ray_);
-    if (x < 0 || y < 0 || x >= table_size_.width || y >= table_size_.height) return -1;
-    if (!cell_table_.empty()) return cell_table_(y, x);
-    const int column = column_table_[static_cast<std::size_t>(x)];
-    const int row = row_table_[static_cast<std::size_t>(y)];
-    return column < 0 || row < 0 ? -1 : row * size_.width + column;
+    return index_at(x, y);
+  }
+  /// The same of points with these coordinates.
+  [[nodiscard]] Cells indices_of(const Numbers& x_m, const Numbers& y_m, const Numbers& z_m) const {
+    const Numbers per_m = 1 / z_m;
+    const Cells x = ((x_m * per_m - table_corner_.x()) * table_per_ray_).cast<int>();
+    const Cells y = ((y_m * per_m - table_corner_.y()) * table_per_ray_).cast<int>();
+    Cells cells(z_m.size());
+    for (Eigen::Index i = 0; i < cells.size(); ++i) cells[i] = z_m[i] > kNearestM ? index_at(x[i], y[i]) : -1;
+    return cells;
   }
   /// The same cell; (-1, -1) outside the picture.
   [[nodiscard]] cv::Point cell_of(const Eigen::Vector3f& point_in_camera) const {
@@ -49,6 +57,13 @@ class GridGeometry {
   cv::Size size_;
   static constexpr float kNearestM = 0.1F;
 
+  [[nodiscard]] int index_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= table_size_.width || y >= table_size_.height) return -1;
+    if (!cell_table_.empty()) return cell_table_(y, x);
+    const int column = column_table_[static_cast<std::size_t>(x)];
+    const int row = row_table_[static_cast<std::size_t>(y)];
+    return column < 0 || row < 0 ? -1 : row * size_.width + column;
+  }
   void make_tables();
   [[nodiscard]] cv::Point cell_of_entry(int x, int y) const;
 

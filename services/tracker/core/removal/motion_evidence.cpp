@@ -12,24 +12,28 @@ namespace rds::tracker {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::max();
+constexpr Eigen::Index kBatch = GridGeometry::Numbers::MaxRowsAtCompileTime;
 constexpr int kThinnest = 5;        // cells across, of a thing
 constexpr int kWitnesses = 2;       // earlier pictures
 constexpr float kSameShare = 0.4F;  // of motion_step_m: so near is the same surface
 
-/// Depth [m] of what an earlier picture saw and was not movable, where it shows now; kNothing elsewhere.
+/// Depth [m] of what an earlier picture saw, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
                          const geometry::Pose& camera_from_map) {
   const Eigen::Isometry3f here_from_past = (camera_from_map * past.map_from_camera).cast<float>();
+  const Eigen::Matrix3f turn = here_from_past.linear();
+  const Eigen::Vector3f shift = here_from_past.translation();
   cv::Mat1f here(grid.size(), kNothing);
   float* shown = here.ptr<float>();
-  for (int r = 0; r < here.rows; ++r) {
-    const float* depth_m = past.depth_m[r];
-    const std::uint8_t* masked = past.mask.empty() ? nullptr : past.mask[r];
-    for (int c = 0; c < here.cols; ++c) {
-      if (!(depth_m[c] > 0) || (masked != nullptr && masked[c] != 0)) continue;
-      const Eigen::Vector3f p = here_from_past * (depth_m[c] * grid.ray(c, r));
-      if (const int cell = grid.index_of(p); cell >= 0) shown[cell] = std::min(shown[cell], p.z());
-    }
+  for (Eigen::Index first = 0; first < past.points.rows(); first += kBatch) {
+    const auto p = past.points.middleRows(first, std::min(kBatch, past.points.rows() - first));
+    const auto along = [&](int axis) {
+      return shift(axis) + (turn(axis, 0) * p.col(0) + turn(axis, 1) * p.col(1) + turn(axis, 2) * p.col(2));
+    };
+    const GridGeometry::Numbers z = along(2);
+    const GridGeometry::Cells cells = grid.indices_of(along(0), along(1), z);
+    for (Eigen::Index i = 0; i < z.size(); ++i)
+      if (cells[i] >= 0) shown[cells[i]] = std::min(shown[cells[i]], z[i]);
   }
   return here;
 }
@@ -42,22 +46,34 @@ void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfi
   cv::Mat1f farthest = before.clone();
   farthest.setTo(0, before == kNothing);
   cv::dilate(farthest, farthest, cv::Mat());
-  for (int r = 0; r < depth_m.rows; ++r)
-    for (int c = 0; c < depth_m.cols; ++c) {
-      const float z = depth_m(r, c);
-      const float far = farthest(r, c);
-      if (z <= 0 || far <= 0) continue;
-      const float near = nearest(r, c);
-      const float step = static_cast<float>(config.motion_step_m) * std::max(1.0F, z * z);
-      const float same = kSameShare * step;
-      if (z < near - step && before(r, c) != kNothing)
-        evidence.arrived(r, c) = static_cast<std::uint8_t>(std::min(255, evidence.arrived(r, c) + 1));
-      else if (z > near - same && z < far + same)
-        evidence.standing(r, c) = 255;
-    }
+  const auto step_m = static_cast<float>(config.motion_step_m);
+  for (int i = 0; i < depth_m.rows * depth_m.cols; ++i) {
+    const float z = depth_m.ptr<float>()[i];
+    const float far = farthest.ptr<float>()[i];
+    if (z <= 0 || far <= 0) continue;
+    const float near = nearest.ptr<float>()[i];
+    const float step = step_m * std::max(1.0F, z * z);
+    const float same = kSameShare * step;
+    if (std::uint8_t& arrived = evidence.arrived.data[i];
+        z < near - step && before.ptr<float>()[i] != kNothing)
+      arrived = static_cast<std::uint8_t>(std::min(255, arrived + 1));
+    else if (z > near - same && z < far + same)
+      evidence.standing.data[i] = 255;
+  }
 }
 
 }  // namespace
+
+SeenCells::SeenCells(const cv::Mat1f& depth_m, const cv::Mat1b& mask, const GridGeometry& grid,
+                     const geometry::Pose& pose)
+    : points(depth_m.total(), 3), map_from_camera(pose) {
+  Eigen::Index seen = 0;
+  for (int r = 0; r < depth_m.rows; ++r)
+    for (int c = 0; c < depth_m.cols; ++c)
+      if (depth_m(r, c) > 0 && (mask.empty() || mask(r, c) == 0))
+        points.row(seen++) = depth_m(r, c) * grid.ray(c, r).array();
+  points.conservativeResize(seen, 3);
+}
 
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
                                  const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
@@ -77,13 +93,14 @@ std::vector<std::vector<cv::Point>> arrivals(const cv::Mat1f& depth_m, const Mot
   cv::Mat1b arrived;
   cv::morphologyEx(evidence.arrived, arrived, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
   const int moved = cv::countNonZero(arrived);
+  const double least = config.min_motion_share * static_cast<double>(depth_m.total());
+  if (moved < least) return {};
   const int judged = moved + cv::countNonZero(evidence.standing);
   if (moved > config.max_motion_share * judged) return {};
   cv::Mat1f candidates = depth_m.clone();
   candidates.setTo(0, ~arrived);
   const GrowthLimits whole{cv::Rect({0, 0}, depth_m.size()), 0, kNothing, config.step_m};
   auto things = surfaces_within(candidates, whole);
-  const double least = config.min_motion_share * static_cast<double>(depth_m.total());
   std::erase_if(things, [&](const auto& cells) { return static_cast<double>(cells.size()) < least; });
   return things;
 }

@@ -10,11 +10,15 @@
 
 namespace rds::tracker {
 
-/// An earlier picture in cells.
+/// What an earlier picture saw.
 struct SeenCells {
-  cv::Mat1f depth_m;
-  cv::Mat1b mask;  // 255 where something movable showed, its rim included
-  geometry::Pose map_from_camera = geometry::Pose::Identity();
+  /// @param pose  map_from_camera.
+  /// @param mask  not 0 where something movable showed, its rim included: says nothing. May be empty.
+  SeenCells(const cv::Mat1f& depth_m, const cv::Mat1b& mask, const GridGeometry& grid,
+            const geometry::Pose& pose);
+
+  Eigen::ArrayX3f points;  // in the camera frame
+  geometry::Pose map_from_camera;
 };
 
 /// What earlier pictures say of the cells of a new one. Both have the new picture's size.

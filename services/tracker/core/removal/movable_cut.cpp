@@ -34,9 +34,7 @@ void MovableCut::compare(const geometry::Pose& camera_from_map) {
   now_.camera_from_map = camera_from_map;
   if (!config_.motion) return;
   const cv::Mat1f& depth_m = now_.cells.depth_m;
-  std::vector<SeenCells> past;
-  for (const auto& [stamp, seen] : past_) past.push_back(seen);
-  now_.moved = arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past, config_), config_);
+  now_.moved = arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_, config_), config_);
 }
 
 MovableMask MovableCut::cut(std::span<const MovableRegion> regions,
@@ -87,12 +85,13 @@ void MovableCut::carry(const Background& background) {
   const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_pose_).cast<float>();
   for (int r = 0; r < last_.mask.rows; ++r)
     for (int c = 0; c < last_.mask.cols; ++c) {
+      if (last_.mask(r, c) == 0) continue;
       const float age_s = last_.unsupported_s(r, c) + passed_s;
       const float z = last_.cells.depth_m(r, c);
-      if (last_.mask(r, c) == 0 || !(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
+      if (!(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
-      if (cell.x < 0) continue;
+      if (cell.x < 0 || (now_.mask(cell) != 0 && now_.unsupported_s(cell) == 0)) continue;
       const float here = now_.cells.depth_m(cell);
       if (!(here > 0) || !one_surface(here, p.z(), config_.step_m) || background.shows_wide(cell)) continue;
       float& unsupported = now_.unsupported_s(cell);
@@ -105,9 +104,10 @@ void MovableCut::remember(const geometry::Pose& map_from_camera) {
   if (now_.cells.depth_m.empty() || config_.method != "depth") return;
   last_pose_ = map_from_camera;
   const auto step_ns = static_cast<std::int64_t>(config_.reference_s * kNsPerSecond);
-  if (!past_.empty() && now_.stamp_ns - past_.back().first < step_ns) return;
-  past_.emplace_back(now_.stamp_ns, SeenCells{now_.cells.depth_m, now_.widened.cells(), map_from_camera});
-  while (past_.size() > static_cast<std::size_t>(config_.references)) past_.pop_front();
+  if (!past_.empty() && now_.stamp_ns - newest_past_ns_ < step_ns) return;
+  if (past_.size() == static_cast<std::size_t>(config_.references)) past_.erase(past_.begin());
+  past_.emplace_back(now_.cells.depth_m, now_.widened.cells(), grid_, map_from_camera);
+  newest_past_ns_ = now_.stamp_ns;
 }
 
 MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/movable_region.hpp"
@@ -67,7 +67,8 @@ class MovableCut {
   Now now_;
   Now last_;
   std::optional<geometry::Pose> last_pose_;  // map_from_camera of last_, and of now_ once it is known
-  std::deque<std::pair<std::int64_t, SeenCells>> past_;  // by stamp
+  std::vector<SeenCells> past_;              // by stamp
+  std::int64_t newest_past_ns_ = 0;
 };
 
 }  // namespace rds::tracker

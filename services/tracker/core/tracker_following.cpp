@@ -120,8 +120,7 @@ KeyframeNeed Tracker::find_pose(const image::RgbdFrame& picture, Surroundings& a
   auto followed = follow_map(picture, around, movable, frame);
   if (!followed || !accept(*followed, around.reference))
     return track_features(picture, movable, frame, result);
-  const bool sure =
-      jerk(followed->frame) <= 1 && followed->frame.matches() >= kSurePoints * config_.following.min_points;
+  const bool sure = support(followed->frame) >= kSurePoints * config_.following.min_points;
   if (frame.movable_there && !sure) {
     const KeyframeNeed need = track_features(picture, movable, frame, result);
     if (has_pose(state_) && support(frame) > support(followed->frame)) return need;

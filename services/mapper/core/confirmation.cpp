@@ -66,7 +66,9 @@ void mark_doubtful(KeyframeRecord& record, const MapperConfig& config) {
   auto& doubtful = record.doubt.near_movable;
   doubtful.assign(record.size(), false);
   bool any = false;
+  const bool knows_background = !record.background.empty();
   for (std::size_t i = 0; i < record.size(); ++i) {
+    if (knows_background && record.background[i]) continue;
     doubtful[i] = record.use[i] == PixelUse::kUnsure ||
                   (record.use[i] == PixelUse::kStatic && near.contains(record.point_in_camera(i)));
     any = any || doubtful[i];

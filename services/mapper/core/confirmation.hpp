@@ -8,7 +8,8 @@
 namespace rds::mapper {
 
 /// Finds the pixels near something movable and the surfaces they belong to: they may be legs, an arm or a bag
-/// that is in no box. Fills `record.doubt`; empty where nothing movable is in view.
+/// that is in no box. Background is beyond doubt. Fills `record.doubt`; empty where nothing movable is in
+/// view.
 void mark_doubtful(KeyframeRecord& record, const MapperConfig& config);
 
 /// The use of each pixel when doubtful ones count only where most of their surface has been seen standing at

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/mapper/core/background.hpp"
 #include "services/mapper/core/static_object.hpp"
 
 namespace rds::mapper {
@@ -30,6 +31,23 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
   return sighting;
 }
 
+void mark_movable_objects(KeyframeRecord& record, std::span<const LabelledBox* const> boxes,
+                          const MapperConfig& config) {
+  const double margin = config.region.margin_px;
+  std::vector<geometry::Box2> boxes_px;
+  std::vector<ObjectRegion> regions;
+  for (const LabelledBox* box : boxes) {
+    regions.push_back(object_region(record, *box, config.region));
+    if (const auto px = image_box(*box, record))
+      boxes_px.push_back({px->x0 - margin, px->y0 - margin, px->x1 + margin, px->y1 + margin});
+  }
+  record.background = find_background(record, boxes_px, config.segmentation);
+  for (const auto& region : regions) mark_movable(record, region, config.region);
+  set_aside_movable_cells(record);
+  for (std::size_t i = 0; i < record.background.size(); ++i)
+    if (record.background[i]) record.use[i] = PixelUse::kStatic;
+}
+
 }  // namespace
 
 void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, const MapperConfig& config,
@@ -39,14 +57,9 @@ void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, con
   record.sightings.clear();
   record.looked_for_objects = true;
   std::vector<const LabelledBox*> still;
-  std::vector<ObjectRegion> moving;
-  for (const auto& box : boxes)
-    if (box.movable)
-      moving.push_back(object_region(record, box, config.region));
-    else
-      still.push_back(&box);
-  for (const auto& region : moving) mark_movable(record, region, config.region);
-  set_aside_movable_cells(record);
+  std::vector<const LabelledBox*> moving;
+  for (const auto& box : boxes) (box.movable ? moving : still).push_back(&box);
+  mark_movable_objects(record, moving, config);
   if (still.empty()) return;
 
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });

@@ -35,10 +35,12 @@ class PointSums {
 
   /// The plane of least squares.
   [[nodiscard]] Plane plane() const {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(covariance());
-    const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    const Eigen::Vector3d normal = axes().eigenvectors().col(0);
     return {normal, normal.dot(mean())};
+  }
+  /// Standard deviation of the points along the narrower side of their plane [m].
+  [[nodiscard]] double narrow_deviation_m() const {
+    return std::sqrt(std::max(0.0, axes().eigenvalues()(1)));
   }
   /// Root mean square of the points' distances from a plane [m].
   [[nodiscard]] double deviation_m(const Plane& plane) const {
@@ -47,6 +49,11 @@ class PointSums {
   }
 
  private:
+  [[nodiscard]] Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes() const {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(covariance());
+    return solver;
+  }
   [[nodiscard]] Eigen::Matrix3d covariance() const {
     return products_ / count_ - mean() * mean().transpose();
   }

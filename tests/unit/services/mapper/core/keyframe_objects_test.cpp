@@ -35,6 +35,28 @@ TEST(KeyframeObjects, CutsAPersonOutOfHisBoxAndLeavesARimUnsure) {
   EXPECT_TRUE(record.sightings.empty());
 }
 
+TEST(KeyframeObjects, AWallThatGoesOnOutsideABoxIsOfNobodyInIt) {
+  const cv::Rect person(140, 40, 40, 180);
+  LabelTable labels;
+  const auto record = record_of(
+      SyntheticKeyframe(0, 1.7).rectangle(person, 1.5).box("person", {130, 30, 60, 200}, true).make(),
+      labels);
+  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
+  EXPECT_EQ(use_at(record, 132, 120), PixelUse::kStatic);  // inside the box, and as near as he may be
+  EXPECT_EQ(use_at(record, 60, 120), PixelUse::kStatic);
+}
+
+TEST(KeyframeObjects, AWallThatFillsNoMoreThanABoxMayBeSomebody) {
+  LabelTable labels;
+  const auto record = record_of(SyntheticKeyframe(0, 5.9)
+                                    .rectangle({90, 0, 150, 240}, 1.5)
+                                    .box("person", {90, 0, 150, 240}, true)
+                                    .make(),
+                                labels);
+  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
+  EXPECT_EQ(use_at(record, 100, 20), PixelUse::kMovable);
+}
+
 TEST(KeyframeObjects, ASmallPartBesideAPersonIsUnsure) {
   const cv::Rect person(120, 40, 80, 180);
   const cv::Rect bag(215, 150, 14, 30);
@@ -65,7 +87,10 @@ TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
 
 TEST(KeyframeObjects, MovableCellsAreUnsureUnlessABoxKnowsTheObject) {
   const cv::Rect person(120, 40, 80, 200);
-  auto keyframe = SyntheticKeyframe(0).rectangle(person, 1.5).movable_cells({40, 40, 80, 80});
+  auto keyframe = SyntheticKeyframe(0)
+                      .rectangle(person, 1.5)
+                      .rectangle({40, 40, 80, 80}, 2.5)
+                      .movable_cells({40, 40, 80, 80});
   const MapperConfig config;
   const auto unboxed = make_record(keyframe, config.sampling, sample_rays(test::small_camera(), 2));
   EXPECT_EQ(use_at(unboxed, 60, 60), PixelUse::kUnsure);

@@ -55,7 +55,7 @@ struct KeyframeRecord {
   std::vector<std::uint8_t> rgb;              // 3 per pixel
   cv::Mat1b movable_cells;                    // as in KeyframeInput
   std::vector<PixelUse> use;
-  std::vector<bool> background;  // large planes beside movable objects; empty: none. Not kept in store.
+  std::vector<bool> background;  // beside movable objects, see find_background(); not stored
   Doubt doubt;
   std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
   bool looked_for_objects = false;

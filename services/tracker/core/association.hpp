@@ -23,6 +23,7 @@ struct TrackedFrame {
   double given_fx = 0;         // px, before calibration changed the camera; 0: it is as it is
   bool pose_is_given = false;  // and not to be estimated
   bool movable_there = false;  // something that can move is in view: points that are new may be its
+  bool held_by_depth = false;  // and by nothing else
   double found_share = 1;      // of the expected map points, relative to the usual (FoundShare)
 
   [[nodiscard]] int matches() const;

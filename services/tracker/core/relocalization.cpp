@@ -85,12 +85,17 @@ bool relocalize_against(SlamMap& map, KeyframeId id, const RelocalizationTools& 
   if (match_keyframe(map, *keyframe, tools.matching, frame) < tools.config.min_matches) return false;
   if (!solve_pnp(map, tools.config, frame)) return false;
   if (optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame) < kMinRefined) return false;
-  const auto points = points_around(map, *keyframe);
+  localize_around(map, *keyframe, tools, frame);
+  return frame.static_matches() >= tools.config.min_inliers;
+}
+
+void localize_around(SlamMap& map, const Keyframe& keyframe, const RelocalizationTools& tools,
+                     TrackedFrame& frame) {
+  const auto points = points_around(map, keyframe);
   for (const double window : {kWideWindow, kNarrowWindow}) {
     match_points(map, not_seen(points, frame), tools.model, tools.pyramid, tools.matching, window, frame);
     optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame);
   }
-  return frame.static_matches() >= tools.config.min_inliers;
 }
 
 cv::Mat static_descriptors(const FeatureSet& features) {

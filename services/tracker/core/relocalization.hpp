@@ -25,6 +25,11 @@ struct RelocalizationTools {
 bool relocalize_against(SlamMap& map, KeyframeId keyframe, const RelocalizationTools& tools,
                         TrackedFrame& frame);
 
+/// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
+/// centimetres and degrees: frame.points and camera_from_map hold the result.
+void localize_around(SlamMap& map, const Keyframe& keyframe, const RelocalizationTools& tools,
+                     TrackedFrame& frame);
+
 /// Descriptors of the features that are not movable, N×32 CV_8U.
 cv::Mat static_descriptors(const FeatureSet& features);
 

@@ -177,6 +177,9 @@ class Tracker {
   [[nodiscard]] double jerk(const TrackedFrame& frame) const;
   [[nodiscard]] double jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const;
   [[nodiscard]] double support(const TrackedFrame& frame) const;
+  [[nodiscard]] std::optional<Pose> pose_by_depth(std::int64_t stamp_ns) const;
+  bool find_around(const Pose& by_depth, TrackedFrame& frame);
+  State hold(const Pose& by_depth, TrackedFrame& frame);
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
@@ -222,6 +225,7 @@ class Tracker {
   KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;
+  bool held_by_depth_ = false;  // the last frame's pose: too rough to compare depths
   std::optional<std::int64_t> lost_since_ns_;
   std::uint64_t mark_ = 0;
   std::deque<KeyframeDepth> depth_of_keyframes_;  // of those whose boxes may still come

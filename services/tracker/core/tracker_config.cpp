@@ -107,6 +107,7 @@ void read(config::ConfigReader& r, QualityConfig& c) {
   r.value("min_inliers_weak", c.min_inliers_weak, 6, 1000);
   r.value("min_found_share", c.min_found_share, 0.0, 1.0);
   r.value("weak_s", c.weak_s, 0.0, 60.0, "s");
+  r.value("by_depth_s", c.by_depth_s, 0.0, 0.5, "s");
   r.value("young_map_s", c.young_map_s, 0.0, 1e6, "s");
 }
 

@@ -132,6 +132,7 @@ struct QualityConfig {
   int min_inliers_weak = 15;        // below: lost
   double min_found_share = 0.25;    // of the usual share of expected points found; below: weak
   double weak_s = 1.0;              // of weak tracking in a row, then lost
+  double by_depth_s = 0.5;          // of tracking by depth alone, then lost
   double young_map_s = 5.0;         // of tracking; a younger map is given up by who is lost in it for as long
   bool operator==(const QualityConfig&) const = default;
 };

@@ -196,19 +196,24 @@ State Tracker::track_motion(TrackedFrame& frame) {
   if (was_lost && inliers >= config_.relocalization.min_inliers) return State::kRelocalised;
   if (!was_lost && inliers >= quality.min_inliers && sees_enough)
     return has_jumped(frame) ? State::kRelocalised : State::kTracking;
+  const auto by_depth = was_lost ? std::nullopt : pose_by_depth(frame.stamp_ns);
+  if (by_depth && find_around(*by_depth, frame)) return State::kTracking;
   if (state_ != State::kWeak) weak_since_ns_ = frame.stamp_ns;
   const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
-  const bool weak_is_right = !was_lost && weak_s <= quality.weak_s && !has_jumped(frame);
+  const bool weak_is_right = !was_lost && !by_depth && weak_s <= quality.weak_s && !has_jumped(frame);
   if (weak_is_right && inliers >= quality.min_inliers_weak) return State::kWeak;
-  return relocalize(frame) ? State::kRelocalised : State::kLost;
+  if (relocalize(frame)) return State::kRelocalised;
+  return by_depth ? hold(*by_depth, frame) : State::kLost;
 }
 
 void Tracker::remember(TrackedFrame&& frame, State state) {
+  held_by_depth_ = has_pose(state) && frame.held_by_depth;
   if (state == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.stamp_ns;
   if (!has_pose(state)) return;
   lost_since_ns_.reset();
-  cut_.remember(frame.camera_from_map.inverse());
+  cut_.remember(frame.camera_from_map.inverse(), !frame.held_by_depth);
   velocity_ = state == State::kRelocalised ? std::nullopt : motion_to(frame);
+  if (frame.held_by_depth) return;  // the last frame is what later ones are matched with
   const Pose reference_from_camera = map_.pose_of(reference_).inverse() * frame.camera_from_map.inverse();
   last_ = LastFrame{std::move(frame), images_, reference_, reference_from_camera};
 }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "services/tracker/core/removal/depth_grid.hpp"
 #include "services/tracker/core/removal/plane_fitting.hpp"
+#include "services/tracker/core/removal/surface_cells.hpp"
 
 namespace rds::tracker {
 
@@ -22,12 +22,10 @@ class Background {
 
  private:
   [[nodiscard]] bool shows(const cv::Point& cell, bool wide) const;
-  [[nodiscard]] Eigen::Vector3f point(int column, int row) const;
-  [[nodiscard]] Eigen::Vector3f normal(int column, int row) const;
   [[nodiscard]] std::vector<SurfaceSample> samples_outside(const cv::Mat1b& suspect) const;
 
   const PictureCells& picture_;
-  const GridGeometry& grid_;
+  SurfaceCells surfaces_;
   std::vector<Plane> planes_;
 };
 

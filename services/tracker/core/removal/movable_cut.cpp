@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "services/tracker/core/depth_alignment.hpp"
 #include "services/tracker/core/removal/box_cut.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 
@@ -19,7 +20,6 @@ constexpr double kLastingStepM = 0.03;
 }  // namespace
 
 void MovableCut::look_at(const image::RgbdFrame& picture) {
-  if (config_.method == "off") return;
   if (picture.camera != grid_.camera()) {
     forget();
     grid_ = GridGeometry(picture.camera);
@@ -45,7 +45,6 @@ MovableMask MovableCut::cut(std::span<const MovableRegion> regions,
   now_.unsupported_s = cv::Mat1f(grid_.size(), 0.0F);
   mark_lasting(lasting);
   if (!regions.empty() || !now_.moved.empty() || last_.widened.any()) mark(regions);
-  last_pose_.reset();
   if (cv::countNonZero(now_.mask) > 0) now_.widened = widened(now_.cells.depth_m, now_.mask);
   return now_.widened;
 }
@@ -58,7 +57,7 @@ void MovableCut::mark(std::span<const MovableRegion> regions) {
   Foreground foreground(now_.cells, background);
   cut_boxes(foreground, grid_, regions, config_, now_.mask);
   for (const auto& cells : now_.moved) cut_around(foreground, grid_, cells, config_, now_.mask);
-  if (now_.camera_from_map && last_pose_ && last_.widened.any()) carry(background);
+  if (now_.camera_from_map && last_.map_from_camera && last_.widened.any()) carry(background);
 }
 
 /// Marks the surfaces right around points that show where they have always been.
@@ -82,7 +81,7 @@ void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
 void MovableCut::carry(const Background& background) {
   const auto passed_s =
       static_cast<float>(static_cast<double>(now_.stamp_ns - last_.stamp_ns) / kNsPerSecond);
-  const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_pose_).cast<float>();
+  const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_.map_from_camera).cast<float>();
   for (int r = 0; r < last_.mask.rows; ++r)
     for (int c = 0; c < last_.mask.cols; ++c) {
       if (last_.mask(r, c) == 0) continue;
@@ -100,14 +99,24 @@ void MovableCut::carry(const Background& background) {
     }
 }
 
-void MovableCut::remember(const geometry::Pose& map_from_camera) {
-  if (now_.cells.depth_m.empty() || config_.method != "depth") return;
-  last_pose_ = map_from_camera;
+void MovableCut::remember(const geometry::Pose& map_from_camera, bool sure) {
+  now_.map_from_camera = map_from_camera;
+  if (!sure || now_.cells.depth_m.empty() || config_.method != "depth") return;
   const auto step_ns = static_cast<std::int64_t>(config_.reference_s * kNsPerSecond);
   if (!past_.empty() && now_.stamp_ns - newest_past_ns_ < step_ns) return;
   if (past_.size() == static_cast<std::size_t>(config_.references)) past_.erase(past_.begin());
   past_.emplace_back(now_.cells.depth_m, now_.widened.cells(), grid_, map_from_camera);
   newest_past_ns_ = now_.stamp_ns;
+}
+
+std::optional<geometry::Pose> MovableCut::pose_by_depth(const geometry::Pose& guess) const {
+  if (!last_.map_from_camera) return std::nullopt;
+  const cv::Mat1b& movable = last_.widened.cells();
+  const cv::Mat1b standing =
+      movable.empty() ? cv::Mat1b(grid_.size(), std::uint8_t{255}) : cv::Mat1b(movable == 0);
+  const EarlierView before{{last_.cells.depth_m, movable, grid_, *last_.map_from_camera},
+                           {last_.cells.depth_m, standing, grid_, *last_.map_from_camera}};
+  return align_depth(before, now_.cells.depth_m, grid_, guess);
 }
 
 MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {
@@ -136,7 +145,6 @@ MovableMask MovableCut::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask)
 
 void MovableCut::forget() {
   past_.clear();
-  last_pose_.reset();
   now_ = Now();
   last_ = Now();
 }

@@ -32,10 +32,14 @@ class MovableCut {
   /// @param regions  predicted boxes with their depth intervals.
   /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
   MovableMask cut(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
-  /// The pose of the picture that was cut last. Pictures without are not compared with.
-  void remember(const geometry::Pose& map_from_camera);
+  /// The pose of the picture that was cut last. Later ones are compared with pictures whose pose is sure
+  /// only.
+  void remember(const geometry::Pose& map_from_camera, bool sure);
   /// What cut_late() needs of the picture that was cut last, when its boxes come.
   [[nodiscard]] const PictureCells& latest() const { return now_.cells; }
+  /// Where the picture's depth has the camera, laid on that of the picture before.
+  /// @param guess  camera_from_map. @return the same; nullopt where depth does not tell.
+  [[nodiscard]] std::optional<geometry::Pose> pose_by_depth(const geometry::Pose& guess) const;
   /// The objects in late boxes of an earlier picture.
   [[nodiscard]] MovableMask cut_late(const PictureCells& picture,
                                      std::span<const MovableRegion> regions) const;
@@ -50,9 +54,10 @@ class MovableCut {
     PictureCells cells;
     std::optional<geometry::Pose> camera_from_map;  // as it was guessed
     Things moved;
-    cv::Mat1b mask;           // without rim
-    cv::Mat1f unsupported_s;  // for how long, where the mask is set
-    MovableMask widened;      // with rim; empty where nothing is set
+    cv::Mat1b mask;                                 // without rim
+    cv::Mat1f unsupported_s;                        // for how long, where the mask is set
+    MovableMask widened;                            // with rim; empty where nothing is set
+    std::optional<geometry::Pose> map_from_camera;  // that was found in the end
   };
 
   void mark(std::span<const MovableRegion> regions);
@@ -66,8 +71,7 @@ class MovableCut {
   GridGeometry grid_;
   Now now_;
   Now last_;
-  std::optional<geometry::Pose> last_pose_;  // map_from_camera of last_, and of now_ once it is known
-  std::vector<SeenCells> past_;              // by stamp
+  std::vector<SeenCells> past_;  // by stamp
   std::int64_t newest_past_ns_ = 0;
 };
 

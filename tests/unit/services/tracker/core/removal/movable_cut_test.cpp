@@ -23,7 +23,7 @@ class MovableCutting : public testing::Test {
     cut.look_at(picture);
     cut.compare(Pose::Identity());
     MovableMask mask = cut.cut(regions, {});
-    cut.remember(Pose::Identity());
+    cut.remember(Pose::Identity(), true);
     return mask;
   }
   MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kFindBackFrames = 10;
 constexpr double kMaxErrorRatio = 1.3;  // to the undisturbed run
+constexpr FrameRange kDark{.first = 120, .count = 30};
 
 struct RunFigures {
   std::vector<std::string> states;  // per frame
@@ -66,17 +67,33 @@ class DisturbedRun : public testing::Test {
   TemporaryFolder place;
 };
 
-TEST_F(DisturbedRun, BlackPicturesAreLostAndLeaveNoTrace) {
+/// Of the second without a usable picture the first `held` frames are WEAK, the others LOST.
+void expect_held_then_lost(const RunFigures& darkened, std::size_t held) {
+  for (std::size_t i = 0; i < kDark.count; ++i)
+    EXPECT_EQ(darkened.states.at(kDark.first + i), i < held ? "WEAK" : "LOST") << i;
+  expect_found_back(darkened, kDark.first + kDark.count);
+  expect_no_invented_pose(darkened);
+}
+
+TEST_F(DisturbedRun, IsHeldByDepthForHalfASecondInTheDarkThenLost) {
   RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
   make_excerpt(shared() / "data/tum_fr1_rpy", place / "whole", 220, 240);
-  make_blacked_out(place / "whole", place / "black", {120, 30});
+  make_blacked_out(place / "whole", place / "dark", kDark, Darkened::kColor);
   const RunFigures whole = run_of("whole");
-  const RunFigures black = run_of("black");
+  const RunFigures dark = run_of("dark");
   EXPECT_EQ(frames_in(whole, "LOST"), 0U);
-  for (std::size_t i = 120; i < 150; ++i) EXPECT_EQ(black.states.at(i), "LOST") << i;
-  expect_found_back(black, 150);
-  expect_no_invented_pose(black);
-  EXPECT_LE(black.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
+  expect_held_then_lost(dark, 15);
+  EXPECT_LE(dark.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
+}
+
+TEST_F(DisturbedRun, ACoveredCameraIsLostAtOnceAndLeavesNoTrace) {
+  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
+  make_excerpt(shared() / "data/tum_fr1_rpy", place / "whole", 220, 240);
+  make_blacked_out(place / "whole", place / "covered", kDark, Darkened::kColorAndDepth);
+  const RunFigures whole = run_of("whole");
+  const RunFigures covered = run_of("covered");
+  expect_held_then_lost(covered, 0);
+  EXPECT_LE(covered.ate_final_m, kMaxErrorRatio * whole.ate_final_m);
 }
 
 TEST_F(DisturbedRun, FindsItselfAfterACut) {

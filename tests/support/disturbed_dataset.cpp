@@ -14,7 +14,8 @@
 
 namespace rds::test {
 namespace {
-constexpr const char* kBlack = "black.png";
+
+constexpr double kHalfFrameS = 0.5 / 30;  // depth is taken that much before or after its colour picture
 
 /// A line of rgb.txt, depth.txt or groundtruth.txt.
 struct Entry {
@@ -54,13 +55,19 @@ void rewrite(const std::filesystem::path& dataset, const std::filesystem::path& 
 }  // namespace
 
 void make_blacked_out(const std::filesystem::path& dataset, const std::filesystem::path& destination,
-                      FrameRange range) {
+                      FrameRange range, Darkened darkened) {
+  const Entries colors = read_list(dataset / "rgb.txt");
+  const double begin_s = colors.at(range.first).stamp_s - kHalfFrameS;
+  const double end_s = colors.at(range.first + range.count).stamp_s - kHalfFrameS;
   const auto blacken = [&](const std::string& list, Entries entries) {
-    if (list != "rgb.txt") return entries;
-    const cv::Mat picture = cv::imread((dataset / entries.at(range.first).rest).string());
-    if (!cv::imwrite((destination / kBlack).string(), cv::Mat::zeros(picture.size(), CV_8UC3)))
+    const bool color = list == "rgb.txt";
+    if (!color && (list != "depth.txt" || darkened == Darkened::kColor)) return entries;
+    const cv::Mat picture = cv::imread((dataset / entries.front().rest).string(), cv::IMREAD_UNCHANGED);
+    const std::string black = color ? "black_color.png" : "black_depth.png";
+    if (!cv::imwrite((destination / black).string(), cv::Mat::zeros(picture.size(), picture.type())))
       throw std::runtime_error(destination.string() + ": picture cannot be written");
-    for (std::size_t i = range.first; i < range.first + range.count; ++i) entries.at(i).rest = kBlack;
+    for (Entry& e : entries)
+      if (e.stamp_s >= begin_s && e.stamp_s < end_s) e.rest = black;
     return entries;
   };
   rewrite(dataset, destination, blacken);

@@ -12,10 +12,12 @@ struct FrameRange {
   std::size_t count = 0;
 };
 
-/// A recording with links to another one's pictures, in which the range's colour pictures are black.
-/// @throws std::runtime_error
+enum class Darkened { kColor, kColorAndDepth };
+
+/// A recording with links to another one's pictures, in which the range's pictures show nothing: the light
+/// is out, or the camera is covered. @throws std::runtime_error
 void make_blacked_out(const std::filesystem::path& dataset, const std::filesystem::path& destination,
-                      FrameRange range);
+                      FrameRange range, Darkened darkened);
 
 /// The same without the range's colour and depth pictures: the camera was elsewhere in between.
 /// @throws std::runtime_error

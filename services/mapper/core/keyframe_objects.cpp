@@ -69,7 +69,8 @@ void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, con
   for (const auto* box : still) {
     const auto box_px = image_box(*box, record);
     if (!box_px) continue;
-    auto pixels = static_object(record, *box, segments, config);
+    auto [pixels, flush] = static_object(record, *box, segments, config);
+    if (flush && box->score < config.objects.flush_min_score) continue;
     std::erase_if(pixels,
                   [&](std::size_t i) { return record.labels[i] != 0; });  // of what is surer, or nearer
     const auto label = labels.index_of(box->label);

@@ -53,6 +53,8 @@ void read(ConfigReader& r, ObjectConfig& c) {
       r.violation("class_radius_m." + label, fmt::format("{}", radius), "expected 0 … 10 m");
   r.value("default_radius_m", c.default_radius_m, 0.01, 10.0, "m");
   r.value("min_observations", c.min_observations, 1, 100);
+  r.value("min_score_sum", c.min_score_sum, 0.0, 100.0);
+  r.value("flush_min_score", c.flush_min_score, 0.0, 1.0);
   r.value("hit", c.hit, 0.01, 10.0);
   r.value("miss", c.miss, 0.0, 10.0);
   r.value("seen_through", c.seen_through, 0.0, 10.0);

@@ -58,10 +58,12 @@ struct ObjectConfig {
   std::map<std::string, double> class_radius_m = {
       {"bottle", 0.06}, {"chair", 0.5}, {"person", 0.35}, {"tvmonitor", 0.25}, {"tv", 0.25}};
   double default_radius_m = 0.6;
-  int min_observations = 2;   // an object is reported from here on
-  double hit = 0.85;          // log-odds of existence per observation
-  double miss = 0.05;         // not detected though in view
-  double seen_through = 0.6;  // the camera measured something behind it
+  int min_observations = 2;      // an object is reported from here on …
+  double min_score_sum = 1.0;    // … if the detector was so sure of it in all
+  double flush_min_score = 0.6;  // what does not stand out of its wall is an object from here on
+  double hit = 0.85;             // log-odds of existence per observation
+  double miss = 0.05;            // not detected though in view
+  double seen_through = 0.6;     // the camera measured something behind it
   double max_existence = 3.5;
   double border_weight = 0.25;  // of an observation cut by the picture's border
 
@@ -78,7 +80,7 @@ struct OctreeConfig {
   double suspect_miss = -1.2;  // rays through what SceneHistory holds for something movable that has gone
   int weak_sightings = 2;  // what no more keyframes have seen is lowered where nothing is measured; 0: off
   bool color_by_label = true;  // a labelled voxel shows its label's colour
-  double label_share = 0.5;    // of a voxel's votes that a label needs
+  double label_share = 0.34;   // of a voxel's votes that a label needs
 
   bool operator==(const OctreeConfig&) const = default;
 };

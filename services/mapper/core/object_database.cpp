@@ -189,17 +189,28 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
 }
 
-std::vector<geometry::Box3> ObjectDatabase::unsighted() const {
+std::vector<geometry::Box3> ObjectDatabase::unsighted(const KeyframeRecord& record,
+                                                      const LabelTable& labels) const {
+  std::vector<geometry::Box3> sighted;
+  for (const auto& sighting : record.sightings)
+    sighted.push_back(boundary_in_map(sighting, record.map_from_camera));
   std::vector<geometry::Box3> boxes;
-  for (const auto& entry : entries_)
-    if (!entry.seen_now) boxes.push_back({entry.min, entry.max});
+  for (const auto& entry : entries_) {
+    const geometry::Box3 box{entry.min, entry.max};
+    bool seen = false;
+    for (std::size_t i = 0; i < sighted.size() && !seen; ++i)
+      seen = labels.names()[record.sightings[i].label] == entry.object.label &&
+             is_same(entry.object.label, box, sighted[i]);
+    if (!seen) boxes.push_back(box);
+  }
   return boxes;
 }
 
 std::vector<MapObject> ObjectDatabase::objects() const {
   std::vector<MapObject> reported;
   for (const auto& entry : entries_)
-    if (entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations))
+    if (entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations) &&
+        entry.score_sum >= config_.min_score_sum)
       reported.push_back(entry.object);
   return reported;
 }

@@ -25,8 +25,9 @@ class ObjectDatabase {
   /// objects.
   void integrate(const KeyframeRecord& record, const LabelTable& labels);
 
-  /// Boxes of the objects that the last keyframe did not show or the detector did not find in it.
-  [[nodiscard]] std::vector<geometry::Box3> unsighted() const;
+  /// Boxes of the objects that a keyframe does not show, or that the detector did not find in it.
+  [[nodiscard]] std::vector<geometry::Box3> unsighted(const KeyframeRecord& record,
+                                                      const LabelTable& labels) const;
 
   /// Objects with enough observations, in order of their ids.
   [[nodiscard]] std::vector<MapObject> objects() const;

@@ -79,6 +79,7 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
   map_->history.see(record, config_);
+  map_->objects.integrate(record, labels_);
   integrate_into(*map_, record, map_->history, delta);
   delta.revision = ++revision_;
   keep_within_limits();
@@ -97,9 +98,8 @@ void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, cons
                                     MapDelta& delta) {
   make_scan(record, confirmed_use(record, history.surfaces, config_), config_.octree, config_.sampling,
             scan_);
-  map.objects.integrate(record, labels_);
-  map.octree.integrate(
-      {scan_, record.looked_for_objects, map.objects.unsighted(), labels_, history, record.stamp_ns, delta});
+  map.octree.integrate({scan_, record.looked_for_objects, map.objects.unsighted(record, labels_), labels_,
+                        history, record.stamp_ns, delta});
 }
 
 /// Its part of the map stays as it is, whatever corrections come.
@@ -109,6 +109,7 @@ void SemanticMapper::make_final(std::uint64_t id) {
   if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
   MapDelta unused;
   base_->history.see(*record, config_);
+  base_->objects.integrate(*record, labels_);
   integrate_into(*base_, *record, map_->history, unused);
   keyframes_.erase(id);
   records_.erase(id);
@@ -178,10 +179,12 @@ MapDelta SemanticMapper::rebuild() {
   auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
   std::vector<std::uint64_t> lost;
   for (const auto& [id, keyframe] : keyframes_)
-    if (const auto record = record_of(id))
+    if (const auto record = record_of(id)) {
       fresh->history.see(*record, config_);
-    else
+      fresh->objects.integrate(*record, labels_);
+    } else {
       lost.push_back(id);
+    }
   for (const auto id : lost) lose(id);
   for (auto& [id, keyframe] : keyframes_) {
     MapDelta unused;

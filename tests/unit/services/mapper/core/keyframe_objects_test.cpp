@@ -115,6 +115,20 @@ TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
   EXPECT_EQ(labels.names()[record.labels[center]], "sofa");
 }
 
+TEST(KeyframeObjects, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
+  const cv::Rect poster(110, 80, 100, 80);
+  const auto sightings = [&](double depth_m, float score) {
+    LabelTable labels;
+    return record_of(
+               SyntheticKeyframe(0).rectangle(poster, depth_m).box("tvmonitor", poster, false, score).make(),
+               labels)
+        .sightings.size();
+  };
+  EXPECT_EQ(sightings(2.97, 0.55F), 0U);
+  EXPECT_EQ(sightings(2.97, 0.65F), 1U);
+  EXPECT_EQ(sightings(2.8, 0.45F), 1U);
+}
+
 TEST(KeyframeObjects, NewBoxesReplaceEarlierOnes) {
   const cv::Rect person(120, 40, 80, 200);
   LabelTable labels;

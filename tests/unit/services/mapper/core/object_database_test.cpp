@@ -41,6 +41,14 @@ TEST(ObjectDatabase, ReportsAnObjectOnlyAfterEnoughSightings) {
   EXPECT_EQ(mapper.objects().size(), 1U);
 }
 
+TEST(ObjectDatabase, ReportsAnObjectOfWeakBoxesAfterMoreSightings) {
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 3; ++id) mapper.integrate(with_chair(id, 0.3F));
+  EXPECT_TRUE(mapper.objects().empty());
+  mapper.integrate(with_chair(3, 0.3F));
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
 TEST(ObjectDatabase, KeepsNeighboursOfTheSameClassApart) {
   const cv::Rect left(20, 80, 60, 60);
   const cv::Rect right(230, 80, 60, 60);
@@ -78,6 +86,22 @@ TEST(ObjectDatabase, KeepsWithItsLabelsWhatTheDetectorSeldomFinds) {
   const auto middle = point_at(140, 120, kChairM);
   const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
   EXPECT_EQ((Rgb{color.r, color.g, color.b}), label_color("chair"));
+}
+
+TEST(ObjectDatabase, WhatIsFoundLateHasItsLabelWhenTheMapSettles) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 20; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  for (; id < 24; ++id) mapper.integrate(with_chair(id));
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = [&] {
+    const auto c = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+    return Rgb{c.r, c.g, c.b};
+  };
+  EXPECT_NE(color(), label_color("chair"));
+  mapper.settle({});
+  EXPECT_EQ(color(), label_color("chair"));
 }
 
 TEST(ObjectDatabase, ForgetsWhatWasFoundTwiceAndThenNeverAgain) {

@@ -20,8 +20,7 @@ SyntheticKeyframe over_surface(double depth_below_m) {
   return keyframe;
 }
 
-/// Pixels of the full picture that a box's object has, as a mask of the sampled ones.
-std::vector<bool> object_in(const KeyframeInput& input, const cv::Rect& px, float depth_m) {
+StaticObject object_of(const KeyframeInput& input, const cv::Rect& px, float depth_m) {
   MapperConfig config;
   config.segmentation.stride = 1;
   const auto record =
@@ -29,8 +28,13 @@ std::vector<bool> object_in(const KeyframeInput& input, const cv::Rect& px, floa
   const auto segments = segment(record, config.segmentation);
   const LabelledBox box{"chair", 0.9F,    {double(px.x), double(px.y), double(px.br().x), double(px.br().y)},
                         {},      depth_m, false};
-  std::vector<bool> mask(record.size(), false);
-  for (const auto i : static_object(record, box, segments, config)) mask[i] = true;
+  return static_object(record, box, segments, config);
+}
+
+/// Pixels of the full picture that a box's object has, as a mask of the sampled ones.
+std::vector<bool> object_in(const KeyframeInput& input, const cv::Rect& px, float depth_m) {
+  std::vector<bool> mask(input.depth.values.total() / 4, false);
+  for (const auto i : object_of(input, px, depth_m).pixels) mask[i] = true;
   return mask;
 }
 
@@ -75,6 +79,12 @@ TEST(StaticObject, WhatMostlyStandsBesideItsBoxIsNotItsOwn) {
   const auto mask = object_in(keyframe, {120, 60, 85, 100}, 2.0F);
   EXPECT_TRUE(at(mask, 150, 110));
   EXPECT_FALSE(at(mask, 198, 110));
+}
+
+TEST(StaticObject, APosterIsFlushWithItsWallAScreenBeforeItIsNot) {
+  const cv::Rect px(120, 60, 80, 60);
+  EXPECT_TRUE(object_of(SyntheticKeyframe(0).rectangle(px, 2.97), px, 2.97F).flush);
+  EXPECT_FALSE(object_of(SyntheticKeyframe(0).rectangle(px, 2.8), px, 2.8F).flush);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ struct CorrectionConfig {
   double min_translation_m = 0.01;  // smaller pose corrections wait for settle()
   double min_rotation_deg = 0.5;
   int max_keyframes = 5000;  // kept for re-integration; older ones are final
-  double memory_mb = 64;     // of keyframes (0.3 MB each at 640×480, stride 2); older ones go to a file
+  double memory_mb = 48;     // of keyframes (0.3 MB each at 640×480, stride 2); older ones go to a file
   std::string spill_folder;  // of that file; empty: the system's folder for temporary files
 
   bool operator==(const CorrectionConfig&) const = default;

@@ -99,7 +99,8 @@ void MapperService::integrate_ready() {
 bool MapperService::is_ready(const Images& images) const {
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
   if (!config_.expect_boxes || boxes_by_stamp_.contains(stamp)) return true;
-  if (config_.lockstep) return false;
+  if (config_.lockstep)  // boxes come in the order of the keyframes: these were lost when a mapper was killed
+    return !boxes_by_stamp_.empty() && boxes_by_stamp_.rbegin()->first > stamp;
   const std::int64_t newest = messages::to_nanoseconds(waiting_.newest()->header().stamp());
   return static_cast<double>(newest - stamp) * 1e-9 > config_.boxes_timeout_s;
 }

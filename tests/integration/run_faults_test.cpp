@@ -48,6 +48,23 @@ TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
 INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),
                          [](const auto& each) { return each.param.substr(4, 4); });
 
+/// What was under way in it is lost, and nobody waits for that for long.
+TEST(KilledMapper, DoesNotHoldALockstepRunUp) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const TemporaryFolder place;
+  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 240);
+  Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
+                   "--rate", "max"});
+  ASSERT_TRUE(process.wait_for_output("frame", 60s));
+  const auto victims = children(process.pid(), "rds-mapper");
+  ASSERT_EQ(victims.size(), 1U);
+  ASSERT_EQ(kill(victims.front(), SIGKILL), 0);
+  EXPECT_EQ(process.wait(100s), 1) << "a run with a fault must say so";
+  const auto summary = nlohmann::json::parse(read_text(place / "out" / "summary.json"));
+  EXPECT_EQ(summary["processes"]["rds-mapper"]["restarts"], 1);
+  EXPECT_EQ(summary["frames"]["tracked"], 240);
+}
+
 TEST(PausedServices, DoNotHoldALockstepRunUp) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -191,16 +192,15 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
 
 std::vector<geometry::Box3> ObjectDatabase::unsighted(const KeyframeRecord& record,
                                                       const LabelTable& labels) const {
-  std::vector<geometry::Box3> sighted;
+  std::vector<std::pair<std::string, geometry::Box3>> sighted;
   for (const auto& sighting : record.sightings)
-    sighted.push_back(boundary_in_map(sighting, record.map_from_camera));
+    sighted.emplace_back(labels.names()[sighting.label], boundary_in_map(sighting, record.map_from_camera));
   std::vector<geometry::Box3> boxes;
   for (const auto& entry : entries_) {
     const geometry::Box3 box{entry.min, entry.max};
-    bool seen = false;
-    for (std::size_t i = 0; i < sighted.size() && !seen; ++i)
-      seen = labels.names()[record.sightings[i].label] == entry.object.label &&
-             is_same(entry.object.label, box, sighted[i]);
+    const bool seen = std::ranges::any_of(sighted, [&](const auto& s) {
+      return s.first == entry.object.label && is_same(s.first, box, s.second);
+    });
     if (!seen) boxes.push_back(box);
   }
   return boxes;

@@ -29,7 +29,7 @@ class ObjectDatabase {
   [[nodiscard]] std::vector<geometry::Box3> unsighted(const KeyframeRecord& record,
                                                       const LabelTable& labels) const;
 
-  /// Objects with enough observations, in order of their ids.
+  /// Objects seen often and surely enough, in order of their ids.
   [[nodiscard]] std::vector<MapObject> objects() const;
 
   /// All that is known of every object, the one seen once too.

@@ -9,6 +9,7 @@
 
 namespace rds::mapper {
 
+/// What of a keyframe is of a static object.
 struct StaticObject {
   std::vector<std::size_t> pixels;  // indices of sampled pixels, ascending
   bool flush = false;  // hardly anything stands out of a large plane that goes on around it, as of a poster

@@ -161,7 +161,7 @@ MovableMask Tracker::cut_movable(const image::RgbdFrame& picture, std::span<cons
   MovableMask movable;
   std::atomic<bool> is_cut = false;
   const auto cut = [&] {
-    if (around.camera_from_map && !held_by_depth_) cut_.compare(*around.camera_from_map);
+    if (around.camera_from_map) cut_.compare(*around.camera_from_map);
     movable = cut_.cut(regions, lasting_points(around));
     is_cut = true;
   };

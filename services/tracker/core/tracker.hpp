@@ -225,7 +225,6 @@ class Tracker {
   KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
   bool changed_ = false;
   std::int64_t weak_since_ns_ = 0;
-  bool held_by_depth_ = false;  // the last frame's pose: too rough to compare depths
   std::optional<std::int64_t> lost_since_ns_;
   std::uint64_t mark_ = 0;
   std::deque<KeyframeDepth> depth_of_keyframes_;  // of those whose boxes may still come

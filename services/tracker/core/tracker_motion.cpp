@@ -207,7 +207,6 @@ State Tracker::track_motion(TrackedFrame& frame) {
 }
 
 void Tracker::remember(TrackedFrame&& frame, State state) {
-  held_by_depth_ = has_pose(state) && frame.held_by_depth;
   if (state == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.stamp_ns;
   if (!has_pose(state)) return;
   lost_since_ns_.reset();

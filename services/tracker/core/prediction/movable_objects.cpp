@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/prediction/movable_objects.hpp"
 
+#include "services/tracker/core/prediction/observation_filter.hpp"
 #include "services/tracker/core/prediction/visibility.hpp"
 
 namespace rds::tracker {
@@ -36,7 +37,7 @@ std::vector<MovableRegion> MovableObjects::regions_of(Observations observations,
   std::vector<MovableRegion> regions;
   for (const prediction::ObjectObservation& observation : observations) {
     if (!prediction::is_movable(predictor_.config(), observation.label) ||
-        static_cast<double>(observation.score) < predictor_.config().min_score ||
+        !prediction::is_usable(observation, predictor_.config().min_score) ||
         prediction::is_doubtful(observation, {camera_from_map.inverse(), camera}, predictor_.config()))
       continue;
     if (const auto box =

@@ -10,14 +10,14 @@ namespace {
 constexpr double kMaxCoordinateM = 1e4;
 constexpr double kMaxSizeM = 100;
 
+}  // namespace
+
 bool is_usable(const ObjectObservation& observation, double min_score) {
   return geometry::is_valid(observation.box) && std::isfinite(observation.score) &&
          static_cast<double>(observation.score) >= min_score &&
          observation.box.center().cwiseAbs().maxCoeff() <= kMaxCoordinateM &&
          observation.box.size.maxCoeff() <= kMaxSizeM;
 }
-
-}  // namespace
 
 double overlap_of_smaller(const geometry::OrientedBox& a, const geometry::OrientedBox& b) {
   const Eigen::Vector3d offset = a.map_from_box.linear().transpose() * (b.center() - a.center());

@@ -30,7 +30,7 @@ void MovableCut::look_at(const image::RgbdFrame& picture) {
 }
 
 void MovableCut::compare(const geometry::Pose& camera_from_map) {
-  if (config_.method != "depth") return;
+  if (config_.method != "depth" || !last_.sure) return;
   now_.camera_from_map = camera_from_map;
   if (!config_.motion) return;
   const cv::Mat1f& depth_m = now_.cells.depth_m;
@@ -101,6 +101,7 @@ void MovableCut::carry(const Background& background) {
 
 void MovableCut::remember(const geometry::Pose& map_from_camera, bool sure) {
   now_.map_from_camera = map_from_camera;
+  now_.sure = sure;
   if (!sure || now_.cells.depth_m.empty() || config_.method != "depth") return;
   const auto step_ns = static_cast<std::int64_t>(config_.reference_s * kNsPerSecond);
   if (!past_.empty() && now_.stamp_ns - newest_past_ns_ < step_ns) return;

@@ -27,7 +27,8 @@ class MovableCut {
   /// First: takes in a picture's depth.
   void look_at(const image::RgbdFrame& picture);
   /// Then, where the picture's pose is known, near to the truth: what has changed since earlier pictures?
-  /// Without, cut() knows of boxes only.
+  /// Without, and after a picture whose pose was not sure (the guess comes from it), cut() knows of boxes
+  /// only.
   void compare(const geometry::Pose& camera_from_map);
   /// @param regions  predicted boxes with their depth intervals.
   /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
@@ -58,6 +59,7 @@ class MovableCut {
     cv::Mat1f unsupported_s;                        // for how long, where the mask is set
     MovableMask widened;                            // with rim; empty where nothing is set
     std::optional<geometry::Pose> map_from_camera;  // that was found in the end
+    bool sure = true;                               // is that
   };
 
   void mark(std::span<const MovableRegion> regions);

@@ -5,8 +5,8 @@
 
 namespace rds::tools {
 
-/// `rds map info|save|export|query`: a map from a file (--map map.ot) or, without it, the one on the live
-/// bus. `rds map diff A B`: two files; CLI::RuntimeError(1) if they differ.
+/// `rds map info|save|export|query|diff`: a map from a file (--map map.ot) or, without it, the one on the
+/// live bus.
 ///
 /// The callbacks print to stdout. A file that cannot be read or written: one sentence to stderr and
 /// CLI::RuntimeError(2); no map on the bus in time: CLI::RuntimeError(1).

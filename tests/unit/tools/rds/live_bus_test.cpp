@@ -7,8 +7,11 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
+#include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/tree_bytes.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/rds/live_map.hpp"
+#include "tools/rds/map_command.hpp"
 #include "tools/rds/topic_reader.hpp"
 
 namespace rds::tools {
@@ -16,13 +19,13 @@ namespace {
 using nav_msgs::msg::Odometry;
 using testing::HasSubstr;
 
+const int kDomain = 10 + static_cast<int>(getpid() % 200);
+
 class LiveBus : public testing::TestWithParam<bus::Vendor> {
  protected:
   static std::unique_ptr<bus::Participant> join(const std::string& name, bus::Vendor vendor) {
-    return bus::Participant::create({.vendor = vendor,
-                                     .domain = 10 + static_cast<int>(getpid() % 200),
-                                     .node_name = name,
-                                     .loopback_only = true});
+    return bus::Participant::create(
+        {.vendor = vendor, .domain = kDomain, .node_name = name, .loopback_only = true});
   }
   static Clock::time_point in(std::chrono::seconds time) { return Clock::now() + time; }
 
@@ -59,27 +62,60 @@ TEST_P(LiveBus, ReadsABestEffortTopic) {
   EXPECT_EQ(arrival->message, nullptr);
 }
 
-TEST_P(LiveBus, TakesTheLatchedMap) {
-  octomap::ColorOcTree tree(0.1);
-  tree.setNodeValue(1.05, 0.05, 0.05, 0.85F);
-  tree.updateInnerOccupancy();
-  const auto bytes = mapper::to_bytes(tree);
-  octomap_msgs::msg::Octomap full;
-  full.id("ColorOcTree");
-  full.resolution(0.1);
-  full.data().assign(bytes.begin(), bytes.end());
-  rds_msgs::msg::MapInfo info;
-  info.revision(7);
-  info.labels({"", "chair"});
-  auto full_publisher = publishing->advertise<octomap_msgs::msg::Octomap>("rds/map/full", bus::kLatched);
-  auto info_publisher = publishing->advertise<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched);
-  full_publisher.write(full);
-  info_publisher.write(info);
+/// A map on the bus, of one voxel and revision 7.
+class LiveBusMap : public LiveBus {
+ protected:
+  LiveBusMap() {
+    tree.setNodeValue(1.05, 0.05, 0.05, 0.85F);
+    tree.updateInnerOccupancy();
+    const auto bytes = mapper::to_bytes(tree);
+    octomap_msgs::msg::Octomap full;
+    full.id("ColorOcTree");
+    full.resolution(0.1);
+    full.data().assign(bytes.begin(), bytes.end());
+    rds_msgs::msg::MapInfo info;
+    info.revision(7);
+    info.labels({"", "chair"});
+    full_publisher_.write(full);
+    info_publisher_.write(info);
+  }
+  octomap::ColorOcTree tree{0.1};
+
+ private:
+  bus::Publisher<octomap_msgs::msg::Octomap> full_publisher_ =
+      publishing->advertise<octomap_msgs::msg::Octomap>("rds/map/full", bus::kLatched);
+  bus::Publisher<rds_msgs::msg::MapInfo> info_publisher_ =
+      publishing->advertise<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched);
+};
+
+TEST_P(LiveBusMap, IsTaken) {
   const auto map = take_live_map(*reading, std::chrono::seconds(20), stop.get_token());
   ASSERT_TRUE(map) << map.error();
   EXPECT_TRUE(*map->tree == tree);
   EXPECT_EQ(map->revision, 7U);
   EXPECT_EQ(map->labels.size(), 2U);
+}
+
+TEST_P(LiveBusMap, IsComparedWithASavedOne) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "map.ot").string();
+  const auto status = [&] {
+    CLI::App rds;
+    add_map_command(rds);
+    const std::string domain = std::to_string(kDomain);
+    try {
+      rds.parse(std::vector<std::string>{"--loopback", domain, "--domain", file, "diff", "map"});
+    } catch (const CLI::RuntimeError& e) {
+      return e.get_exit_code();
+    }
+    return 0;
+  };
+  ASSERT_TRUE(mapper::write_tree(file, tree));
+  EXPECT_EQ(status(), 0);
+  tree.setNodeValue(2.05, 0.05, 0.05, 0.85F);
+  tree.updateInnerOccupancy();
+  ASSERT_TRUE(mapper::write_tree(file, tree));
+  EXPECT_EQ(status(), 1);
 }
 
 TEST_P(LiveBus, SaysThatNobodyPublishes) {
@@ -89,8 +125,10 @@ TEST_P(LiveBus, SaysThatNobodyPublishes) {
   EXPECT_THAT(take_live_map(*reading, std::chrono::hours(1), stop.get_token()).error(), HasSubstr("no map"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, LiveBus, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& test_case) { return bus::name_of(test_case.param); });
+const auto kVendors = testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds);
+const auto kName = [](const auto& test_case) { return bus::name_of(test_case.param); };
+INSTANTIATE_TEST_SUITE_P(Vendors, LiveBus, kVendors, kName);
+INSTANTIATE_TEST_SUITE_P(Vendors, LiveBusMap, kVendors, kName);
 
 }  // namespace
 }  // namespace rds::tools

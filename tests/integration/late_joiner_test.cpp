@@ -19,17 +19,29 @@ using namespace std::chrono_literals;
 
 constexpr int kDomain = 24;
 
-std::unique_ptr<bus::Participant> join(bus::Vendor vendor) {
-  return bus::Participant::create(
-      {.vendor = vendor, .domain = kDomain, .node_name = "reader", .loopback_only = true});
-}
+/// With `rds run --network` or without.
+class LateJoiner : public testing::TestWithParam<bool> {
+ protected:
+  static std::unique_ptr<bus::Participant> join(bus::Vendor vendor) {
+    return bus::Participant::create(
+        {.vendor = vendor, .domain = kDomain, .node_name = "reader", .loopback_only = !GetParam()});
+  }
+  static std::vector<std::string> command(const std::filesystem::path& place) {
+    std::vector<std::string> line{rds(),          "run",
+                                  "--dataset",    (place / "data").string(),
+                                  "--out",        (place / "out").string(),
+                                  "--domain",     std::to_string(kDomain),
+                                  "--no-dynamics"};
+    if (GetParam()) line.emplace_back("--network");
+    return line;
+  }
+};
 
-TEST(LateJoiner, RebuildsTheMappersTreeFromFullMapAndDeltasOverEitherBus) {
+TEST_P(LateJoiner, RebuildsTheMappersTreeFromFullMapAndDeltasOverEitherBus) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
   make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 300);
-  Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
-                   "--domain", std::to_string(kDomain), "--no-dynamics"});
+  Process process(command(place.path()));
   ASSERT_TRUE(process.wait_for_output("frame 6", 60s)) << process.standard_error();  // in the middle
   const auto fast_bus = join(bus::Vendor::kFastDds);
   const auto cyclone_bus = join(bus::Vendor::kCycloneDds);
@@ -45,6 +57,9 @@ TEST(LateJoiner, RebuildsTheMappersTreeFromFullMapAndDeltasOverEitherBus) {
     EXPECT_TRUE(reader->bytes() == expected) << (reader == &fast ? "Fast DDS" : "Cyclone DDS");
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Reach, LateJoiner, testing::Bool(),
+                         [](const auto& test_case) { return test_case.param ? "network" : "loopback"; });
 
 }  // namespace
 }  // namespace rds::test

@@ -137,6 +137,8 @@ void add_run_command(CLI::App& rds) {
       ->add_option("--domain", options->domain,
                    "DDS domain, to listen from outside (default: one of its own)")
       ->check(CLI::Range(0, 232));
+  command->add_flag("--network", options->network,
+                    "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, no_dynamics] {

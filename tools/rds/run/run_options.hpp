@@ -30,6 +30,7 @@ struct RunOptions {
   bool map_is_octree = false;
   bool localize_only = false;
   std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
+  bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
   bool video = false;
   bool force = false;
 

@@ -91,10 +91,15 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
     YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
     complete(node, process, options);
     const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
-    commands.push_back({process,
-                        {(executables / process).string(), "--bus", bus::name_of(options.vendor_of(process)),
-                         "--domain", std::to_string(domain), "--loopback", "--config", config.string()},
-                        folder / "log" / (process + ".log")});
+    std::vector<std::string> line{(executables / process).string(),
+                                  "--bus",
+                                  bus::name_of(options.vendor_of(process)),
+                                  "--domain",
+                                  std::to_string(domain),
+                                  "--config",
+                                  config.string()};
+    if (!options.network) line.emplace_back("--loopback");
+    commands.push_back({process, std::move(line), folder / "log" / (process + ".log")});
   }
   return commands;
 }

@@ -34,6 +34,7 @@ void read(ConfigReader& r, ConfirmationConfig& c) {
   r.value("share", c.share, 0.0, 1.0);
   r.value("large", c.large, 0.0, 1.0);
   r.value("share_of_large", c.share_of_large, 0.0, 1.0);
+  r.value("passing_share", c.passing_share, 0.0, 1.0);
 }
 
 void read(ConfigReader& r, SegmentationConfig& c) {

@@ -38,6 +38,7 @@ struct ConfirmationConfig {
   double share = 0.7;            // of a connected surface that must have been seen then
   double large = 0.1;            // a surface that fills this share of the picture ...
   double share_of_large = 0.15;  // ... needs less
+  double passing_share = 0.8;    // of a surface that stood only while somebody was there: it is of him
 
   bool operator==(const ConfirmationConfig&) const = default;
 };
@@ -80,7 +81,7 @@ struct OctreeConfig {
   double suspect_miss = -1.2;  // rays through what SceneHistory holds for something movable that has gone
   int weak_sightings = 2;  // what no more keyframes have seen is lowered where nothing is measured; 0: off
   bool color_by_label = true;  // a labelled voxel shows its label's colour
-  double label_share = 0.34;   // of a voxel's votes that a label needs
+  double label_share = 0.25;   // of a voxel's votes that a label needs
 
   bool operator==(const OctreeConfig&) const = default;
 };

@@ -18,6 +18,7 @@ class MovableHistory {
   /// The movable pixels of a keyframe, where its pose puts them.
   void see(const KeyframeRecord& record, const MapperConfig& config);
 
+  [[nodiscard]] bool empty() const { return cubes_.empty(); }
   /// Of something movable there, or half a cube beside it; nullptr if there are none.
   [[nodiscard]] const PlaceSightings* sightings(const octomap::OcTreeKey& key) const;
 

@@ -9,6 +9,7 @@
 #include "services/mapper/core/gravity.hpp"
 #include "services/mapper/core/keyframe_objects.hpp"
 #include "services/mapper/core/object_extent.hpp"
+#include "services/mapper/core/passing_surfaces.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -96,8 +97,9 @@ std::optional<KeyframeRecord> SemanticMapper::record_of(std::uint64_t id) const 
 
 void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history,
                                     MapDelta& delta) {
-  make_scan(record, confirmed_use(record, history.surfaces, config_), config_.octree, config_.sampling,
-            scan_);
+  auto use = confirmed_use(record, history.surfaces, config_);
+  leave_out_passing(record, history, config_, use);
+  make_scan(record, use, config_.octree, config_.sampling, scan_);
   map.octree.integrate({scan_, record.looked_for_objects, map.objects.unsighted(record, labels_), labels_,
                         history, record.stamp_ns, delta});
 }

@@ -25,15 +25,18 @@ class SceneHistoryTest : public testing::Test {
     see(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true));
   }
   [[nodiscard]] bool is_suspect(std::uint64_t keyframe) const {
-    const octomap::ColorOcTree tree(config_.octree.resolution_m);
-    const Eigen::Vector3d p = test::point_at(160, 120, kDepthM);
-    return history_.is_suspect(tree.coordToKey(p.x(), p.y(), p.z()), stamp_ns(keyframe));
+    return history_.is_suspect(key(), stamp_ns(keyframe));
   }
+  [[nodiscard]] bool is_passing() const { return history_.is_passing(key(), 1'000'000'000); }
 
  private:
+  [[nodiscard]] octomap::OcTreeKey key() const {
+    const octomap::ColorOcTree tree(config_.octree.resolution_m);
+    const Eigen::Vector3d p = test::point_at(160, 120, kDepthM);
+    return tree.coordToKey(p.x(), p.y(), p.z());
+  }
   void see(const KeyframeInput& input) {
-    auto record =
-        make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
+    auto record = make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
     if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
     history_.see(record, config_);
   }
@@ -48,11 +51,11 @@ TEST_F(SceneHistoryTest, WhereNothingMovableHasBeenNothingIsSuspect) {
   EXPECT_FALSE(is_suspect(1));
 }
 
-TEST_F(SceneHistoryTest, WhatIsStaticTwiceAsOftenAsMovableIsNotSuspect) {
-  for (const std::uint64_t keyframe : {0, 1, 2}) see_static(keyframe);
-  for (const std::uint64_t keyframe : {3, 4}) see_person(keyframe);
+TEST_F(SceneHistoryTest, WhatIsStaticAsOftenAsMovableIsNotSuspect) {
+  see_static(0);
+  for (const std::uint64_t keyframe : {1, 2}) see_person(keyframe);
   EXPECT_TRUE(is_suspect(9));
-  see_static(5);
+  see_static(3);
   EXPECT_FALSE(is_suspect(9));
 }
 
@@ -63,6 +66,27 @@ TEST_F(SceneHistoryTest, WhatIsSeenThereAgainHasNotGone) {
   see_static(5);
   EXPECT_FALSE(is_suspect(4));
   EXPECT_TRUE(is_suspect(6));
+}
+
+TEST_F(SceneHistoryTest, WhatStandsOnlyWhileSomebodyIsThereIsPassing) {
+  see_person(20);
+  EXPECT_TRUE(is_passing());
+  see_static(11);
+  see_person(30);
+  EXPECT_TRUE(is_passing());
+  see_static(25);
+  EXPECT_FALSE(is_passing()) << "as often as movable";
+}
+
+TEST_F(SceneHistoryTest, WhatStandsASecondBeforeOrAfterIsNotPassing) {
+  for (const std::uint64_t keyframe : {20, 21, 22}) see_person(keyframe);
+  see_static(10);
+  EXPECT_FALSE(is_passing());
+}
+
+TEST_F(SceneHistoryTest, WhereNobodyHasBeenNothingIsPassing) {
+  see_static(0);
+  EXPECT_FALSE(is_passing());
 }
 
 }  // namespace

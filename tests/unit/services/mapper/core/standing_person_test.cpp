@@ -35,6 +35,9 @@ bool every_other(std::uint64_t keyframe) {
 bool the_others(std::uint64_t keyframe) {
   return keyframe % 2 == 1;
 }
+bool two_of_three(std::uint64_t keyframe) {
+  return keyframe % 3 != 0;
+}
 bool now_and_then(std::uint64_t keyframe) {
   return keyframe * 2654435761U % 97 < 48;
 }
@@ -92,7 +95,8 @@ TEST_P(StandingPerson, IsGoneThreeKeyframesAfterHeLeft) {
   EXPECT_TRUE(test::is_occupied(mapper_.tree(), test::point_at(160, 120, 3.0)));
 }
 
-/// Every keyframe knows of him, by a box or by cells: one that does not shows him until he leaves.
+/// Known of, by a box or by cells, all the time: when that begins a second after he came, or ends a second
+/// before the recording, he shows until he leaves.
 class NoticedPerson : public StandingPerson {};
 
 TEST_P(NoticedPerson, WhoSitsBeforeNothingMeasurableIsNeverOccupiedAtTheEnd) {
@@ -113,8 +117,10 @@ std::string name_of(const testing::TestParamInfo<Notice>& tested) {
   return tested.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKeyframe, NoticedPerson,
+INSTANTIATE_TEST_SUITE_P(AllTheTime, NoticedPerson,
                          testing::Values(Notice{"Boxes", always, never}, Notice{"CellsOnly", never, always},
+                                         Notice{"EveryOtherBox", every_other, never},
+                                         Notice{"TwoBoxesOfThree", two_of_three, never},
                                          Notice{"BoxesAndCellsInTurn", every_other, the_others},
                                          Notice{"BoxesNowAndThenAndCells", now_and_then, always}),
                          name_of);

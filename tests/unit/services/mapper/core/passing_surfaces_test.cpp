@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/passing_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/mapper/core/keyframe_objects.hpp"
+#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using test::SyntheticKeyframe;
+
+constexpr double kDepthM = 1.52;
+constexpr int kWidth = 320;
+const cv::Rect kBody(120, 30, 80, 180);
+
+/// Somebody is known in keyframes 0 and 2; of keyframe 1 nobody is.
+class PassingSurfaces : public testing::Test {
+ protected:
+  PassingSurfaces() {
+    for (const std::uint64_t keyframe : {0, 2})
+      history_.see(
+          record_of(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true)),
+          config_);
+  }
+  /// Use of a pixel of keyframe 1.
+  PixelUse use_at(const SyntheticKeyframe& keyframe, int u, int v) {
+    const KeyframeRecord record = record_of(keyframe);
+    history_.see(record, config_);
+    std::vector<PixelUse> use = record.use;
+    leave_out_passing(record, history_, config_, use);
+    const int stride = config_.sampling.stride_px;
+    return use[static_cast<std::size_t>(v / stride * (kWidth / stride) + u / stride)];
+  }
+
+  MapperConfig config_;
+
+ private:
+  KeyframeRecord record_of(const KeyframeInput& input) {
+    auto record = make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
+    if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
+    return record;
+  }
+
+  LabelTable labels_;
+  SceneHistory history_{{}, MovableHistory(config_.octree.resolution_m)};
+};
+
+TEST_F(PassingSurfaces, WhoIsNotKnownInAKeyframeIsLeftOut) {
+  const auto keyframe = SyntheticKeyframe(1).rectangle(kBody, kDepthM);
+  EXPECT_EQ(use_at(keyframe, 160, 120), PixelUse::kNone);
+  EXPECT_EQ(use_at(keyframe, 20, 120), PixelUse::kStatic) << "the wall";
+}
+
+TEST_F(PassingSurfaces, WhatGoesOnBesideHimStays) {
+  EXPECT_EQ(use_at(SyntheticKeyframe(1).rectangle({60, 30, 200, 180}, kDepthM), 160, 120), PixelUse::kStatic);
+}
+
+TEST_F(PassingSurfaces, AnObjectThatTheDetectorFoundStays) {
+  const auto keyframe = SyntheticKeyframe(1).rectangle(kBody, kDepthM).box("chair", kBody, false);
+  EXPECT_EQ(use_at(keyframe, 160, 120), PixelUse::kStatic);
+}
+
+TEST_F(PassingSurfaces, TheShareTellsWhatGoesOn) {
+  config_.confirmation.passing_share = 0.3;
+  EXPECT_EQ(use_at(SyntheticKeyframe(1).rectangle({60, 30, 200, 180}, kDepthM), 160, 120), PixelUse::kNone);
+}
+
+}  // namespace
+}  // namespace rds::mapper

@@ -61,7 +61,7 @@ struct ObjectConfig {
   double default_radius_m = 0.6;
   int min_observations = 2;      // an object is reported from here on …
   double min_score_sum = 1.0;    // … if the detector was so sure of it in all
-  double flush_min_score = 0.6;  // what does not stand out of its wall is an object from here on
+  double flush_min_score = 0.7;  // what does not stand out of its wall is an object from here on
   double hit = 0.85;             // log-odds of existence per observation
   double miss = 0.05;            // not detected though in view
   double seen_through = 0.6;     // the camera measured something behind it

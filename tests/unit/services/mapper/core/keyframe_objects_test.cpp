@@ -124,8 +124,8 @@ TEST(KeyframeObjects, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
                labels)
         .sightings.size();
   };
-  EXPECT_EQ(sightings(2.97, 0.55F), 0U);
-  EXPECT_EQ(sightings(2.97, 0.65F), 1U);
+  EXPECT_EQ(sightings(2.97, 0.65F), 0U);
+  EXPECT_EQ(sightings(2.97, 0.75F), 1U);
   EXPECT_EQ(sightings(2.8, 0.45F), 1U);
 }
 

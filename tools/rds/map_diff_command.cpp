@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/map_file/atomic_file.hpp"
@@ -16,37 +17,33 @@ namespace rds::tools {
 namespace {
 
 struct DiffOptions {
-  MapSource a;
+  std::string a;
   MapSource b;
   bool states_only = false;
   std::string output;  // PLY; empty: none
 };
 
-void print_summary(const char* name, const MapSource& source, const LiveMap& map) {
+void print_summary(const char* name, const std::string& source, const LiveMap& map) {
   const auto json = describe_map(*map.tree);
-  fmt::print("{}  {}: {} occupied and {} free voxels of {} m\n", name, source.name(),
+  fmt::print("{}  {}: {} occupied and {} free voxels of {} m\n", name, source,
              json["occupied_voxels"].get<std::uint64_t>(), json["free_voxels"].get<std::uint64_t>(),
              map.tree->getResolution());
 }
 
-bool tells_states_only(const MapSource& source) {
-  return !source.is_live() && mapper::looks_like_binary_tree(source.file);
-}
-
 void diff(const DiffOptions& options) {
-  const LiveMap a = load(options.a);
+  const LiveMap a = load_file(options.a);
   const LiveMap b = load(options.b);
   if (std::abs(a.tree->getResolution() - b.tree->getResolution()) > 1e-9)
     exit_with(kExitBadInput, fmt::format("{}: voxels of {} m, expected {} m as in {}", options.b.name(),
-                                         b.tree->getResolution(), a.tree->getResolution(), options.a.name()));
-  const bool states_only =
-      options.states_only || tells_states_only(options.a) || tells_states_only(options.b);
+                                         b.tree->getResolution(), a.tree->getResolution(), options.a));
+  const bool states_only = options.states_only || mapper::looks_like_binary_tree(options.a) ||
+                           mapper::looks_like_binary_tree(options.b.file);
   std::vector<DifferencePoint> points;
   const MapDifference difference =
       compare_maps({*a.tree, a.labels}, {*b.tree, b.labels}, options.output.empty() ? nullptr : &points);
   if (!options.output.empty()) value_or_exit(map_file::write_atomically(options.output, to_ply(points)));
   print_summary("A", options.a, a);
-  print_summary("B", options.b, b);
+  print_summary("B", options.b.name(), b);
   fmt::print("{}", describe(difference, states_only));
   if (!(states_only ? difference.has_same_states() : difference.is_equal()))
     throw CLI::RuntimeError(kExitFault);
@@ -58,7 +55,7 @@ void add_map_diff_command(CLI::App& map) {
   const auto options = std::make_shared<DiffOptions>();
   auto* command =
       map.add_subcommand("diff", "What differs between two maps: exit 0 if nothing, 1 if something");
-  command->add_option("a", options->a.file, "map.ot, .bt, map.rds, or a run's folder")->required();
+  command->add_option("a", options->a, "map.ot, .bt, map.rds, or a run's folder")->required();
   command->add_option("b", options->b.file, "The same (default: the live map)");
   command->add_flag("--states", options->states_only,
                     "Compare occupied, free, unknown alone; always so for .bt, which tells no more");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/map_source.hpp"
 
-#include <filesystem>
-
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
@@ -25,6 +23,15 @@ LiveMap load_live(const MapSource& source) {
   }
 }
 
+}  // namespace
+
+void add_live_options(CLI::App& command, MapSource& source) {
+  command.add_option("--timeout", source.timeout_s, "Wait so long for the live map [s]")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  add_bus_options(command, source.bus);
+}
+
 LiveMap load_file(const std::filesystem::path& path) {
   if (std::filesystem::exists(path / "map.ot") && !std::filesystem::exists(path / map_file::kMapFile))
     return load_file(path / "map.ot");
@@ -33,15 +40,6 @@ LiveMap load_file(const std::filesystem::path& path) {
   auto saved = mapper::tree_from_map_bytes(sections.at(map_file::kMapper));
   if (!saved) exit_with(kExitBadInput, fmt::format("{}: is damaged: {}", path.string(), saved.error()));
   return {std::move(saved->tree), 0, 0, std::move(saved->labels)};
-}
-
-}  // namespace
-
-void add_live_options(CLI::App& command, MapSource& source) {
-  command.add_option("--timeout", source.timeout_s, "Wait so long for the live map [s]")
-      ->check(CLI::Range(0.1, 1e6))
-      ->capture_default_str();
-  add_bus_options(command, source.bus);
 }
 
 LiveMap load(const MapSource& source) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "tools/rds/bus_options.hpp"
@@ -12,7 +13,7 @@ namespace rds::tools {
 struct MapSource {
   BusOptions bus;
   double timeout_s = 10;
-  std::string file;  // map.ot, .bt, map.rds, or a folder that holds one of them; empty: the live map
+  std::string file;  // empty: the live map
 
   [[nodiscard]] bool is_live() const { return file.empty(); }
   [[nodiscard]] std::string name() const { return is_live() ? "live" : file; }
@@ -21,7 +22,11 @@ struct MapSource {
 /// Adds --timeout and those of the bus.
 void add_live_options(CLI::App& command, MapSource& source);
 
-/// Ends the subcommand where there is none: kExitBadInput for a file, kExitFault for the live map.
+/// From a map.ot, .bt, map.rds, or a folder that holds one of them. Ends the subcommand where there is none:
+/// kExitBadInput.
+LiveMap load_file(const std::filesystem::path& path);
+
+/// The same, or the live map; kExitFault where that does not come in time.
 LiveMap load(const MapSource& source);
 
 }  // namespace rds::tools

@@ -10,8 +10,6 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
-
 /// Points of what boxes and the tracker know as movable.
 std::vector<Eigen::Vector3f> movable_points(const KeyframeRecord& record, const SamplingConfig& config) {
   std::vector<Eigen::Vector3f> points;
@@ -33,7 +31,7 @@ struct Support {
 std::vector<Support> support_of_surfaces(const KeyframeRecord& record, const SurfaceHistory& history,
                                          const MapperConfig& config) {
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
-  const auto apart_ns = static_cast<std::int64_t>(config.confirmation.apart_s * kNsPerSecond);
+  const std::int64_t apart_ns = config.confirmation.apart_ns();
   std::vector<Support> support(std::size_t{record.doubt.surfaces} + 1);
   VoxelRun run;
   bool confirmed = false;

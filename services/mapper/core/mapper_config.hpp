@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct ConfirmationConfig {
   double share_of_large = 0.15;  // ... needs less
   double passing_share = 0.8;    // of a surface that stood only while somebody was there: it is of him
 
+  [[nodiscard]] std::int64_t apart_ns() const { return static_cast<std::int64_t>(apart_s * 1e9); }
   bool operator==(const ConfirmationConfig&) const = default;
 };
 

@@ -8,14 +8,13 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
 constexpr std::ptrdiff_t kMinPixels = 20;
 
 /// The static pixels, of no object, that show something passing.
 std::vector<bool> passing_pixels(const KeyframeRecord& record, const SceneHistory& history,
                                  const MapperConfig& config, const std::vector<PixelUse>& use) {
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
-  const auto apart_ns = static_cast<std::int64_t>(config.confirmation.apart_s * kNsPerSecond);
+  const std::int64_t apart_ns = config.confirmation.apart_ns();
   std::vector<bool> passing(record.size(), false);
   VoxelRun run;
   bool is_passing = false;
@@ -50,9 +49,10 @@ void leave_out_passing(const KeyframeRecord& record, const SceneHistory& history
   if (history.movable.empty()) return;
   const auto passing = passing_pixels(record, history, config, use);
   if (std::ranges::count(passing, true) < kMinPixels) return;
-  std::vector<std::uint16_t> surface = record.doubt.surface;
-  const std::size_t surfaces =
-      surface.empty() ? find_surfaces(record, config.sampling, surface) : record.doubt.surfaces;
+  const bool known = !record.doubt.surface.empty();
+  std::vector<std::uint16_t> found;
+  const auto surfaces = known ? record.doubt.surfaces : find_surfaces(record, config.sampling, found);
+  const auto& surface = known ? record.doubt.surface : found;
   const auto mostly = mostly_passing(surface, surfaces, passing, config.confirmation.passing_share);
   for (std::size_t i = 0; i < record.size(); ++i)
     if (use[i] == PixelUse::kStatic && mostly[surface[i]]) use[i] = PixelUse::kNone;

@@ -135,7 +135,7 @@ void add_run_command(CLI::App& rds) {
                     "find the camera in that map and leave the map as it is");
   command
       ->add_option("--domain", options->domain,
-                   "DDS domain, to listen from outside (default: one of its own)")
+                   "DDS domain, to listen from outside by --loopback or --network (default: one of its own)")
       ->check(CLI::Range(0, 232));
   command->add_flag("--network", options->network,
                     "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");

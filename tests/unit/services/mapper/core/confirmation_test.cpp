@@ -18,8 +18,7 @@ constexpr std::uint64_t kTwoSeconds = 20;  // keyframes are 0.1 s apart
 
 KeyframeRecord record_of(const KeyframeInput& input, const MapperConfig& config = {}) {
   LabelTable labels;
-  auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
-  if (input.boxes) apply_boxes(record, *input.boxes, config, labels);
+  auto record = test::record_of(input, labels, config);
   mark_doubtful(record, config);
   return record;
 }

@@ -11,14 +11,8 @@
 namespace rds::mapper {
 namespace {
 
+using test::record_of;
 using test::SyntheticKeyframe;
-
-KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels) {
-  const MapperConfig config;
-  auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
-  apply_boxes(record, *input.boxes, config, labels);
-  return record;
-}
 
 PixelUse use_at(const KeyframeRecord& record, int x_px, int y_px) {
   return record.use[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "services/mapper/core/keyframe_objects.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -26,8 +25,7 @@ class PassingSurfaces : public testing::Test {
   }
   /// Use of a pixel of keyframe 1.
   PixelUse use_at(const SyntheticKeyframe& keyframe, int u, int v) {
-    const KeyframeRecord record = record_of(keyframe);
-    history_.see(record, config_);
+    const KeyframeRecord record = see(keyframe);
     std::vector<PixelUse> use = record.use;
     leave_out_passing(record, history_, config_, use);
     const int stride = config_.sampling.stride_px;
@@ -37,9 +35,9 @@ class PassingSurfaces : public testing::Test {
   MapperConfig config_;
 
  private:
-  KeyframeRecord record_of(const KeyframeInput& input) {
-    auto record = make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
-    if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
+  KeyframeRecord see(const KeyframeInput& input) {
+    auto record = test::record_of(input, labels_, config_);
+    history_.see(record, config_);
     return record;
   }
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "services/mapper/core/keyframe_objects.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -35,11 +34,7 @@ class SceneHistoryTest : public testing::Test {
     const Eigen::Vector3d p = test::point_at(160, 120, kDepthM);
     return tree.coordToKey(p.x(), p.y(), p.z());
   }
-  void see(const KeyframeInput& input) {
-    auto record = make_record(input, config_.sampling, sample_rays(input.camera, config_.sampling.stride_px));
-    if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
-    history_.see(record, config_);
-  }
+  void see(const KeyframeInput& input) { history_.see(test::record_of(input, labels_, config_), config_); }
 
   MapperConfig config_;
   LabelTable labels_;

@@ -95,8 +95,8 @@ TEST_P(StandingPerson, IsGoneThreeKeyframesAfterHeLeft) {
   EXPECT_TRUE(test::is_occupied(mapper_.tree(), test::point_at(160, 120, 3.0)));
 }
 
-/// Known of, by a box or by cells, all the time: when that begins a second after he came, or ends a second
-/// before the recording, he shows until he leaves.
+/// Half of the keyframes or more know of him, by a box or by cells, all the time that he is there; else he
+/// shows until he leaves.
 class NoticedPerson : public StandingPerson {};
 
 TEST_P(NoticedPerson, WhoSitsBeforeNothingMeasurableIsNeverOccupiedAtTheEnd) {
@@ -117,7 +117,7 @@ std::string name_of(const testing::TestParamInfo<Notice>& tested) {
   return tested.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(AllTheTime, NoticedPerson,
+INSTANTIATE_TEST_SUITE_P(HalfTheTime, NoticedPerson,
                          testing::Values(Notice{"Boxes", always, never}, Notice{"CellsOnly", never, always},
                                          Notice{"EveryOtherBox", every_other, never},
                                          Notice{"TwoBoxesOfThree", two_of_three, never},

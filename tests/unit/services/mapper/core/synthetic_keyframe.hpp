@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "services/mapper/core/keyframe_objects.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 
 namespace rds::mapper::test {
@@ -55,6 +56,14 @@ class SyntheticKeyframe {
  private:
   KeyframeInput input_;
 };
+
+/// What the mapper makes of a keyframe and its boxes, doubts apart.
+inline KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels,
+                                const MapperConfig& config = {}) {
+  auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
+  if (input.boxes) apply_boxes(record, *input.boxes, config, labels);
+  return record;
+}
 
 /// Map point [m] that a pixel at a depth shows, for a camera at the origin.
 inline Eigen::Vector3d point_at(double x_px, double y_px, double depth_m) {

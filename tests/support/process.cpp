@@ -53,7 +53,9 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 Process::Process(const std::vector<std::string>& arguments, const Environment& environment) {
   auto words = arguments;
-  auto variables = environment_with(environment);
+  Environment extra = environment;
+  extra.emplace("RDS_MAPS_DIR", (output_ / "maps").string());
+  auto variables = environment_with(extra);
   const auto argv = pointers(words);
   const auto envp = pointers(variables);
   const std::string out = (output_ / "stdout").string();

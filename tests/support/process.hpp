@@ -23,7 +23,8 @@ class Process {
   using Environment = std::map<std::string, std::string>;
 
   /// @param arguments  program (looked up in PATH unless it holds a slash) and its arguments.
-  /// @param environment  set on top of this process's own.
+  /// @param environment  set on top of this process's own. Its folder of maps is its own and goes with it,
+  /// unless RDS_MAPS_DIR says otherwise here.
   /// @throws std::runtime_error if no child can be made. A program that cannot be run exits with 127.
   explicit Process(const std::vector<std::string>& arguments, const Environment& environment = {});
   ~Process();

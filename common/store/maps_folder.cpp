@@ -25,6 +25,7 @@ void read(config::ConfigReader& reader, MapsConfig& config) {
   reader.value("maps_dir", config.maps_dir);
   reader.value("checkpoint", config.checkpoint);
   reader.value("checkpoint_s", config.checkpoint_s, 0.1, 3600.0, "s");
+  reader.value("backup_s", config.backup_s, 0.0, 1e6, "s");
 }
 
 tl::expected<fs::path, std::string> maps_folder(const MapsConfig& config) {
@@ -35,7 +36,8 @@ tl::expected<fs::path, std::string> maps_folder(const MapsConfig& config) {
   if (const fs::path data = path_of("XDG_DATA_HOME"); !data.empty()) return data / below;
   if (const fs::path home = path_of("HOME"); !home.empty()) return home / ".local" / "share" / below;
   return tl::unexpected<std::string>(
-      "no folder for maps: expected the setting maps_dir, or RDS_MAPS_DIR, XDG_DATA_HOME or HOME with an absolute "
+      "no folder for maps: expected the setting maps_dir, or RDS_MAPS_DIR, XDG_DATA_HOME or HOME with an "
+      "absolute "
       "path");
 }
 
@@ -44,8 +46,10 @@ tl::expected<void, std::string> make_private_folder(const fs::path& folder) {
   if (folder.empty() || fs::is_directory(folder, error)) return {};
   if (folder.has_parent_path() && folder.parent_path() != folder)
     if (auto above = make_private_folder(folder.parent_path()); !above) return above;
-  if (::mkdir(folder.c_str(), S_IRWXU) == 0 || (errno == EEXIST && fs::is_directory(folder, error))) return {};
-  return tl::unexpected(fmt::format("{}: cannot be made a folder: {}", folder.string(), std::strerror(errno)));
+  if (::mkdir(folder.c_str(), S_IRWXU) == 0 || (errno == EEXIST && fs::is_directory(folder, error)))
+    return {};
+  return tl::unexpected(
+      fmt::format("{}: cannot be made a folder: {}", folder.string(), std::strerror(errno)));
 }
 
 fs::path checkpoint_file(const fs::path& maps, int domain, const std::string& service) {

@@ -12,9 +12,10 @@ namespace rds::store {
 
 /// Where a service keeps maps, and whether it keeps its own there while it runs.
 struct MapsConfig {
-  std::string maps_dir;     // empty: $RDS_MAPS_DIR, $XDG_DATA_HOME/rds-slam/maps or ~/.local/share/rds-slam/maps
+  std::string maps_dir;  // empty: $RDS_MAPS_DIR, $XDG_DATA_HOME/rds-slam/maps or ~/.local/share/rds-slam/maps
   bool checkpoint = true;   // the live map is kept in checkpoints/ below it, and taken back at a start
   double checkpoint_s = 5;  // between two checkpoints, when something has changed
+  double backup_s = 600;    // between two copies of it, which serve if it is damaged; 0: none
 
   bool operator==(const MapsConfig&) const = default;
 };

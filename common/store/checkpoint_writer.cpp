@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/store/checkpoint_writer.hpp"
+
+#include <utility>
+
+#include "common/concurrency/priority.hpp"
+
+namespace rds::store {
+namespace {
+constexpr int kNice = 19;  // nobody waits for a checkpoint
+constexpr std::chrono::hours kNoHurry{24};
+}  // namespace
+
+CheckpointWriter::CheckpointWriter(Checkpoint checkpoint, Limits limits, Report report)
+    : checkpoint_(std::move(checkpoint)),
+      limits_(limits),
+      report_(std::move(report)),
+      is_copied_(checkpoint_.store.rows() == 0),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+CheckpointWriter::~CheckpointWriter() {
+  const auto deadline = Clock::now() + limits_.last_words;
+  flush(deadline);
+  thread_.request_stop();
+  thread_.join();
+  if (limits_.backup.count() > 0) copy(deadline);
+}
+
+bool CheckpointWriter::write(Batch& batch) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.bytes() + under_way_.bytes() + batch.bytes() > limits_.max_waiting_bytes) return false;
+    waiting_.add(std::exchange(batch, {}));
+    asked_ = true;
+  }
+  changed_.notify_all();
+  return true;
+}
+
+void CheckpointWriter::write(Snapshot snapshot) {
+  {
+    const std::lock_guard lock(mutex_);
+    snapshot_ = std::move(snapshot);
+    asked_ = true;
+  }
+  changed_.notify_all();
+}
+
+void CheckpointWriter::keep_previous() {
+  {
+    const std::lock_guard lock(mutex_);
+    copy_asked_ = asked_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::optional<Bytes> CheckpointWriter::get(const std::string& kind, std::uint64_t id) const {
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Batch* batch : {&waiting_, &under_way_})
+      if (const auto* row = batch->find({kind, id})) return *row;
+  }
+  const std::lock_guard lock(store_mutex_);
+  auto row = checkpoint_.store.get(kind, id);
+  return row ? std::move(*row) : std::nullopt;
+}
+
+bool CheckpointWriter::flush(Clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  asked_ = true;
+  changed_.notify_all();
+  const bool in_time = changed_.wait_until(lock, deadline, [this] { return !asked_ && !is_writing_; });
+  return in_time && !has_work();
+}
+
+void CheckpointWriter::run(const std::stop_token& stop) {
+  concurrency::give_way(kNice);
+  const auto period = limits_.backup.count() > 0 ? limits_.backup : std::chrono::milliseconds(kNoHurry);
+  if (limits_.backup.count() > 0) copy(Clock::now() + kNoHurry);  // what was good at the start
+  auto copy_due = Clock::now() + period;
+  while (!stop.stop_requested()) {
+    std::unique_lock lock(mutex_);
+    const bool asked = changed_.wait_until(lock, stop, copy_due, [this] { return asked_; });
+    const bool copies_now = std::exchange(copy_asked_, false) || (!asked && !stop.stop_requested());
+    is_writing_ = true;
+    asked_ = false;
+    lock.unlock();
+    if (copies_now && limits_.backup.count() > 0) {
+      copy(Clock::now() + kNoHurry);
+      copy_due = Clock::now() + period;
+    }
+    write_waiting();
+    lock.lock();
+    is_writing_ = false;
+    changed_.notify_all();
+  }
+}
+
+void CheckpointWriter::write_waiting() {
+  Snapshot snapshot;
+  {
+    const std::lock_guard lock(mutex_);
+    under_way_ = std::exchange(waiting_, {});
+    snapshot = std::exchange(snapshot_, nullptr);
+  }
+  if (under_way_.empty() && !snapshot) return;
+  const auto result = write_now(snapshot);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!result) {  // to be tried again, before what has come since
+      under_way_.add(std::exchange(waiting_, {}));
+      waiting_ = std::exchange(under_way_, {});
+      if (!snapshot_) snapshot_ = std::move(snapshot);
+    }
+    under_way_ = {};
+  }
+  note(result);
+}
+
+tl::expected<void, std::string> CheckpointWriter::write_now(const Snapshot& snapshot) {
+  const std::lock_guard lock(store_mutex_);
+  if (!under_way_.empty())
+    if (auto done = checkpoint_.store.apply(under_way_); !done) return done;
+  return snapshot ? checkpoint_.store.apply(snapshot(checkpoint_.store)) : tl::expected<void, std::string>();
+}
+
+void CheckpointWriter::note(const tl::expected<void, std::string>& result) {
+  if (result) {
+    ++written_;
+    is_copied_ = false;
+  } else {
+    ++failed_;
+  }
+  if (std::exchange(last_failed_, !result) != !result) report_(result ? std::string() : result.error());
+}
+
+void CheckpointWriter::copy(Clock::time_point deadline) {
+  if (is_copied_) return;
+  std::unique_lock lock(store_mutex_);
+  const auto copied = checkpoint_.keep_previous([&] {
+    lock.unlock();  // who reads a row need not wait for the whole copy
+    std::this_thread::yield();
+    lock.lock();
+    return Clock::now() < deadline;
+  });
+  is_copied_ = copied.has_value();
+}
+
+}  // namespace rds::store

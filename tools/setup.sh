@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# setup.sh: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
+# setup.sh [--ros]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
 # (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
 #
+# --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs.
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -43,18 +44,27 @@ set_up_packages() {
   fi
 }
 
-set_up_python() {
-  local venv=$root/.venv wanted
-  wanted=$(cat "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt" | sha256sum)
+# set_up_venv NAME LABEL FILE...: the packages of FILE, the first of the files that say what there has to be, in a virtual environment.
+set_up_venv() {
+  local venv=$root/$1 label=$2 wanted
+  shift 2
+  wanted=$(cat "$@" | sha256sum)
   if [ "$(cat "$venv/requirements.sha256" 2>/dev/null)" = "$wanted" ] && "$venv/bin/python" -c '' 2>/dev/null; then
-    say "[2/3] PyPI packages: all there"
+    say "$label: all there"
     return
   fi
-  say "[2/3] PyPI packages: installing into .venv"
+  say "$label: installing into $(basename "$venv")"
   rm -rf "$venv"
   long_step venv quiet /usr/bin/python3 -m venv "$venv"
-  long_step pip quiet "$venv/bin/pip" install --no-input --no-deps -r "$root/tools/requirements.txt"
+  long_step pip quiet "$venv/bin/pip" install --no-input --no-deps -r "$1"
   echo "$wanted" >"$venv/requirements.sha256"
+}
+
+set_up_ros() {
+  local distribution
+  for distribution in jazzy kilted; do
+    set_up_venv ".venv-$distribution" "ROS 2 $distribution" "$root/tests/ros/requirements-$distribution.txt"
+  done
 }
 
 set_up_network() {
@@ -70,7 +80,9 @@ set_up_network() {
   fi
 }
 
+case ${1:-} in "" | --ros) ;; *) fail "$1: expected --ros or nothing" ;; esac
 check_system
 set_up_packages
-set_up_python
+set_up_venv .venv "[2/3] PyPI packages" "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt"
 set_up_network
+[ "${1:-}" != --ros ] || set_up_ros

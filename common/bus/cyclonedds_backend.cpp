@@ -2,6 +2,7 @@
 #include <dds/dds.h>
 
 #include "common/bus/backend.hpp"
+#include "common/bus/cyclonedds_discovery.hpp"
 #include "common/bus/cyclonedds_domain.hpp"
 #include "common/bus/cyclonedds_type.hpp"
 
@@ -131,7 +132,12 @@ class CycloneBackend final : public Backend {
             "the list of publications"),
         subscriptions_(
             dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr),
-            "the list of subscriptions") {}
+            "the list of subscriptions") {
+    if (!cyclonedds_discovery_is_filtered()) {
+      throw BusError(
+          "this build of Cyclone DDS reads type information from anybody: expected Debian 12's 0.10");
+    }
+  }
 
   std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One process on the bus, for bus_processes_test.py; it stays until its standard input closes.
-//   bus_peer reader VENDOR DOMAIN                writes the number of each picture it gets, one per line
-//   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at 30
-//   Hz,
-//                                                then says {"refused": n, "slowest_ms": t}
+// One process on the bus, for the tests in Python; it stays until its standard input closes.
+//   bus_peer reader VENDOR DOMAIN                says the name (frame_id) of each picture it gets
+//   bus_peer talker VENDOR DOMAIN                writes ten small pictures a second, named "VENDOR NUMBER"
+//   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at
+//                                                30 Hz, then says {"refused": n, "slowest_ms": t}
 //   bus_peer census VENDOR DOMAIN COUNT          says {"seconds": t} when it has discovered COUNT of its kind
+// --network before these: with multicast and on every interface, as services are; else on 127.0.0.1.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -57,6 +58,19 @@ void write(Participant& participant, int readers, int count) {
   stay();
 }
 
+void talk(Participant& participant, const std::string& name) {
+  auto publisher = participant.advertise<Image>("picture", rds::bus::kSensor);
+  const std::jthread writer([&](const std::stop_token& stop) {
+    Image image;
+    for (int i = 0; !stop.stop_requested(); ++i) {
+      image.header().frame_id(name + " " + std::to_string(i));
+      publisher.write(image);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  });
+  stay();
+}
+
 void census(Participant& participant, std::ptrdiff_t count, Clock::time_point start) {
   auto publisher = participant.advertise<std_msgs::msg::Header>("census", rds::bus::kStream);
   const auto known = [&participant] {
@@ -69,14 +83,17 @@ void census(Participant& participant, std::ptrdiff_t count, Clock::time_point st
   stay();
 }
 
-int run(const std::vector<std::string>& arguments) {
+int run(std::vector<std::string> arguments) {
   const auto start = Clock::now();
+  const bool network = arguments.at(0) == "--network";
+  if (network) arguments.erase(arguments.begin());
   const std::string& mode = arguments.at(0);
   const auto participant = Participant::create({.vendor = rds::bus::vendor_from_name(arguments.at(1)),
                                                 .domain = std::stoi(arguments.at(2)),
                                                 .node_name = "bus_peer",
-                                                .loopback_only = true});
+                                                .loopback_only = !network});
   if (mode == "reader") read(*participant);
+  if (mode == "talker") talk(*participant, arguments.at(1));
   if (mode == "writer") write(*participant, std::stoi(arguments.at(3)), std::stoi(arguments.at(4)));
   if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);
   return 0;

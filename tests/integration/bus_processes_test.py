@@ -1,50 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Processes on the bus that freeze, die and come back: bus_processes_test.py PATH_OF_bus_peer"""
 
+import functools
 import itertools
 import json
 import os
 import signal
-import subprocess
 import sys
-import threading
 import unittest
 
-PEER = sys.argv.pop(1)
-VENDORS = ("fastdds", "cyclonedds")
+import peer_process
+from peer_process import VENDORS
+
+Peer = functools.partial(peer_process.Peer, sys.argv.pop(1))
 DOMAINS = itertools.count(10 + os.getpid() % 180)
-
-
-class Peer:
-    """A bus_peer process whose output lines are collected as they come."""
-
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen([PEER, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        self.lines = []
-        self.more = threading.Condition()
-        threading.Thread(target=self._read, daemon=True).start()
-
-    def _read(self):
-        for line in self.process.stdout:
-            with self.more:
-                self.lines.append(line.strip())
-                self.more.notify_all()
-
-    def wait_for(self, condition, seconds=60):
-        with self.more:
-            return self.more.wait_for(lambda: condition(self.lines), seconds)
-
-    def send(self, number):
-        self.process.send_signal(number)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.stdin.close()
-        self.send(signal.SIGCONT)
-        self.process.wait(30)
-        self.process.stdout.close()
 
 
 class Processes(unittest.TestCase):

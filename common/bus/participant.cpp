@@ -132,7 +132,7 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
 
   [[nodiscard]] int matched() const override { return reader_->matched(); }
   [[nodiscard]] EndpointStatistics endpoint_statistics() const override {
-    return {topic_, false, messages_, bytes_, undecodable_ + reader_->lost(), matched()};
+    return {topic_, false, messages_, bytes_, undecodable_ + failed_ + reader_->lost(), matched()};
   }
   [[nodiscard]] DiscoveredEndpoint description() const override { return {topic_, type_.dds_name, false}; }
 
@@ -152,11 +152,20 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
     if (sample.decoded) {
       ++messages_;
       bytes_ += sample.bytes;
-      callback_(message);
+      call_back(message);
     } else {
       ++undecodable_;
     }
     return true;
+  }
+
+  /// An exception must not end the process: the message counts as dropped.
+  void call_back(const std::shared_ptr<void>& message) {
+    try {
+      callback_(message);
+    } catch (const std::exception&) {
+      ++failed_;
+    }
   }
 
   std::shared_ptr<Shared> shared_;
@@ -168,6 +177,7 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
   std::atomic<std::uint64_t> messages_ = 0;
   std::atomic<std::uint64_t> bytes_ = 0;
   std::atomic<std::uint64_t> undecodable_ = 0;
+  std::atomic<std::uint64_t> failed_ = 0;
   std::jthread thread_;  // last: it uses the others
 };
 

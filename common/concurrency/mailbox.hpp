@@ -60,6 +60,17 @@ class Inbox {
     mailbox_.changed_.notify_all();
   }
 
+  /// As push(), but where it is full nothing changes. @return false then.
+  bool try_push(T value) {
+    {
+      const std::lock_guard lock(mailbox_.mutex_);
+      if (queue_.size() >= capacity_) return false;
+      queue_.push_back(std::move(value));
+    }
+    mailbox_.changed_.notify_all();
+    return true;
+  }
+
   std::optional<T> try_pop() {
     const std::lock_guard lock(mailbox_.mutex_);
     if (queue_.empty()) return std::nullopt;

@@ -11,6 +11,12 @@ namespace rds::messages {
 /// Keeps the members in wire order.
 using Json = nlohmann::ordered_json;
 
+/// Any nlohmann JSON as text; bytes that are not UTF-8 become U+FFFD, so that it never throws.
+template <class AnyJson>
+std::string to_text(const AnyJson& json, int indent = -1) {
+  return json.dump(indent, ' ', false, AnyJson::error_handler_t::replace);
+}
+
 /// The message as an object with its members in wire order. A float that is NaN or infinite becomes null.
 /// Instantiated for every IDL type.
 template <class Message>

@@ -51,10 +51,10 @@ Json value_to_json(const T& value) {
 template <class T>
 void integer_from_json(const Json& json, T& value, const std::string& path) {
   using Number = std::conditional_t<std::is_same_v<T, char>, unsigned char, T>;
-  if (!json.is_number_integer()) fail(path, "expected an integer, got " + json.dump());
+  if (!json.is_number_integer()) fail(path, "expected an integer, got " + to_text(json));
   const bool fits = json.is_number_unsigned() ? std::in_range<Number>(json.get<std::uint64_t>())
                                               : std::in_range<Number>(json.get<std::int64_t>());
-  if (!fits) fail(path, json.dump() + " is out of range");
+  if (!fits) fail(path, to_text(json) + " is out of range");
   value = static_cast<T>(json.get<Number>());
 }
 

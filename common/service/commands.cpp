@@ -5,26 +5,33 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "common/messages/json.hpp"
+#include "common/service/printable.hpp"
+
 namespace rds::service {
 
-CommandServer::CommandServer(ServiceContext& context, Service& service)
+CommandServer::CommandServer(ServiceContext& context, const Presence& presence, ServiceSlot& service)
     : context_(context),
+      presence_(presence),
       service_(service),
-      results_(context.bus.advertise<rds_msgs::msg::CommandResult>("rds/command_result", bus::kStream)),
+      results_(context.bus.advertise<rds_msgs::msg::CommandResult>("rds/command_result", bus::kCommand)),
       subscription_(context.bus.subscribe<rds_msgs::msg::Command>(
-          "rds/command", bus::kStream, [this](const auto& command) { receive(*command); })) {}
+          "rds/command", bus::kCommand, [this](const auto& command) { receive(*command); })) {}
 
 void CommandServer::receive(const rds_msgs::msg::Command& command) {
   if (!command.target().empty() && command.target() != context_.name) return;
   const std::uint64_t id = command.request_id();
   if (command.verb() == "status") return answer(id, {true, status()});
-  spdlog::info("command {} {}", command.verb(), command.argument());
-  service_.post(
+  spdlog::info("command {} {}", printable(command.verb()), printable(command.argument()));
+  const auto posted = service_.post(
       {command.verb(), command.argument(), [this, id](const auto& outcome) { answer(id, outcome); }});
+  if (posted == Posted::kBusy) answer(id, {false, "busy: too many commands wait"});
+  if (posted == Posted::kNobody) answer(id, {false, "waits as stand-by, another is active"});
 }
 
 void CommandServer::answer(std::uint64_t request_id, const CommandOutcome& outcome) {
   rds_msgs::msg::CommandResult result;
+  result.instance(context_.instance);
   result.request_id(request_id);
   result.service(context_.name);
   result.success(outcome.success);
@@ -33,7 +40,14 @@ void CommandServer::answer(std::uint64_t request_id, const CommandOutcome& outco
 }
 
 std::string CommandServer::status() const {
-  nlohmann::json json{{"service", context_.name}, {"pid", getpid()}};
+  const WorkerState worker = service_.worker_state();
+  nlohmann::json json{{"service", context_.name},
+                      {"version", RDS_VERSION},
+                      {"instance", fmt::format("{:016x}", context_.instance)},
+                      {"role", presence_.is_active() ? "active" : "stand-by"},
+                      {"domain", context_.domain},
+                      {"pid", getpid()},
+                      {"worker_silent_s", worker.silent_s}};
   auto& endpoints = json["endpoints"] = nlohmann::json::array();
   for (const auto& e : context_.bus.statistics())
     endpoints.push_back({{"topic", e.topic},
@@ -43,7 +57,7 @@ std::string CommandServer::status() const {
                          {"bytes", e.bytes},
                          {"dropped", e.dropped}});
   for (const auto& [name, value] : context_.diagnostics.figures()) json["figures"][name] = value;
-  return json.dump();
+  return messages::to_text(json);
 }
 
 }  // namespace rds::service

@@ -3,14 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "common/service/printable.hpp"
+
 namespace rds::service {
 namespace {
-constexpr std::uint64_t kLogEvery = 100;
+
+constexpr std::chrono::seconds kLogInterval{10};
+constexpr std::array<std::string_view, kRejections> kNames{"invalid", "foreign", "outdated", "unexpected",
+                                                           "failed"};
+
+}  // namespace
+
+std::string_view name_of(Rejection rejection) {
+  return kNames.at(static_cast<std::size_t>(rejection));
 }
 
 void LatencyWindow::add_ms(double duration_ms) {
@@ -49,13 +58,22 @@ void Diagnostics::gauge(const std::string& name, std::function<std::uint64_t()> 
   gauges_[name] = std::move(read);
 }
 
-void Diagnostics::reject(const std::string& topic, const std::string& reason) {
+void Diagnostics::forget_gauges() {
+  const std::lock_guard lock(mutex_);
+  gauges_.clear();
+}
+
+void Diagnostics::reject(const std::string& topic, Rejection code, std::string_view detail) {
+  const auto now = std::chrono::steady_clock::now();
   std::uint64_t count = 0;
   {
     const std::lock_guard lock(mutex_);
-    count = ++rejections_[fmt::format("{}: {}", topic, reason)];
+    Rejected& rejected = rejections_[topic].at(static_cast<std::size_t>(code));
+    count = ++rejected.count;
+    if (count > 1 && now - rejected.logged < kLogInterval) return;
+    rejected.logged = now;
   }
-  if (count % kLogEvery == 1) spdlog::warn("{}: message dropped, {} ({} so far)", topic, reason, count);
+  spdlog::warn("{}: message dropped, {}: {} ({} so far)", topic, name_of(code), printable(detail), count);
 }
 
 std::vector<std::pair<std::string, std::string>> Diagnostics::figures() const {
@@ -67,15 +85,20 @@ std::vector<std::pair<std::string, std::string>> Diagnostics::figures() const {
     all.emplace_back(name + " p99 [ms]", fmt::format("{:.3f}", window.quantile_ms(0.99)));
   }
   for (const auto& [name, read] : gauges_) all.emplace_back(name, fmt::format("{}", read()));
-  for (const auto& [what, count] : rejections_)
-    all.emplace_back("rejected " + what, fmt::format("{}", count));
+  for (const auto& [topic, codes] : rejections_)
+    for (std::size_t code = 0; code < kRejections; ++code)
+      if (codes[code].count > 0)
+        all.emplace_back(fmt::format("rejected {}: {}", topic, kNames[code]),
+                         fmt::format("{}", codes[code].count));
   return all;
 }
 
 std::uint64_t Diagnostics::rejected() const {
   const std::lock_guard lock(mutex_);
-  return std::accumulate(rejections_.begin(), rejections_.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const auto& entry) { return sum + entry.second; });
+  std::uint64_t sum = 0;
+  for (const auto& [topic, codes] : rejections_)
+    for (const Rejected& rejected : codes) sum += rejected.count;
+  return sum;
 }
 
 }  // namespace rds::service

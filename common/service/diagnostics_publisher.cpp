@@ -10,8 +10,7 @@ namespace rds::service {
 namespace {
 
 constexpr std::chrono::milliseconds kPeriod{1000};
-constexpr std::uint8_t kOk = 0;
-constexpr std::uint8_t kWarn = 1;
+constexpr double kHangS = 5;  // a worker that is silent for longer hangs
 
 diagnostic_msgs::msg::KeyValue key_value(const std::string& key, const std::string& value) {
   diagnostic_msgs::msg::KeyValue pair;
@@ -22,8 +21,11 @@ diagnostic_msgs::msg::KeyValue key_value(const std::string& key, const std::stri
 
 }  // namespace
 
-DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context)
+DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& presence,
+                                           const ServiceSlot& service)
     : context_(context),
+      presence_(presence),
+      service_(service),
       publisher_(context.bus.advertise<diagnostic_msgs::msg::DiagnosticArray>("diagnostics", bus::kStream)),
       thread_([this](const std::stop_token& stop) {
         concurrency::Mailbox timer;
@@ -33,25 +35,38 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context)
         }
       }) {}
 
+Health DiagnosticsPublisher::health(const WorkerState& worker) {
+  std::uint64_t troubles = context_.diagnostics.rejected();
+  for (const auto& endpoint : context_.bus.statistics()) troubles += endpoint.dropped;
+  const std::uint64_t lately = troubles - troubles_before_;
+  troubles_before_ = troubles;
+  if (worker.there && worker.silent_s > kHangS)
+    return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
+  if (const auto rivalry = presence_.rivalry()) return {kError, *rivalry};
+  if (lately > 0) return {kWarn, fmt::format("{} messages dropped", lately)};
+  return {};
+}
+
 void DiagnosticsPublisher::publish() {
+  const WorkerState worker = service_.worker_state();
+  const Health health_now = health(worker);
+  presence_.tell(health_now, worker.silent_s);
   diagnostic_msgs::msg::DiagnosticStatus status;
   status.name(context_.name);
   status.hardware_id("rds-slam");
+  status.level(health_now.level);
+  status.message(health_now.message);
   auto& values = status.values();
   const ProcessUsage usage = process_usage();
+  values.push_back(key_value("instance", fmt::format("{:016x}", context_.instance)));
+  values.push_back(key_value("role", presence_.is_active() ? "active" : "stand-by"));
+  values.push_back(key_value("worker silent [s]", fmt::format("{:.1f}", worker.silent_s)));
   values.push_back(key_value("cpu [s]", fmt::format("{:.2f}", usage.cpu_s)));
   values.push_back(key_value("rss [MB]", fmt::format("{:.1f}", static_cast<double>(usage.rss_bytes) / 1e6)));
   for (const auto& [name, value] : context_.diagnostics.figures()) values.push_back(key_value(name, value));
-  std::uint64_t troubles = context_.diagnostics.rejected();
-  for (const auto& endpoint : context_.bus.statistics()) {
+  for (const auto& endpoint : context_.bus.statistics())
     if (endpoint.dropped > 0)
       values.push_back(key_value("dropped " + endpoint.topic, fmt::format("{}", endpoint.dropped)));
-    troubles += endpoint.dropped;
-  }
-  status.level(troubles > troubles_before_ ? kWarn : kOk);
-  status.message(troubles > troubles_before_ ? fmt::format("{} messages dropped", troubles - troubles_before_)
-                                             : "");
-  troubles_before_ = troubles;
   diagnostic_msgs::msg::DiagnosticArray report;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   report.header().stamp(messages::to_time(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));

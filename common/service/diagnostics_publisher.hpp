@@ -3,20 +3,25 @@
 
 #include <thread>
 
-#include "common/service/service.hpp"
+#include "common/service/presence.hpp"
+#include "common/service/service_slot.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
 
 namespace rds::service {
 
-/// Publishes a process's figures on `diagnostics` once a second, from a thread of its own.
+/// Publishes a process's figures on `diagnostics` and its state on `rds/services` once a second, from a thread
+/// of its own; how the service is, is what its worker shows.
 class DiagnosticsPublisher {
  public:
-  explicit DiagnosticsPublisher(ServiceContext& context);
+  DiagnosticsPublisher(ServiceContext& context, Presence& presence, const ServiceSlot& service);
 
  private:
   void publish();
+  Health health(const WorkerState& worker);
 
   ServiceContext& context_;
+  Presence& presence_;
+  const ServiceSlot& service_;
   bus::Publisher<diagnostic_msgs::msg::DiagnosticArray> publisher_;
   std::uint64_t troubles_before_ = 0;
   std::jthread thread_;  // last: it uses the members above

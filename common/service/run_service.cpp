@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
-#include <cstdlib>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "common/concurrency/priority.hpp"
-#include "common/service/commands.hpp"
-#include "common/service/diagnostics_publisher.hpp"
-#include "common/service/service.hpp"
+#include "common/service/service_process.hpp"
+#include "common/service/stop_signals.hpp"
 
 namespace rds::service {
 namespace {
@@ -31,14 +28,6 @@ void set_up_log(const std::string& name, const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
-sigset_t stop_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  return signals;
-}
-
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", RDS_VERSION);
   app.add_option("--bus", options.vendor, "fastdds or cyclonedds")
@@ -52,41 +41,21 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}));
 }
 
-/// Runs the worker until a stop signal comes or it ends by itself.
-int run_until_signal(Service& service) {
-  bool failed = false;
-  std::jthread worker([&](const std::stop_token& stop) {
-    try {
-      service.run(stop);
-    } catch (const std::exception& e) {
-      spdlog::critical("stopped: {}", e.what());
-      failed = true;
-    }
-    kill(getpid(), SIGTERM);  // wakes the wait below
-  });
-  const sigset_t signals = stop_signals();
-  int received = 0;
-  sigwait(&signals, &received);
-  worker.request_stop();
-  worker.join();
-  return failed ? 1 : 0;
-}
-
-int start(const std::string& name, const Options& options, const ServiceFactory& factory) {
+int start(const std::string& name, const Options& options,
+          const std::function<ServiceFactory(config::ConfigReader&)>& read) {
   auto reader = options.config_path.empty() ? config::ConfigReader()
                                             : config::ConfigReader::from_file(options.config_path);
+  const ServiceFactory factory = read(reader);
   auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
                                                .domain = options.domain,
                                                .node_name = name,
                                                .loopback_only = options.loopback_only});
   Diagnostics diagnostics;
-  ServiceContext context{name, *participant, diagnostics};
-  const auto service = factory(context, reader);
-  const CommandServer commands(context, *service);
-  const DiagnosticsPublisher publisher(context);
+  ServiceContext context{name, *participant, diagnostics, options.domain};
+  ServiceProcess process(context, factory);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
-  return run_until_signal(*service);
+  return process.run();
 }
 
 }  // namespace
@@ -95,7 +64,8 @@ void give_way(int nice) {
   if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
 }
 
-int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory) {
+int run_service(const std::string& name, int argc, char** argv,
+                const std::function<ServiceFactory(config::ConfigReader&)>& read) {
   const sigset_t signals =
       stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -110,7 +80,7 @@ int run_service(const std::string& name, int argc, char** argv, const ServiceFac
   }
   set_up_log(name, options.log_level);
   try {
-    return start(name, options, factory);
+    return start(name, options, read);
   } catch (const config::ConfigError& e) {
     fmt::print(stderr, "{}\n", e.what());
   } catch (const std::exception& e) {

@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/service/service.hpp"
 
+#include "common/service/printable.hpp"
+
 namespace rds::service {
 namespace {
 constexpr std::size_t kMaxWaitingCommands = 64;
 }
 
-Service::Service(ServiceContext& context) : context_(context), commands_(mailbox_, kMaxWaitingCommands) {}
+Service::Service(ServiceContext& context) : context_(context), commands_(mailbox_, kMaxWaitingCommands) {
+  beat();
+}
+
+Service::~Service() {
+  while (auto command = commands_.try_pop()) command->answer({false, "the service has stopped"});
+}
+
+std::chrono::steady_clock::duration Service::silent_for() const {
+  using Clock = std::chrono::steady_clock;
+  return Clock::now() - Clock::time_point(Clock::duration(last_beat_));
+}
 
 CommandOutcome Service::unknown_command(const std::string& verb) {
-  return {false, fmt::format("'{}' is not a command of this service", verb)};
+  return {false, fmt::format("'{}' is not a command of this service", printable(verb))};
 }
 
 void Service::handle_commands() {
-  while (auto command = commands_.try_pop()) command->answer(execute(command->verb, command->argument));
+  while (auto command = commands_.try_pop()) {
+    CommandOutcome outcome;
+    try {
+      outcome = execute(command->verb, command->argument);
+    } catch (const std::exception& e) {
+      ++context_.diagnostics.counter("commands failed");
+      outcome = {false, printable(e.what())};
+    }
+    command->answer(outcome);
+  }
 }
 
 }  // namespace rds::service

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <utility>
 
 #include "common/bus/participant.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "common/config/config_reader.hpp"
 #include "common/service/diagnostics.hpp"
+#include "common/service/random_id.hpp"
 
 namespace rds::service {
 
@@ -18,6 +24,8 @@ struct ServiceContext {
   std::string name;
   bus::Participant& bus;
   Diagnostics& diagnostics;
+  int domain = 0;
+  std::uint64_t instance = random_id();  // of this process, in all that it publishes
 };
 
 struct CommandOutcome {
@@ -36,35 +44,69 @@ struct PendingCommand {
 class Service {
  public:
   explicit Service(ServiceContext& context);
-  virtual ~Service() = default;
+  /// Commands that still wait are answered: the service has stopped.
+  virtual ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
   /// The worker's loop: returns when stop is requested. An exception ends the process with status 1.
   virtual void run(const std::stop_token& stop) = 0;
+  /// What a clean stop has still to do, on the worker, after run() has returned.
+  virtual void close() {}
 
-  /// Queues a command for the worker (any thread).
-  void post(PendingCommand command) { commands_.push(std::move(command)); }
+  /// Queues a command for the worker (any thread). @return false if too many wait: the service is busy.
+  bool post(PendingCommand command) { return commands_.try_push(std::move(command)); }
+
+  /// Since the worker last said that it is alive (any thread).
+  [[nodiscard]] std::chrono::steady_clock::duration silent_for() const;
 
  protected:
   /// Carries a command out, on the worker. Unknown verbs: unknown_command().
   virtual CommandOutcome execute(const std::string& verb, const std::string& argument) = 0;
   [[nodiscard]] static CommandOutcome unknown_command(const std::string& verb);
 
-  /// Answers all waiting commands, on the worker.
+  /// Answers all waiting commands, on the worker; an exception becomes the answer.
   void handle_commands();
+
+  /// The worker is alive. Called by wait(), and where one step of the worker may take seconds.
+  void beat() { last_beat_ = std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+  /// Mailbox::wait() of a worker that says in between that it is alive.
+  template <class Ready>
+  bool wait(const std::stop_token& stop, Ready ready) {
+    for (beat(); !stop.stop_requested(); beat())
+      if (mailbox_.wait_for(stop, kBeatInterval, ready)) return true;
+    return false;
+  }
+
+  /// One step of the worker with one message: an exception is counted as a failure of that topic, and the
+  /// worker goes on.
+  template <class Step>
+  void guarded(const std::string& topic, Step step) {
+    try {
+      step();
+    } catch (const std::exception& e) {
+      context_.diagnostics.reject(topic, Rejection::kFailed, e.what());
+    }
+  }
 
   ServiceContext& context_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<PendingCommand> commands_;
+
+ private:
+  static constexpr std::chrono::milliseconds kBeatInterval{500};
+  std::atomic<std::chrono::steady_clock::rep> last_beat_;
 };
 
-/// Reads its configuration from the reader, then builds the service.
-using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&, config::ConfigReader&)>;
+/// Makes a service of a configuration that was read before.
+using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&)>;
 
 /// The whole main() of a service: command line, configuration, log, signals, commands, diagnostics, worker.
+/// @param read  reads the configuration. @throws config::ConfigError naming all that is wrong in it.
 /// @return 0 after a clean stop, 1 after a fault, 2 for bad usage or configuration.
-int run_service(const std::string& name, int argc, char** argv, const ServiceFactory& factory);
+int run_service(const std::string& name, int argc, char** argv,
+                const std::function<ServiceFactory(config::ConfigReader&)>& read);
 
 /// Lowers the priority of the process; says so where that is not allowed.
 void give_way(int nice);
@@ -73,12 +115,12 @@ void give_way(int nice);
 /// gives way to others by its `nice`.
 template <class ServiceType, class Config>
 int run_service(const std::string& name, int argc, char** argv) {
-  return run_service(name, argc, argv, [](ServiceContext& context, config::ConfigReader& reader) {
+  return run_service(name, argc, argv, [](config::ConfigReader& reader) -> ServiceFactory {
     Config config;
     read(reader, config);
     reader.finish();
     give_way(config.nice);
-    return std::make_unique<ServiceType>(context, config);
+    return [config](ServiceContext& context) { return std::make_unique<ServiceType>(context, config); };
   });
 }
 

@@ -31,31 +31,46 @@ std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config
 DetectorService::DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config)
     : Service(context),
       lockstep_(config.lockstep),
+      tracker_(context.bus),
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
       subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
           "rds/keyframe/images", bus::kKeyframeImages,
-          [this](Keyframe m) { keyframes_.push({std::move(m)}); })) {
+          [this](Keyframe m) { receive(std::move(m)); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }
 
 void DetectorService::run(const std::stop_token& stop) {
-  while (mailbox_.wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
+  while (wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
-    const auto arrival = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest();
-    if (arrival && !paused_)
-      look_at(*arrival);
-    else if (arrival && lockstep_)  // the tracker waits
-      publish({}, arrival->keyframe);
+    if (const auto arrival = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest())
+      guarded("rds/keyframe/images", [&] { take(*arrival); });
   }
+}
+
+/// On the bus's thread: another tracker's keyframes must not push out those that are waited for.
+void DetectorService::receive(Keyframe keyframe) {
+  if (!tracker_.accept(keyframe->instance(), keyframe->map_epoch() == map_epoch_))
+    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kForeign,
+                                       "another tracker");
+  map_epoch_ = keyframe->map_epoch();
+  keyframes_.push({std::move(keyframe)});
+}
+
+void DetectorService::take(const Arrival& arrival) {
+  if (!paused_)
+    look_at(arrival);
+  else if (lockstep_)  // the tracker waits
+    publish({}, arrival.keyframe);
 }
 
 void DetectorService::look_at(const Arrival& arrival) {
   const auto started = std::chrono::steady_clock::now();
   const auto frame = messages::to_rgbd_frame(arrival.keyframe);
-  if (!frame) return context_.diagnostics.reject("rds/keyframe/images", frame.error());
+  if (!frame)
+    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, frame.error());
   std::vector<messages::ImageDetection> found;
   for (const Detection& d : source_->detections(*frame))
     found.push_back({.label = d.label, .score = d.score, .box = d.box, .depth_m = d.depth_m});

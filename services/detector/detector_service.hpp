@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/messages/detection_conversions.hpp"
+#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "services/detector/detection_source.hpp"
@@ -31,10 +32,14 @@ class DetectorService : public service::Service {
     Keyframe keyframe;
     std::chrono::steady_clock::time_point time = std::chrono::steady_clock::now();
   };
+  void receive(Keyframe keyframe);
+  void take(const Arrival& arrival);
   void look_at(const Arrival& arrival);
   void publish(const std::vector<messages::ImageDetection>& found, const Keyframe& keyframe);
 
   bool lockstep_;
+  service::FollowedWriter tracker_;  // this and its map epoch: of the bus's thread
+  std::uint64_t map_epoch_ = 0;
   bool paused_ = false;
   std::unique_ptr<DetectionSource> source_;
   concurrency::Inbox<Arrival> keyframes_;

@@ -20,6 +20,7 @@ constexpr std::uint8_t kLoop = 1;
 
 LoopCloserService::LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config)
     : Service(context),
+      tracker_(context.bus),
       loop_closer_(config.loop_closer),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
@@ -34,19 +35,26 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
 }
 
 void LoopCloserService::run(const std::stop_token& stop) {
-  while (mailbox_.wait(stop, [this] { return !features_.locked_empty() || !commands_.locked_empty(); })) {
+  while (wait(stop, [this] { return !features_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
-    if (const auto features = features_.try_pop()) take(*features);
+    if (const auto features = features_.try_pop())
+      guarded("rds/keyframe/features", [&] { take(*features); });
   }
 }
 
 void LoopCloserService::take(const Features& features) {
+  if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
+    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kForeign,
+                                       "another tracker");
   if (paused_) return answer(features, {});
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
-  if (!keyframe) return context_.diagnostics.reject("rds/keyframe/features", keyframe.error());
+  if (!keyframe)
+    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid,
+                                       keyframe.error());
   const LoopAnswer found = loop_closer_.add(*keyframe);
-  if (!found.refused.empty()) context_.diagnostics.reject("rds/keyframe/features", found.refused);
+  if (!found.refused.empty())
+    context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid, found.refused);
   answer(features, found);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("keyframe").add_ms(took.count());
@@ -64,6 +72,8 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
     corrected_.loops_closed(found.loops_closed);
   }
   corrected_.header(features->header());
+  corrected_.instance(context_.instance);
+  corrected_.loop_instance(context_.instance);
   corrected_.header().frame_id("map");
   corrected_.map_epoch(features->map_epoch());
   corrected_.source(kLoop);

@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
@@ -33,6 +34,7 @@ class LoopCloserService : public service::Service {
   service::CommandOutcome load(const std::string& saved_map);
   void answer(const Features& features, const LoopAnswer& answer);
 
+  service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
   bool paused_ = false;
   rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop; repeated in every answer

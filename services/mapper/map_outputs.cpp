@@ -20,6 +20,7 @@ std::array<double, 3> to_array(const Eigen::Vector3d& v) {
 
 MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid)
     : grid_config_(grid),
+      instance_(context.instance),
       map_id_(service::random_id()),
       delta_(context.bus.advertise<rds_msgs::msg::OctreeDelta>("rds/map/delta", bus::kDelta)),
       full_(context.bus.advertise<octomap_msgs::msg::Octomap>("rds/map/full", bus::kLatched)),
@@ -46,13 +47,18 @@ void MapOutputs::publish_delta(MapDelta delta) {
   if (delta.is_noop()) return;
   delta.map_id = map_id_;
   sender_.send(
-      [this, delta = std::make_shared<MapDelta>(std::move(delta))] { delta_.write(to_message(*delta)); });
+      [this, delta = std::make_shared<MapDelta>(std::move(delta))] {
+        auto message = to_message(*delta);
+        message.instance(instance_);
+        delta_.write(message);
+      });
 }
 
 rds_msgs::msg::MapInfo MapOutputs::info_of(const SemanticMapper& mapper, const MapProgress& progress,
                                            std::int64_t stamp_ns) const {
   rds_msgs::msg::MapInfo info;
   info.header(messages::make_header(stamp_ns, "map"));
+  info.instance(instance_);
   info.map_epoch(mapper.map_epoch());
   info.map_id(map_id_);
   info.revision(mapper.revision());

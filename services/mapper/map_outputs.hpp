@@ -50,6 +50,7 @@ class MapOutputs {
   void write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns);
 
   GridConfig grid_config_;
+  std::uint64_t instance_;
   std::uint64_t map_id_;
   std::int64_t stamp_ns_ = 0;  // of the newest full map
   int readers_ = 0;

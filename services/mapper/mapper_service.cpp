@@ -26,6 +26,8 @@ std::size_t max_waiting(const MapperServiceConfig& config) {
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
     : Service(context),
       config_(config),
+      tracker_(context.bus),
+      loop_closer_(context.bus),
       mapper_(config.mapper, 0, std::make_unique<SpillFile>(config.mapper.correction.spill_folder)),
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
@@ -55,12 +57,13 @@ void MapperService::subscribe_to_keyframes() {
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
   while (!stop.stop_requested()) {
+    beat();
     mailbox_.wait_for(stop, kReaderLook, [this] { return something_arrived() || !commands_.locked_empty(); });
     handle_commands();
     take_arrivals();
     if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;
-    correct();
+    guarded("rds/keyframe/poses", [this] { correct(); });
     integrate_ready();
   }
 }
@@ -93,7 +96,11 @@ void MapperService::report_losses() {
 }
 
 void MapperService::integrate_ready() {
-  while (!waiting_.empty() && is_ready(waiting_.oldest())) integrate(waiting_.take_oldest());
+  while (!waiting_.empty() && is_ready(waiting_.oldest()))
+    guarded("rds/keyframe/images", [this] {
+      beat();
+      integrate(waiting_.take_oldest());
+    });
 }
 
 bool MapperService::is_ready(const Images& images) const {
@@ -108,7 +115,8 @@ bool MapperService::is_ready(const Images& images) const {
 void MapperService::integrate(const Images& images) {
   const auto started = std::chrono::steady_clock::now();
   auto input = to_keyframe_input(images);
-  if (!input) return context_.diagnostics.reject("rds/keyframe/images", input.error());
+  if (!input)
+    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, input.error());
   const geometry::Pose camera_from_map = input->map_from_camera.inverse();
   if (const auto boxes = boxes_by_stamp_.extract(input->stamp_ns))
     input->boxes = labelled_boxes(boxes.mapped(), camera_from_map, input->camera);
@@ -118,7 +126,7 @@ void MapperService::integrate(const Images& images) {
   try {
     delta = mapper_.integrate(*input);
   } catch (const std::invalid_argument& e) {
-    return context_.diagnostics.reject("rds/keyframe/images", e.what());
+    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, e.what());
   }
   integrated_by_stamp_.insert_or_assign(input->stamp_ns,
                                         Integrated{input->id, camera_from_map, input->camera});

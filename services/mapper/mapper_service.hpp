@@ -4,17 +4,19 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <tl/expected.hpp>
 
+#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/loop_knowledge.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/mapper_service_config.hpp"
 #include "services/mapper/waiting_keyframes.hpp"
@@ -48,7 +50,8 @@ class MapperService : public service::Service {
   void take(const Images& images);
   void take(const Boxes& boxes);
   void take(const Poses& poses);
-  [[nodiscard]] bool is_over(std::uint64_t map_epoch, const std::string& topic);
+  [[nodiscard]] bool is_of_tracker(std::uint64_t instance, std::uint64_t map_epoch, const std::string& topic);
+  [[nodiscard]] bool is_of_loop_closer(const Poses& poses);
   void begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns);
   void forget_keyframes();
   std::optional<std::vector<LabelledBox>> labelled_boxes(const Boxes& boxes,
@@ -71,16 +74,19 @@ class MapperService : public service::Service {
 
   MapperServiceConfig config_;
   std::stop_token stop_;
+  service::FollowedWriter tracker_;
+  service::FollowedWriter loop_closer_;
+  std::uint64_t tracker_instance_ = 0;            // that is followed
+  std::deque<std::uint64_t> earlier_epochs_;      // of that tracker
+  LoopKnowledge loops_;                           // contained in poses_
   SemanticMapper mapper_;
   MapOutputs outputs_;
-  std::set<std::uint64_t> earlier_epochs_;
   WaitingKeyframes waiting_;
   std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
   std::map<std::int64_t, Integrated> integrated_by_stamp_;
   Poses early_poses_;  // of an epoch whose first keyframe has not come yet
   std::vector<KeyframePose> poses_;
   std::uint64_t poses_revision_ = 0;  // of the newest LOCAL poses
-  std::uint64_t loop_revision_ = 0;   // contained in poses_
   bool poses_changed_by_loop_ = false;
   std::uint64_t last_keyframe_id_ = 0;
   std::int64_t last_stamp_ns_ = 0;

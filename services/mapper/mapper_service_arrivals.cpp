@@ -11,6 +11,7 @@ namespace rds::mapper {
 namespace {
 
 constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
+constexpr std::size_t kMaxEarlierEpochs = 16;
 constexpr std::uint8_t kLocal = 0;
 
 }  // namespace
@@ -20,22 +21,44 @@ bool MapperService::something_arrived() const {
 }
 
 void MapperService::take_arrivals() {
-  while (const auto images = images_inbox_.try_pop()) take(*images);  // first: they begin an epoch
-  while (const auto boxes = boxes_inbox_.try_pop()) take(*boxes);
-  while (const auto poses = poses_inbox_.try_pop()) take(*poses);
+  while (const auto images = images_inbox_.try_pop())  // first: they begin an epoch
+    guarded("rds/keyframe/images", [&] { take(*images); });
+  while (const auto boxes = boxes_inbox_.try_pop()) guarded("rds/boxes", [&] { take(*boxes); });
+  while (const auto poses = poses_inbox_.try_pop()) guarded("rds/keyframe/poses", [&] { take(*poses); });
 }
 
-/// Messages of an epoch that is over are dropped.
-bool MapperService::is_over(std::uint64_t map_epoch, const std::string& topic) {
-  if (!earlier_epochs_.contains(map_epoch)) return false;
-  context_.diagnostics.reject(topic, "of an earlier map epoch");
-  return true;
+/// One tracker is followed, and of that one its newest epoch: messages of others change nothing.
+bool MapperService::is_of_tracker(std::uint64_t instance, std::uint64_t map_epoch, const std::string& topic) {
+  const bool same_map = map_epoch == mapper_.map_epoch();
+  if (!tracker_.accept(instance, same_map)) {
+    context_.diagnostics.reject(topic, service::Rejection::kForeign, "another tracker");
+    return false;
+  }
+  if (instance != tracker_instance_) {
+    earlier_epochs_.clear();
+    loops_ = {};
+  }
+  tracker_instance_ = instance;
+  if (same_map || std::ranges::count(earlier_epochs_, map_epoch) == 0) return true;
+  context_.diagnostics.reject(topic, service::Rejection::kOutdated, "an earlier map epoch");
+  return false;
+}
+
+bool MapperService::is_of_loop_closer(const Poses& poses) {
+  const bool known = poses->map_epoch() == mapper_.map_epoch();
+  const bool accepted = known && loop_closer_.accept(poses->instance(), false);
+  if (!known)
+    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated, "loops of another map epoch");
+  else if (!accepted)
+    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
+  return accepted;
 }
 
 /// A new epoch is a new tracker, with the saved map or an empty one.
 /// @param stamp_ns  of what it begins with: earlier boxes are of an epoch that is over.
 void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) {
-  earlier_epochs_.insert(mapper_.map_epoch());
+  earlier_epochs_.push_back(mapper_.map_epoch());
+  if (earlier_epochs_.size() > kMaxEarlierEpochs) earlier_epochs_.pop_front();
   spdlog::info("map epoch {:016x}", map_epoch);
   mapper_.reset(map_epoch);
   outputs_.begin_map();
@@ -50,11 +73,12 @@ void MapperService::forget_keyframes() {
   integrated_by_stamp_.clear();
   poses_.clear();
   poses_changed_by_loop_ = false;
-  poses_revision_ = loop_revision_ = last_keyframe_id_ = 0;
+  poses_revision_ = last_keyframe_id_ = 0;
+  loops_ = {};
 }
 
 void MapperService::take(const Images& images) {
-  if (is_over(images->map_epoch(), "rds/keyframe/images")) return;
+  if (!is_of_tracker(images->instance(), images->map_epoch(), "rds/keyframe/images")) return;
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
   if (images->map_epoch() != mapper_.map_epoch()) begin_epoch(images->map_epoch(), stamp);
   if (integrated_by_stamp_.contains(stamp)) return;
@@ -81,34 +105,35 @@ std::optional<std::vector<LabelledBox>> MapperService::labelled_boxes(const Boxe
                                                                       const geometry::CameraModel& camera) {
   auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config_.mapper);
   if (!labelled) {
-    context_.diagnostics.reject("rds/boxes", labelled.error());
+    context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, labelled.error());
     return std::nullopt;
   }
   context_.diagnostics.counter("impossible boxes") += labelled->impossible;
   return std::move(labelled->boxes);
 }
 
-/// Only keyframes begin an epoch: a loop closer that still speaks of an earlier one must not. Without them
-/// (localize_only) poses do.
+/// Only keyframes begin an epoch; without them (localize_only) poses do.
 void MapperService::take(const Poses& message) {
-  if (is_over(message->map_epoch(), "rds/keyframe/poses")) return;
+  const bool local = message->source() == kLocal;
+  if (local && !is_of_tracker(message->instance(), message->map_epoch(), "rds/keyframe/poses")) return;
+  if (!local && !is_of_loop_closer(message)) return;
   if (message->map_epoch() != mapper_.map_epoch()) {
     if (!config_.localize_only) {
-      if (early_poses_ && early_poses_->map_epoch() != message->map_epoch())
-        context_.diagnostics.reject("rds/keyframe/poses", "of an unknown map epoch");
       early_poses_ = message;
       return;
     }
     begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));
   }
   auto poses = messages::to_keyframe_poses(*message);
-  if (!poses) return context_.diagnostics.reject("rds/keyframe/poses", poses.error());
-  if (message->loop_revision() < loop_revision_) return;  // does not know the loop yet that we have applied
+  if (!poses)
+    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
+  if (loops_.is_older(message->loop_instance(), message->loop_revision()))
+    return;  // does not know the loop yet that we have applied
   if (poses->empty()) return;
-  poses_changed_by_loop_ |= message->loop_revision() > loop_revision_;
-  loop_revision_ = message->loop_revision();
+  poses_changed_by_loop_ |= loops_.is_newer(message->loop_instance(), message->loop_revision());
+  loops_.take(message->loop_instance(), message->loop_revision());
   poses_ = std::move(*poses);
-  if (message->source() == kLocal) poses_revision_ = message->revision();
+  if (local) poses_revision_ = message->revision();
 }
 
 }  // namespace rds::mapper

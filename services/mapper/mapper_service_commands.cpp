@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/map_file/saved_map.hpp"
+#include "common/messages/json.hpp"
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/mapper_service.hpp"
 
@@ -37,8 +38,14 @@ service::CommandOutcome MapperService::execute(const std::string& verb, const st
 /// that it depends on the data alone and not on when they arrived.
 service::CommandOutcome MapperService::finish(const std::string& argument) {
   const auto json = nlohmann::json::parse(argument, nullptr, false);
-  const std::uint64_t revision = json.is_object() ? json.value("poses_revision", std::uint64_t{0}) : 0;
-  const std::uint64_t keyframes = json.is_object() ? json.value("keyframes", std::uint64_t{0}) : 0;
+  const auto count = [&json](const char* key) {
+    const bool given = json.is_object() && json.contains(key);
+    if (given && !json[key].is_number_unsigned())
+      throw std::invalid_argument(fmt::format("finish: {}: expected a number", key));
+    return given ? json[key].get<std::uint64_t>() : 0;
+  };
+  const std::uint64_t revision = count("poses_revision");
+  const std::uint64_t keyframes = count("keyframes");
   wait_for_rest(revision, keyframes);
   while (!waiting_.empty()) integrate(waiting_.take_oldest());
   outputs_.publish_delta(mapper_.settle(poses_));
@@ -47,18 +54,18 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   const bool complete =
       poses_revision_ >= revision && (!config_.lockstep || mapper_.keyframes() >= keyframes);
   const Eigen::Vector3d up = mapper_.up_in_map();
-  return {complete, nlohmann::json{{"keyframes", mapper_.keyframes()},
-                                   {"poses_revision", poses_revision_},
-                                   {"revision", mapper_.revision()},
-                                   {"up", {up.x(), up.y(), up.z()}},
-                                   {"labels", mapper_.labels().names()}}
-                        .dump()};
+  return {complete, messages::to_text(nlohmann::json{{"keyframes", mapper_.keyframes()},
+                                                     {"poses_revision", poses_revision_},
+                                                     {"revision", mapper_.revision()},
+                                                     {"up", {up.x(), up.y(), up.z()}},
+                                                     {"labels", mapper_.labels().names()}})};
 }
 
 void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes) {
   using Clock = std::chrono::steady_clock;
   auto deadline = Clock::now() + (config_.lockstep ? std::chrono::milliseconds(kRestLimit) : kQuietLimit);
   while (!stop_.stop_requested()) {
+    beat();
     take_arrivals();
     integrate_ready();
     if (poses_revision_ >= poses_revision && mapper_.keyframes() >= keyframes) return;

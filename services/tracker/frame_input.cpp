@@ -37,21 +37,21 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
 
 void FrameInput::on_camera_info(const sensor_msgs::msg::CameraInfo& message) {
   const auto camera = messages::to_camera_model(message);
-  if (!camera) return context_.diagnostics.reject(topics_.camera_info, camera.error());
+  if (!camera) return context_.diagnostics.reject(topics_.camera_info, service::Rejection::kInvalid, camera.error());
   const std::lock_guard lock(pairer_mutex_);
   push(pairer_.set_camera(*camera));
 }
 
 void FrameInput::on_color(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
   auto color = messages::to_color_image(message);
-  if (!color) return context_.diagnostics.reject(topics_.color, color.error());
+  if (!color) return context_.diagnostics.reject(topics_.color, service::Rejection::kInvalid, color.error());
   const std::lock_guard lock(pairer_mutex_);
   push(pairer_.add_color(messages::to_nanoseconds(message->header().stamp()), std::move(*color)));
 }
 
 void FrameInput::on_depth(const std::shared_ptr<const sensor_msgs::msg::Image>& message) {
   auto depth = messages::to_depth_image(message);
-  if (!depth) return context_.diagnostics.reject(topics_.depth, depth.error());
+  if (!depth) return context_.diagnostics.reject(topics_.depth, service::Rejection::kInvalid, depth.error());
   const std::lock_guard lock(pairer_mutex_);
   push(pairer_.add_depth(messages::to_nanoseconds(message->header().stamp()), std::move(*depth)));
 }

@@ -35,7 +35,8 @@ void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
 }  // namespace
 
 TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch)
-    : map_epoch_(map_epoch),
+    : instance_(context.instance),
+      map_epoch_(map_epoch),
       odometry_(context.bus.advertise<nav_msgs::msg::Odometry>("rds/odometry", bus::kStream)),
       tf_(context.bus.advertise<tf2_msgs::msg::TFMessage>("tf", bus::kTransform)),
       state_(context.bus.advertise<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream)),
@@ -83,6 +84,7 @@ void TrackerOutputs::publish_pose(const FrameReport& report) {
 void TrackerOutputs::publish_boxes(const FrameReport& report) {
   rds_msgs::msg::PredictedBoxes message;
   message.header(messages::make_header(report.frame.stamp_ns, kMap));
+  message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.frame_index(report.frame_index);
   for (const auto& [object, box] : report.objects) {
@@ -105,6 +107,7 @@ void TrackerOutputs::publish_features(const FrameReport& report) {
   if (features_.matched() == 0) return;
   rds_msgs::msg::FrameFeatures message;
   message.header(messages::make_header(report.frame.stamp_ns, kCamera));
+  message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.frame_index(report.frame_index);
   message.positions().reserve(2 * report.result.verdicts.size());
@@ -122,6 +125,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   const auto header = messages::make_header(keyframe.stamp_ns, kCamera);
   rds_msgs::msg::KeyFrameImages images;
   images.header(header);
+  images.instance(instance_);
   images.map_epoch(map_epoch_);
   images.keyframe_id(keyframe.id);
   images.frame_index(report.frame_index);
@@ -134,6 +138,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   if (!keyframe.in_map) return;
   rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);
   features.header(header);
+  features.instance(instance_);
   features.map_epoch(map_epoch_);
   features.frame_index(report.frame_index);
   keyframe_features_.write(features);
@@ -143,6 +148,7 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   const FrameResult& result = report.result;
   rds_msgs::msg::TrackingState message;
   message.header(messages::make_header(report.frame.stamp_ns, kMap));
+  message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.frame_index(report.frame_index);
   message.state(static_cast<std::uint8_t>(result.state));
@@ -163,15 +169,16 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   state_.write(message);
 }
 
-std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, std::uint64_t loop_revision,
-                                            std::uint32_t loops_closed) {
+std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops) {
   rds_msgs::msg::KeyFramePoses message;
   message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, kMap));
+  message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.revision(++poses_revision_);
   message.source(0);
-  message.loop_revision(loop_revision);
-  message.loops_closed(loops_closed);
+  message.loop_instance(loops.instance);
+  message.loop_revision(loops.revision);
+  message.loops_closed(loops.loops_closed);
   if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
   messages::append_poses(poses, message);
   keyframe_poses_.write(message);

@@ -33,6 +33,13 @@ struct FrameReport {
   std::uint64_t box_sets_used = 0;
 };
 
+/// The loop closer's corrections that the map contains.
+struct LoopState {
+  std::uint64_t instance = 0;  // of the loop closer; 0: none yet
+  std::uint64_t revision = 0;  // counted by that instance
+  std::uint32_t loops_closed = 0;
+};
+
 /// All topics that the tracker writes. Keeps odom: odom→camera is continuous, map→odom takes the jumps.
 class TrackerOutputs {
  public:
@@ -42,8 +49,7 @@ class TrackerOutputs {
   void publish(const FrameReport& report);
 
   /// All keyframe poses (source LOCAL), with the next revision. @return that revision.
-  std::uint64_t publish_poses(std::span<const KeyframePose> poses, std::uint64_t loop_revision,
-                              std::uint32_t loops_closed);
+  std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops);
 
   /// The map moved under the camera: the next frame's map→odom takes the jump.
   void move_map(const geometry::Pose& corrected_map_from_map);
@@ -57,6 +63,7 @@ class TrackerOutputs {
   void publish_keyframe(const FrameReport& report);
   void publish_state(const FrameReport& report);
 
+  std::uint64_t instance_;
   std::uint64_t map_epoch_;
   std::uint64_t poses_revision_ = 0;
   geometry::Pose map_from_odom_ = geometry::Pose::Identity();

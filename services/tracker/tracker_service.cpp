@@ -36,6 +36,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       map_epoch_(service::random_id()),
+      loop_closer_(context.bus),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
                [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
       objects_(config.prediction),
@@ -62,14 +63,15 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
 void TrackerService::run(const std::stop_token& stop) {
   stop_ = stop;
   const auto holds_frames = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
-  while (mailbox_.wait(stop, [&] {
+  while (wait(stop, [&] {
     return (!holds_frames() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
            !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
   })) {
     handle_commands();
     sort_in_arrivals();
     if (holds_frames()) continue;
-    if (const auto frame = input_.frames().try_pop(); frame && !paused_) process(*frame);
+    if (const auto frame = input_.frames().try_pop(); frame && !paused_)
+      guarded("frame", [&] { process(*frame); });
   }
 }
 
@@ -100,12 +102,14 @@ void TrackerService::sort_in_arrivals() {
   while (auto boxes = boxes_inbox_.try_pop()) {
     const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
     if (!boxes_.arrive(stamp, std::move(*boxes)))
-      context_.diagnostics.reject("rds/boxes", "of a keyframe that nobody waits for");
+      context_.diagnostics.reject("rds/boxes", service::Rejection::kUnexpected, "their keyframe waits for none");
   }
   while (auto poses = poses_inbox_.try_pop()) {
     const std::uint64_t answered = (*poses)->answered_keyframe_id();
     if ((*poses)->map_epoch() != map_epoch_)
-      context_.diagnostics.reject("rds/keyframe/poses", "of another map epoch");
+      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated, "another map epoch");
+    else if (!loop_closer_.accept((*poses)->instance(), false))
+      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
     else
       loop_answers_.arrive_through(answered, *poses);
   }
@@ -119,6 +123,7 @@ void TrackerService::sort_in_arrivals() {
 void TrackerService::await_answers() {
   const auto deadline = Clock::now() + std::chrono::duration<double>(config_.lockstep.timeout_s);
   while (!stop_.stop_requested()) {
+    beat();
     sort_in_arrivals();
     if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) &&
         mappings_.complete(frame_index_))
@@ -138,9 +143,9 @@ void TrackerService::apply_answers() {
   const auto take = [this](auto& values) {
     return config_.lockstep.enabled ? values.take_due(frame_index_) : values.take_arrived();
   };
-  for (const LocalMappingResult& result : take(mappings_)) apply(result);
-  for (const PosesMessage& poses : take(loop_answers_)) apply(poses);
-  for (const BoxesMessage& boxes : take(boxes_)) apply(boxes);
+  for (const LocalMappingResult& result : take(mappings_)) guarded("local mapping", [&] { apply(result); });
+  for (const PosesMessage& poses : take(loop_answers_)) guarded("rds/keyframe/poses", [&] { apply(poses); });
+  for (const BoxesMessage& boxes : take(boxes_)) guarded("rds/boxes", [&] { apply(boxes); });
 }
 
 void TrackerService::apply(const LocalMappingResult& result) {
@@ -154,24 +159,24 @@ void TrackerService::apply(const LocalMappingResult& result) {
 }
 
 void TrackerService::apply(const PosesMessage& poses) {
-  if (poses->revision() <= loop_revision_) return;  // nothing new was closed
+  const bool same_closer = poses->instance() == loops_.instance;
+  if (poses->revision() <= (same_closer ? loops_.revision : 0)) return;  // nothing new was closed
   const auto correction = messages::to_keyframe_poses(*poses);
-  if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", correction.error());
+  if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});
   const geometry::Pose corrected_from_map = tracker_.last_map_from_camera() * before.inverse();
   outputs_.move_map(corrected_from_map);
   objects_.move_map(corrected_from_map);
-  loop_revision_ = poses->revision();
-  loops_closed_ = poses->loops_closed();
-  spdlog::info("loop {} closed, keyframe poses corrected", loops_closed_);
+  loops_ = {poses->instance(), poses->revision(), poses->loops_closed()};
+  spdlog::info("loop {} closed, keyframe poses corrected", loops_.loops_closed);
   publish_poses();
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {
   const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
   const auto detections = messages::to_detections(*boxes);
-  if (!detections) return context_.diagnostics.reject("rds/boxes", detections.error());
+  if (!detections) return context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   ++box_sets_used_;
@@ -206,7 +211,7 @@ void TrackerService::start_mapping() {
 }
 
 void TrackerService::publish_poses() {
-  outputs_.publish_poses(tracker_.keyframe_poses(), loop_revision_, loops_closed_);
+  outputs_.publish_poses(tracker_.keyframe_poses(), loops_);
 }
 
 service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& argument) {
@@ -226,7 +231,10 @@ service::CommandOutcome TrackerService::execute(const std::string& verb, const s
 
 /// Nothing more comes: takes every answer that is still on its way and publishes the final poses.
 service::CommandOutcome TrackerService::finish() {
-  while (const auto frame = input_.frames().try_pop()) process(*frame);
+  while (const auto frame = input_.frames().try_pop()) {
+    beat();
+    process(*frame);
+  }
   const std::uint64_t last_frame = frame_index_;
   if (config_.lockstep.enabled) {
     for (; !(boxes_.empty() && loop_answers_.empty() && mappings_.empty()) && !stop_.stop_requested();
@@ -240,7 +248,7 @@ service::CommandOutcome TrackerService::finish() {
   }
   frame_index_ = last_frame;
   const auto poses = tracker_.keyframe_poses();
-  const std::uint64_t revision = outputs_.publish_poses(poses, loop_revision_, loops_closed_);
+  const std::uint64_t revision = outputs_.publish_poses(poses, loops_);
   const std::size_t in_map = config_.tracker.localize_only ? 0 : poses.size();
   return {true, nlohmann::json{{"poses_revision", revision},
                                {"keyframes", in_map},
@@ -258,7 +266,7 @@ void TrackerService::reset() {
   keyframes_with_boxes_due_.clear();
   loop_answers_.clear();
   mappings_.clear();
-  loop_revision_ = loops_closed_ = 0;
+  loops_ = {};
   spdlog::info("begins again, map epoch {:016x}", map_epoch_);
 }
 

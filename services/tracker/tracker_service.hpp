@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "common/concurrency/helper_thread.hpp"
+#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
@@ -64,6 +65,7 @@ class TrackerService : public service::Service {
   TrackerServiceConfig config_;
   std::stop_token stop_;
   std::uint64_t map_epoch_;
+  service::FollowedWriter loop_closer_;
   concurrency::HelperThread helper_;  // of the worker
   Tracker tracker_;
   std::optional<SavedMap> start_;  // the saved map that every map epoch begins with
@@ -79,8 +81,7 @@ class TrackerService : public service::Service {
   DelayedValues<LocalMappingResult> mappings_;                     // by keyframe id; at most one
   std::uint64_t frame_index_ = 0;
   std::uint64_t box_sets_used_ = 0;
-  std::uint64_t loop_revision_ = 0;
-  std::uint32_t loops_closed_ = 0;
+  LoopState loops_;
   bool paused_ = false;
   MappingWorker mapping_worker_;
   bus::Subscription boxes_subscription_;

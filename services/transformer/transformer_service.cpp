@@ -16,6 +16,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                        const TransformerServiceConfig& config)
     : Service(context),
       config_(config),
+      tracker_(context.bus),
       detections_inbox_(mailbox_, kMaxWaiting),
       poses_inbox_(mailbox_, kMaxWaiting),
       camera_inbox_(mailbox_, 1),
@@ -31,12 +32,12 @@ TransformerService::TransformerService(service::ServiceContext& context,
 }
 
 void TransformerService::run(const std::stop_token& stop) {
-  while (mailbox_.wait(stop, [this] {
+  while (wait(stop, [this] {
     return !detections_inbox_.locked_empty() || !poses_inbox_.locked_empty() ||
            !camera_inbox_.locked_empty() || !commands_.locked_empty();
   })) {
     handle_commands();
-    take_camera();
+    guarded(config_.camera_info_topic, [this] { take_camera(); });
     take_pose_messages();
     take_detections();
     lift_what_is_complete();
@@ -50,29 +51,33 @@ void TransformerService::take_camera() {
   if (camera)
     camera_ = *camera;
   else
-    context_.diagnostics.reject(config_.camera_info_topic, camera.error());
+    context_.diagnostics.reject(config_.camera_info_topic, service::Rejection::kInvalid, camera.error());
 }
 
 void TransformerService::take_pose_messages() {
-  while (const auto message = poses_inbox_.try_pop()) {
-    const auto poses = messages::to_keyframe_poses(**message);
-    if (!poses) {
-      context_.diagnostics.reject("rds/keyframe/poses", poses.error());
-      continue;
-    }
-    if ((*message)->map_epoch() != map_epoch_) map_from_camera_by_stamp_.clear();
-    map_epoch_ = (*message)->map_epoch();
-    for (const auto& pose : *poses)
-      map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
-  }
+  while (const auto message = poses_inbox_.try_pop())
+    guarded("rds/keyframe/poses", [&] { take(*message); });
   while (map_from_camera_by_stamp_.size() > kMaxPoses)
     map_from_camera_by_stamp_.erase(map_from_camera_by_stamp_.begin());
+}
+
+void TransformerService::take(const Poses& message) {
+  const auto poses = messages::to_keyframe_poses(*message);
+  if (!poses)
+    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
+  if (!tracker_.accept(message->instance(), message->map_epoch() == map_epoch_))
+    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another tracker");
+  if (message->map_epoch() != map_epoch_) map_from_camera_by_stamp_.clear();
+  map_epoch_ = message->map_epoch();
+  for (const auto& pose : *poses)
+    map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
 }
 
 void TransformerService::take_detections() {
   while (auto detections = detections_inbox_.try_pop()) waiting_.push_back(std::move(*detections));
   while (waiting_.size() > kMaxWaiting) {
-    context_.diagnostics.reject("rds/detections", "the keyframe's pose or the camera never came");
+    context_.diagnostics.reject("rds/detections", service::Rejection::kUnexpected,
+                                "the keyframe's pose or the camera never came");
     waiting_.pop_front();
   }
 }
@@ -82,14 +87,15 @@ void TransformerService::lift_what_is_complete() {
   std::erase_if(waiting_, [this](const Detections& detections) {
     const auto pose = map_from_camera_by_stamp_.find(messages::to_nanoseconds(detections->header().stamp()));
     if (pose == map_from_camera_by_stamp_.end()) return false;
-    lift(detections, pose->second);
+    guarded("rds/detections", [&] { lift(detections, pose->second); });
     return true;
   });
 }
 
 void TransformerService::lift(const Detections& detections, const geometry::Pose& map_from_camera) {
   const auto found = messages::to_detections(*detections);
-  if (!found) return context_.diagnostics.reject("rds/detections", found.error());
+  if (!found)
+    return context_.diagnostics.reject("rds/detections", service::Rejection::kInvalid, found.error());
   std::vector<messages::SpatialDetection> boxes;
   for (const auto& detection : *found) {
     const auto volume = box_in_map(detection.box, detection.depth_m, detection.label, map_from_camera,

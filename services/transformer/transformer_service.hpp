@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/geometry/camera_model.hpp"
+#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "sensor_msgs/msg/CameraInfo.h"
@@ -33,12 +34,14 @@ class TransformerService : public service::Service {
   using Info = std::shared_ptr<const sensor_msgs::msg::CameraInfo>;
 
   void take_pose_messages();
+  void take(const Poses& message);
   void take_camera();
   void take_detections();
   void lift_what_is_complete();
   void lift(const Detections& detections, const geometry::Pose& map_from_camera);
 
   TransformerServiceConfig config_;
+  service::FollowedWriter tracker_;
   std::uint64_t map_epoch_ = 0;
   std::optional<geometry::CameraModel> camera_;
   // Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "common/messages/json.hpp"
 #include "tools/rds/exit.hpp"
 #include "tools/rds/interrupt.hpp"
 #include "tools/rds/live_map_save.hpp"
@@ -52,7 +53,7 @@ void info(const MapOptions& options) {
     json["revision"] = map.revision;
     json["labels"] = map.labels;
   }
-  for (const auto& [name, value] : json.items()) fmt::print("{:<16} {}\n", name, value.dump());
+  for (const auto& [name, value] : json.items()) fmt::print("{:<16} {}\n", name, messages::to_text(value));
 }
 
 void write(const MapOptions& options, const std::string& format) {
@@ -71,7 +72,7 @@ bool is_rds(const std::filesystem::path& file) {
 void query(const MapOptions& options) {
   const LiveMap map = load(options.source);
   const Eigen::Vector3d point(options.point[0], options.point[1], options.point[2]);
-  fmt::print("{}\n", query_map(*map.tree, point, map.labels).dump());
+  fmt::print("{}\n", messages::to_text(query_map(*map.tree, point, map.labels)));
 }
 
 /// A subcommand with the options every one has.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/messages/json.hpp"
 #include "tools/rds/bus_options.hpp"
 #include "tools/rds/exit.hpp"
 #include "tools/rds/interrupt.hpp"
@@ -72,7 +73,7 @@ void list(const TopicOptions& options) {
       fmt::print("{:<44} {:<36} {} publishers, {} subscribers\n", topic.topic, topic.type, topic.publishers,
                  topic.subscribers);
   }
-  if (options.json) fmt::print("{}\n", json.dump());
+  if (options.json) fmt::print("{}\n", messages::to_text(json));
 }
 
 void echo(const TopicOptions& options) {
@@ -85,7 +86,7 @@ void echo(const TopicOptions& options) {
     const auto arrival = reader->next(deadline, interrupt.token());
     if (!arrival) break;
     const auto json = reader->type().to_json(arrival->message.get());
-    fmt::print("{}\n", (options.full ? json : shortened(json, kLongestList)).dump());
+    fmt::print("{}\n", messages::to_text(options.full ? json : shortened(json, kLongestList)));
     std::fflush(stdout);
     ++seen;
     if (options.count == 0) deadline = Clock::now() + kForever;

@@ -15,9 +15,9 @@ std::uint64_t random_id() {
 
 Commander::Commander(bus::Participant& bus)
     : next_id_(random_id()),
-      commands_(bus.advertise<rds_msgs::msg::Command>("rds/command", bus::kStream)),
+      commands_(bus.advertise<rds_msgs::msg::Command>("rds/command", bus::kCommand)),
       results_(bus.subscribe<rds_msgs::msg::CommandResult>(
-          "rds/command_result", bus::kStream, [this](const auto& m) {
+          "rds/command_result", bus::kCommand, [this](const auto& m) {
             const std::lock_guard lock(mutex_);
             const auto request = replies_.find(m->request_id());
             if (request == replies_.end()) return;  // somebody else's, or too late

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/messages/json.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 #include "tools/evaluation/trajectory_plot.hpp"
 #include "tools/rds/run/map_image.hpp"
@@ -34,7 +35,7 @@ std::optional<double> ate_of(const image::TumDataset& dataset, const std::vector
 
 void write_summary(const nlohmann::ordered_json& summary, const std::filesystem::path& file) {
   std::ofstream out(file);
-  out << summary.dump(2) << '\n';
+  out << messages::to_text(summary, 2) << '\n';
   if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/geometry/stamp.hpp"
 #include "common/geometry/trajectory.hpp"
+#include "common/messages/json.hpp"
 
 namespace rds::run {
 namespace {
@@ -68,7 +69,7 @@ void write_lines(const std::map<std::int64_t, Records>& by_stamp, const std::str
   for (const auto& [stamp, records] : by_stamp) {
     auto list = ordered_json::array();
     for (const auto& record : records) list.push_back(to_json_of(record));
-    out << fmt::format("{{\"stamp\": {}, \"{}\": {}}}\n", format_stamp(stamp), name, list.dump());
+    out << fmt::format("{{\"stamp\": {}, \"{}\": {}}}\n", format_stamp(stamp), name, messages::to_text(list));
   }
 }
 

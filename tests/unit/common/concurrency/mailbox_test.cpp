@@ -18,6 +18,17 @@ TEST(Inbox, DropsTheOldestWhenFullAndCounts) {
   EXPECT_EQ(inbox.try_pop(), std::nullopt);
 }
 
+TEST(Inbox, TryPushRefusesWhenFullAndKeepsWhatIsThere) {
+  Mailbox mailbox;
+  Inbox<int> inbox(mailbox, 2);
+  EXPECT_TRUE(inbox.try_push(1));
+  EXPECT_TRUE(inbox.try_push(2));
+  EXPECT_FALSE(inbox.try_push(3));
+  EXPECT_EQ(inbox.dropped(), 0U);
+  EXPECT_EQ(inbox.try_pop(), 1);
+  EXPECT_EQ(inbox.try_pop(), 2);
+}
+
 TEST(Inbox, NewestLeavesNothingBehindAndCountsTheRest) {
   Mailbox mailbox;
   Inbox<int> inbox(mailbox, 10);

@@ -22,12 +22,22 @@ TEST(Diagnostics, ReportsCountersGaugesAndRejections) {
   Diagnostics diagnostics;
   diagnostics.counter("frames") += 3;
   diagnostics.gauge("waiting", [] { return 7U; });
-  diagnostics.reject("rds/boxes", "of another epoch");
-  diagnostics.reject("rds/boxes", "of another epoch");
+  diagnostics.reject("rds/boxes", Rejection::kOutdated, "of epoch 1");
+  diagnostics.reject("rds/boxes", Rejection::kOutdated, "of epoch 2");
   EXPECT_THAT(diagnostics.figures(), Contains(Pair("frames", "3")));
   EXPECT_THAT(diagnostics.figures(), Contains(Pair("waiting", "7")));
-  EXPECT_THAT(diagnostics.figures(), Contains(Pair("rejected rds/boxes: of another epoch", "2")));
+  EXPECT_THAT(diagnostics.figures(), Contains(Pair("rejected rds/boxes: outdated", "2")));
   EXPECT_EQ(diagnostics.rejected(), 2U);
+}
+
+TEST(Diagnostics, KeepsNothingOfWhatOthersWrite) {
+  Diagnostics diagnostics;
+  diagnostics.reject("camera", Rejection::kInvalid, "encoding 0");
+  const auto before = diagnostics.figures();
+  for (int i = 1; i < 1000; ++i)
+    diagnostics.reject("camera", Rejection::kInvalid, "encoding " + std::to_string(i));
+  ASSERT_EQ(diagnostics.figures().size(), before.size());
+  EXPECT_THAT(diagnostics.figures(), Contains(Pair("rejected camera: invalid", "1000")));
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/service/service_process.hpp"
+
+#include <csignal>
+#include <optional>
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "common/service/stop_signals.hpp"
+
+namespace rds::service {
+namespace {
+
+constexpr std::size_t kMaxEvents = 64;
+constexpr timespec kSignalPoll{.tv_sec = 0, .tv_nsec = 100'000'000};
+constexpr std::chrono::milliseconds kRoleCheck{1000};  // a peer that went without a word makes no event
+
+constexpr std::chrono::seconds kStopLimit{20};      // for a worker to end
+
+}  // namespace
+
+ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory)
+    : context_(context),
+      factory_(std::move(factory)),
+      events_(mailbox_, kMaxEvents),
+      presence_(context, [this] { events_.push(Event::kPeersChanged); }),
+      commands_(context, presence_, service_),
+      publisher_(context, presence_, service_) {}
+
+int ServiceProcess::run() {
+  activate();
+  std::jthread signals([this](const std::stop_token& stop) { watch_signals(stop); });
+  while (true) {
+    mailbox_.wait_for({}, kRoleCheck, [this] { return !events_.locked_empty(); });
+    const auto event = events_.try_pop();
+    if (event == Event::kSignal || event == Event::kWorkerEnded) break;
+    change_role();
+  }
+  stand_by();
+  presence_.say_goodbye();
+  return failed_ ? 1 : 0;
+}
+
+void ServiceProcess::watch_signals(const std::stop_token& stop) {
+  const sigset_t signals = stop_signals();
+  std::optional<std::chrono::steady_clock::time_point> stopping_since;
+  while (!stop.stop_requested()) {
+    const int received = sigtimedwait(&signals, nullptr, &kSignalPoll);
+    if (received > 0 && stopping_since) {
+      spdlog::warn("stopped at once, by a second signal");
+      _exit(128 + received);
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (received > 0) {
+      stopping_since = now;
+      request_stop();
+    } else if (stopping_since && now - *stopping_since > kStopLimit) {
+      spdlog::critical("stopped although the worker still hangs");
+      _exit(1);
+    }
+  }
+}
+
+void ServiceProcess::activate() {
+  auto made = factory_(context_);
+  Service& service = *made;
+  service_.put(std::move(made));
+  presence_.set_active(true);
+  worker_ = std::jthread([this, &service](const std::stop_token& stop) { work(stop, service); });
+}
+
+void ServiceProcess::work(const std::stop_token& stop, Service& service) {
+  try {
+    service.run(stop);
+    service.close();
+  } catch (const std::exception& e) {
+    spdlog::critical("stopped: {}", e.what());
+    failed_ = true;
+  }
+  if (!stop.stop_requested()) events_.push(Event::kWorkerEnded);
+}
+
+/// Ends the worker, if there is one, and its service.
+void ServiceProcess::stand_by() {
+  worker_.request_stop();
+  if (worker_.joinable()) worker_.join();
+  const auto ended = service_.put(nullptr);
+  context_.diagnostics.forget_gauges();
+  if (presence_.is_active()) presence_.set_active(false);
+}
+
+void ServiceProcess::change_role() {
+  const bool active = presence_.should_be_active();
+  if (active == presence_.is_active()) return;
+  if (active) {
+    spdlog::warn("nobody else is active any more, this one takes over");
+    activate();
+  } else {
+    stand_by();
+    spdlog::error("{}", presence_.rivalry().value_or("another one is active"));
+  }
+}
+
+}  // namespace rds::service

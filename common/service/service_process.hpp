@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <thread>
+
+#include "common/service/commands.hpp"
+#include "common/service/diagnostics_publisher.hpp"
+#include "common/service/presence.hpp"
+#include "common/service/service_slot.hpp"
+
+namespace rds::service {
+
+/// A service and all around it that a process needs: worker, commands, diagnostics, and its place among others
+/// of its kind. While another one is active it waits as stand-by, without a worker.
+class ServiceProcess {
+ public:
+  /// @param context  must outlive it.
+  ServiceProcess(ServiceContext& context, ServiceFactory factory);
+
+  /// Runs until SIGINT or SIGTERM (both must be blocked in all threads) or until the worker fails. A second
+  /// signal ends the process at once. @return 0 after a clean stop, 1 after a fault.
+  /// @throws what making the service throws at the start.
+  int run();
+  /// As a signal does (any thread).
+  void request_stop() { events_.push(Event::kSignal); }
+
+ private:
+  enum class Event { kSignal, kWorkerEnded, kPeersChanged };
+
+  void watch_signals(const std::stop_token& stop);
+  void activate();
+  void stand_by();
+  void change_role();
+  void work(const std::stop_token& stop, Service& service);
+
+  ServiceContext& context_;
+  ServiceFactory factory_;
+  concurrency::Mailbox mailbox_;
+  concurrency::Inbox<Event> events_;
+  ServiceSlot service_;
+  bool failed_ = false;
+  Presence presence_;
+  CommandServer commands_;
+  DiagnosticsPublisher publisher_;
+  std::jthread worker_;
+};
+
+}  // namespace rds::service

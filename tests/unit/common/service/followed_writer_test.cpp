@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/service/peers.hpp"
+
+namespace rds::service {
+namespace {
+
+using namespace std::chrono_literals;
+using rds_msgs::msg::ServiceStatus;
+namespace Role = rds_msgs::msg::ServiceStatus_Constants;
+
+class Followed : public ::testing::Test {
+ protected:
+  static std::unique_ptr<bus::Participant> join(const std::string& name) {
+    return bus::Participant::create(
+        {.domain = 10 + static_cast<int>(getpid() % 200), .node_name = name, .loopback_only = true});
+  }
+  /// Returns when the follower has heard it.
+  void tell(std::uint64_t instance, std::uint8_t role) {
+    ServiceStatus status;
+    status.service("rds-tracker");
+    status.instance(instance);
+    status.role(role);
+    publisher_.write(status);
+    for (int i = 0; i < 1000 && !(role == Role::ACTIVE ? seen_.is_there(instance) : seen_.has_left(instance));
+         ++i)
+      std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(50ms);
+  }
+
+  std::unique_ptr<bus::Participant> services_ = join("services");
+  bus::Publisher<ServiceStatus> publisher_ =
+      services_->advertise<ServiceStatus>(kServicesTopic, bus::kLatchedEvery);
+  std::unique_ptr<bus::Participant> reader_ = join("reader");
+  Peers seen_{*reader_};
+  FollowedWriter followed_{*reader_};
+};
+
+TEST_F(Followed, AStrangerIsRefusedWhileTheOneThatIsFollowedIsThere) {
+  tell(1, Role::ACTIVE);
+  EXPECT_TRUE(followed_.accept(1, false));
+  EXPECT_FALSE(followed_.accept(2, false));
+  EXPECT_TRUE(followed_.accept(1, false));
+  tell(2, Role::ACTIVE);
+  EXPECT_FALSE(followed_.accept(2, false));
+}
+
+TEST_F(Followed, WhoLeavesIsReplacedAtOnce) {
+  tell(1, Role::ACTIVE);
+  EXPECT_TRUE(followed_.accept(1, false));
+  tell(1, Role::STOPPED);
+  EXPECT_TRUE(followed_.accept(2, false));
+  EXPECT_FALSE(followed_.accept(1, false)) << "now the second is followed";
+}
+
+TEST_F(Followed, WhoGoesOnWithTheSameMapIsTakenAtOnce) {
+  tell(1, Role::ACTIVE);
+  EXPECT_TRUE(followed_.accept(1, true));
+  EXPECT_TRUE(followed_.accept(2, true));
+}
+
+TEST_F(Followed, AServiceGoesBeforeAWriterThatIsNone) {
+  EXPECT_TRUE(followed_.accept(7, false)) << "nobody else is there";
+  EXPECT_FALSE(followed_.accept(8, false));
+  tell(1, Role::ACTIVE);
+  EXPECT_TRUE(followed_.accept(1, false));
+  EXPECT_FALSE(followed_.accept(7, false));
+}
+
+TEST_F(Followed, WhoIsSilentForLongIsReplaced) {
+  EXPECT_TRUE(followed_.accept(7, false));
+  EXPECT_FALSE(followed_.accept(8, false));
+  std::this_thread::sleep_for(Peers::kGoneAfter + 200ms);
+  EXPECT_TRUE(followed_.accept(8, false));
+}
+
+}  // namespace
+}  // namespace rds::service

@@ -44,6 +44,12 @@ bool Peers::is_there(std::uint64_t instance) const {
          Clock::now() - peer->second.heard <= kGoneAfter;
 }
 
+std::optional<Peers::Clock::duration> Peers::silent_for(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  const auto peer = peers_.find(instance);
+  return peer == peers_.end() ? std::nullopt : std::optional(Clock::now() - peer->second.heard);
+}
+
 bool Peers::has_left(std::uint64_t instance) const {
   const std::lock_guard lock(mutex_);
   const auto peer = peers_.find(instance);
@@ -74,8 +80,11 @@ bool FollowedWriter::accept(std::uint64_t instance, bool same_map) {
 /// Who tells no status is gone when it writes no more, or when a service comes that does.
 bool FollowedWriter::is_gone(std::uint64_t newcomer) const {
   if (peers_.has_left(followed_)) return true;
-  if (peers_.is_there(followed_)) return false;
-  return peers_.is_there(newcomer) || Peers::Clock::now() - last_used_ > Peers::kGoneAfter;
+  const auto told = peers_.silent_for(followed_);
+  const bool service_comes = peers_.is_there(newcomer);
+  if (!told && service_comes) return true;
+  const auto silent = told.value_or(Peers::Clock::now() - last_used_);
+  return silent > Peers::kGoneAfter || (service_comes && silent > Peers::kReplacedAfter);
 }
 
 }  // namespace rds::service

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,16 @@ class Peers {
   using Clock = std::chrono::steady_clock;
   /// A service that has been silent for longer is gone: five of its statuses are missing.
   static constexpr std::chrono::seconds kGoneAfter{5};
+  /// … or after two, where another of its kind is there: it was started again.
+  static constexpr std::chrono::milliseconds kReplacedAfter{2500};
 
   /// @param changed  called on a bus thread after each status that tells of another role; may be empty.
   explicit Peers(bus::Participant& bus, std::function<void()> changed = {});
 
   /// Whether an active service of this instance has been heard of lately.
   [[nodiscard]] bool is_there(std::uint64_t instance) const;
+  /// Since its last status; nullopt if none was heard.
+  [[nodiscard]] std::optional<Clock::duration> silent_for(std::uint64_t instance) const;
   /// Whether it said good-bye.
   [[nodiscard]] bool has_left(std::uint64_t instance) const;
   /// All that were heard of lately and have not left, by service and instance.

@@ -60,7 +60,7 @@ std::vector<PredictionRecord> to_records(const rds_msgs::msg::PredictedBoxes& m)
 
 }  // namespace
 
-Recorder::Recorder(bus::Participant& bus) {
+Recorder::Recorder(bus::Participant& bus) : tracker_(bus) {
   subscriptions_.push_back(bus.subscribe<rds_msgs::msg::TrackingState>(
       "rds/tracking_state", bus::kStream, [this](const auto& m) { on_state(*m); }));
   subscriptions_.push_back(bus.subscribe<rds_msgs::msg::PredictedBoxes>(
@@ -77,6 +77,7 @@ void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {
   const FrameRecord record = to_record(message);
   {
     const std::lock_guard lock(mutex_);
+    if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
     if (message.map_epoch() != epoch_) {  // a tracker that was restarted: its keyframes count anew
       epoch_ = message.map_epoch();
       keyframes_ = 0;
@@ -101,6 +102,7 @@ void Recorder::on_boxes(const rds_msgs::msg::PredictedBoxes& message) {
   }
   {
     const std::lock_guard lock(mutex_);
+    if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
     recording_.predictions[messages::to_nanoseconds(message.header().stamp())] = std::move(records);
   }
   changed_.notify_all();
@@ -110,6 +112,7 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
   if (message.source() != 0 || !messages::fault_of(message).empty()) return;
   {
     const std::lock_guard lock(mutex_);
+    if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
     recording_.keyframes.clear();
     for (std::size_t i = 0; i < message.keyframe_ids().size(); ++i)
       recording_.keyframes[message.keyframe_ids()[i]] = {message.stamps()[i],

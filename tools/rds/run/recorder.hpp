@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/service/peers.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/MapInfo.h"
@@ -18,7 +19,7 @@
 
 namespace rds::run {
 
-/// Listens to a run, keeps its Recording, and tells the player what has been acknowledged.
+/// Listens to a run (to one tracker, whoever else speaks), keeps its Recording, and tells the player what has been acknowledged.
 class Recorder {
  public:
   explicit Recorder(bus::Participant& bus);
@@ -51,6 +52,7 @@ class Recorder {
   bool wait(const std::stop_token& stop, std::chrono::milliseconds limit, Ready ready);
 
   mutable std::mutex mutex_;
+  service::FollowedWriter tracker_;
   std::condition_variable_any changed_;
   Recording recording_;
   std::uint64_t first_keyframe_id_ = 0;  // of the epoch; those of a saved map come before it

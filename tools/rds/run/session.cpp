@@ -67,13 +67,14 @@ int Session::run(const std::stop_token& stop) {
   started_ = last_progress_ = Clock::now();
   if (!stop.stop_requested()) play(stop);
   if (!stop.stop_requested()) drain(stop);
+  Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
   fleet_->stop(kStopLimit);
   overlay_->finish();
   if (stop.stop_requested()) {
     fmt::print(stderr, "stopped after {} frames, nothing is written\n", played_);
     return 1;
   }
-  write_results();
+  write_results(std::move(recording));
   return fleet_->healthy() && complete_ ? 0 : 1;
 }
 
@@ -180,9 +181,8 @@ std::string Session::ask(const std::string& service, const std::string& verb, co
   return {};
 }
 
-void Session::write_results() {
+void Session::write_results(Recording recording) {
   const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
-  Recording recording = recorder_.recording();
   recording.keyframes_in_map = keyframes_in_map_;
   write_all_results({options_,
                      recording,

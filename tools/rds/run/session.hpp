@@ -38,7 +38,7 @@ class Session {
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
-  void write_results();
+  void write_results(Recording recording);
 
   const RunOptions& options_;
   const image::TumDataset& dataset_;

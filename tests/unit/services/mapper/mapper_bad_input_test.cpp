@@ -45,6 +45,55 @@ TEST_F(MapperOnTheBus, BadInputIsDroppedAndCounted) {
   }
 }
 
+TEST_F(MapperOnTheBus, AnotherTrackersKeyframesAndPosesChangeNothing) {
+  start(config());
+  send(1);
+  ASSERT_TRUE(has_revision(1));
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    Images strange = to_message(SyntheticKeyframe(i).make(), kEpoch + 1);
+    strange.instance(99);
+    images.write(strange);
+    Poses moved;
+    moved.instance(99);
+    moved.map_epoch(kEpoch + 1);
+    moved.keyframe_ids({1});
+    moved.stamps({0});
+    moved.poses({9, 9, 9, 0, 0, 0, 1});
+    poses.write(moved);
+    ASSERT_TRUE(wait_for([&] { return mapper->diagnostics().rejected() == 2 * (i + 1); }));
+    send(10 + i);  // the real one goes on
+    ASSERT_TRUE(has_revision(2 + i)) << "the map is still that of the tracker that was there first";
+  }
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(info->map_epoch(), kEpoch);
+  EXPECT_EQ(info->keyframes_integrated(), 4U);
+  EXPECT_EQ(mapper->figure("rejected rds/keyframe/images: foreign"), "3");
+}
+
+TEST_F(MapperOnTheBus, ALoopCloserThatWasStartedAgainIsHeard) {
+  start(config());
+  send(1);
+  ASSERT_TRUE(has_revision(1));
+  const auto correct = [&](std::uint64_t instance, std::uint64_t revision, double x_m) {
+    Poses poses_of_loop;
+    poses_of_loop.instance(instance);
+    poses_of_loop.loop_instance(instance);
+    poses_of_loop.map_epoch(kEpoch);
+    poses_of_loop.source(1);
+    poses_of_loop.revision(revision);
+    poses_of_loop.loop_revision(revision);
+    poses_of_loop.keyframe_ids({1});
+    poses_of_loop.stamps({0});
+    poses_of_loop.poses({x_m, 0, 0, 0, 0, 0, 1});
+    poses.write(poses_of_loop);
+  };
+  correct(7, 5, 0.5);
+  ASSERT_TRUE(has_revision(2));
+  std::this_thread::sleep_for(service::Peers::kGoneAfter);  // the first one is killed
+  correct(8, 1, 1.0);
+  EXPECT_TRUE(has_revision(3)) << "its first loop counts, although the former one had closed five";
+}
+
 TEST_F(MapperOnTheBus, ImpossibleBoxesAreLeftOutAndCounted) {
   MapperServiceConfig with_boxes = config();
   with_boxes.expect_boxes = true;

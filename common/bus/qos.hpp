@@ -18,6 +18,7 @@ inline constexpr Qos kSensor{.reliable = true, .depth = 5};
 inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};
 inline constexpr Qos kTransform{.reliable = true, .depth = 100};
+inline constexpr Qos kPoses{.reliable = true, .transient_local = true, .depth = 100};
 inline constexpr Qos kCommand{.reliable = true, .depth = 100};
 inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, .depth = 20};
 inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};

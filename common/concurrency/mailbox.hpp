@@ -71,11 +71,25 @@ class Inbox {
     return true;
   }
 
+  /// As push(), but where it is full it waits until the worker has made room: for work that must not be lost.
+  void push_when_free(T value) {
+    {
+      std::unique_lock lock(mailbox_.mutex_);
+      freed_.wait(lock, [this] { return queue_.size() < capacity_; });
+      queue_.push_back(std::move(value));
+    }
+    mailbox_.changed_.notify_all();
+  }
+
   std::optional<T> try_pop() {
-    const std::lock_guard lock(mailbox_.mutex_);
-    if (queue_.empty()) return std::nullopt;
-    std::optional<T> front(std::move(queue_.front()));
-    queue_.pop_front();
+    std::optional<T> front;
+    {
+      const std::lock_guard lock(mailbox_.mutex_);
+      if (queue_.empty()) return std::nullopt;
+      front.emplace(std::move(queue_.front()));
+      queue_.pop_front();
+    }
+    freed_.notify_one();
     return front;
   }
 
@@ -104,6 +118,7 @@ class Inbox {
 
  private:
   Mailbox& mailbox_;
+  std::condition_variable freed_;
   std::deque<T> queue_;
   std::size_t capacity_;
   std::uint64_t dropped_ = 0;

@@ -74,10 +74,15 @@ class Service {
   /// Mailbox::wait() of a worker that says in between that it is alive.
   template <class Ready>
   bool wait(const std::stop_token& stop, Ready ready) {
-    for (beat(); !stop.stop_requested(); beat())
+    for (beat(); !stop.stop_requested(); beat()) {
       if (mailbox_.wait_for(stop, kBeatInterval, ready)) return true;
+      idle();
+    }
     return false;
   }
+
+  /// Called by wait() twice a second while nothing arrives.
+  virtual void idle() {}
 
   /// One step of the worker with one message: an exception is counted as a failure of that topic, and the
   /// worker goes on.

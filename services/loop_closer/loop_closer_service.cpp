@@ -15,6 +15,7 @@
 namespace rds::loop_closer {
 namespace {
 constexpr std::size_t kMaxWaiting = 200;
+constexpr int kRepeats = 32;
 constexpr std::uint8_t kLoop = 1;
 }  // namespace
 
@@ -60,7 +61,8 @@ void LoopCloserService::take(const Features& features) {
   context_.diagnostics.latency("keyframe").add_ms(took.count());
 }
 
-/// Every keyframe is answered, with the latest correction: in lockstep the tracker waits for that.
+/// Every keyframe is answered: in lockstep the tracker waits for that. A correction is repeated in the answers
+/// to the next keyframes, in case one is missed; then answers carry its revision alone.
 void LoopCloserService::answer(const Features& features, const LoopAnswer& found) {
   if (features->map_epoch() != corrected_.map_epoch()) corrected_ = {};
   if (!found.poses.empty()) {
@@ -70,6 +72,11 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
     corrected_.revision(found.revision);
     corrected_.loop_revision(found.revision);
     corrected_.loops_closed(found.loops_closed);
+    repeats_ = kRepeats;
+  } else if (repeats_ > 0 && --repeats_ == 0) {
+    corrected_.keyframe_ids().clear();
+    corrected_.stamps().clear();
+    corrected_.poses().clear();
   }
   corrected_.header(features->header());
   corrected_.instance(context_.instance);

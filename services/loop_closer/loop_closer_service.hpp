@@ -37,7 +37,8 @@ class LoopCloserService : public service::Service {
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
   bool paused_ = false;
-  rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop; repeated in every answer
+  rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop
+  int repeats_ = 0;                         // answers that still carry its poses
   concurrency::Inbox<Features> features_;
   bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inbox

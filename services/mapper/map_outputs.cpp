@@ -86,8 +86,8 @@ void MapOutputs::publish_all(const SemanticMapper& mapper, const MapProgress& pr
   ++full_maps_under_way_;
   sender_.send([this, stamp = stamp_ns_, info = info_of(mapper, progress, stamp_ns_),
                 snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))]() mutable {
+    const std::shared_ptr<void> done(nullptr, [this](void*) { --full_maps_under_way_; });
     write_all(*snapshot, info, stamp);
-    --full_maps_under_way_;
   });
 }
 

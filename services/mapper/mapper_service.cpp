@@ -13,7 +13,7 @@ namespace rds::mapper {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
-constexpr std::size_t kMaxMessages = 100;
+constexpr std::size_t kMaxMessages = 1000;
 constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
 
 /// Keyframes, both before and after the worker has looked at them.

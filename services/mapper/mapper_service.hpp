@@ -12,6 +12,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
@@ -85,6 +86,7 @@ class MapperService : public service::Service {
   std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
   std::map<std::int64_t, Integrated> integrated_by_stamp_;
   Poses early_poses_;  // of an epoch whose first keyframe has not come yet
+  messages::KeyframePoseTable tracker_poses_;
   std::vector<KeyframePose> poses_;
   std::uint64_t poses_revision_ = 0;  // of the newest LOCAL poses
   bool poses_changed_by_loop_ = false;

@@ -72,6 +72,7 @@ void MapperService::forget_keyframes() {
   waiting_.clear();
   integrated_by_stamp_.clear();
   poses_.clear();
+  tracker_poses_.clear();
   poses_changed_by_loop_ = false;
   poses_revision_ = last_keyframe_id_ = 0;
   loops_ = {};
@@ -127,6 +128,10 @@ void MapperService::take(const Poses& message) {
   auto poses = messages::to_keyframe_poses(*message);
   if (!poses)
     return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
+  if (local) {
+    if (!tracker_poses_.take(*message, *poses)) return;  // until all are told
+    *poses = tracker_poses_.poses();
+  }
   if (loops_.is_older(message->loop_instance(), message->loop_revision()))
     return;  // does not know the loop yet that we have applied
   if (poses->empty()) return;

@@ -2,24 +2,30 @@
 #include "services/mapper/sender.hpp"
 
 #include <future>
-#include <limits>
+
+#include <spdlog/spdlog.h>
 
 namespace rds::mapper {
 
 Sender::Sender()
-    : messages_(mailbox_, std::numeric_limits<std::size_t>::max()),
-      thread_([this](const std::stop_token& stop) {
-        while (mailbox_.wait(stop, [this] { return !messages_.locked_empty(); }))
-          while (const auto message = messages_.try_pop()) (*message)();
-      }) {}
+    : messages_(mailbox_, kMaxWaiting), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void Sender::run(const std::stop_token& stop) {
+  while (mailbox_.wait(stop, [this] { return !messages_.locked_empty(); }))
+    while (const auto message = messages_.try_pop()) try {
+        (*message)();
+      } catch (const std::exception& e) {
+        spdlog::error("a message could not be made: {}", e.what());
+      }
+}
 
 void Sender::send(std::function<void()> message) {
-  messages_.push(std::move(message));
+  messages_.push_when_free(std::move(message));
 }
 
 void Sender::flush() {
   std::promise<void> sent;
-  messages_.push([&sent] { sent.set_value(); });
+  send([&sent] { sent.set_value(); });
   sent.get_future().wait();
 }
 

@@ -18,7 +18,13 @@ namespace rds::tracker {
 template <class T>
 class DelayedValues {
  public:
-  void ask(std::uint64_t key, std::uint64_t due_frame) { waiting_.push_back({key, due_frame, std::nullopt}); }
+  /// When kMaxWaiting questions wait, the oldest is given up and counted: nobody answers.
+  void ask(std::uint64_t key, std::uint64_t due_frame) {
+    waiting_.push_back({key, due_frame, std::nullopt});
+    if (waiting_.size() <= kMaxWaiting) return;
+    waiting_.pop_front();
+    ++missed_;
+  }
 
   /// @return false if nobody asked for the key (any more).
   bool arrive(std::uint64_t key, T value) {
@@ -61,8 +67,11 @@ class DelayedValues {
 
   void clear() { waiting_.clear(); }
   [[nodiscard]] bool empty() const { return waiting_.empty(); }
+  [[nodiscard]] std::size_t size() const { return waiting_.size(); }
   /// Answers that were given up so far.
   [[nodiscard]] std::size_t missed() const { return missed_; }
+
+  static constexpr std::size_t kMaxWaiting = 1000;
 
  private:
   struct Entry {

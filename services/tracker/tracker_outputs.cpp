@@ -47,16 +47,24 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
       keyframe_features_(context.bus.advertise<rds_msgs::msg::KeyFrameFeatures>("rds/keyframe/features",
                                                                                 bus::kKeyframeFeatures)),
       keyframe_poses_(
-          context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {}
+          context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kPoses)) {}
 
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
-  poses_revision_ = 0;
+  pose_changes_.clear();
   map_from_odom_ = geometry::Pose::Identity();
 }
 
 void TrackerOutputs::move_map(const geometry::Pose& corrected_map_from_map) {
   map_from_odom_ = corrected_map_from_map * map_from_odom_;
+}
+
+bool TrackerOutputs::has_new_reader() {
+  const int readers = keyframe_poses_.matched();
+  const bool more = readers > pose_readers_;
+  pose_readers_ = readers;
+  reader_waits_ |= more;
+  return more;
 }
 
 void TrackerOutputs::publish(const FrameReport& report) {
@@ -174,15 +182,15 @@ std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses,
   message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, kMap));
   message.instance(instance_);
   message.map_epoch(map_epoch_);
-  message.revision(++poses_revision_);
   message.source(0);
   message.loop_instance(loops.instance);
   message.loop_revision(loops.revision);
   message.loops_closed(loops.loops_closed);
   if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
-  messages::append_poses(poses, message);
+  const bool somebody_new = has_new_reader() || std::exchange(reader_waits_, false);
+  messages::append_poses(pose_changes_.next(poses, somebody_new, message), message);
   keyframe_poses_.write(message);
-  return poses_revision_;
+  return pose_changes_.revision();
 }
 
 }  // namespace rds::tracker

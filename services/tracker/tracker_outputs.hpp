@@ -7,6 +7,7 @@
 
 #include "common/geometry/pose.hpp"
 #include "common/image/rgbd_frame.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/service.hpp"
 #include "nav_msgs/msg/Odometry.h"
 #include "rds_msgs/msg/FrameFeatures.h"
@@ -48,8 +49,12 @@ class TrackerOutputs {
   /// Odometry, tf, boxes, features, keyframe, and last the tracking state, which acknowledges the frame.
   void publish(const FrameReport& report);
 
-  /// All keyframe poses (source LOCAL), with the next revision. @return that revision.
+  /// Keyframe poses (source LOCAL), with the next revision: of all of them those that are new or have moved
+  /// since the last message; all for somebody who has joined. @return that revision.
   std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops);
+
+  /// True once after somebody new has subscribed to the poses: he waits for all of them.
+  bool has_new_reader();
 
   /// The map moved under the camera: the next frame's map→odom takes the jump.
   void move_map(const geometry::Pose& corrected_map_from_map);
@@ -65,7 +70,9 @@ class TrackerOutputs {
 
   std::uint64_t instance_;
   std::uint64_t map_epoch_;
-  std::uint64_t poses_revision_ = 0;
+  messages::KeyframePoseChanges pose_changes_;
+  int pose_readers_ = 0;
+  bool reader_waits_ = false;
   geometry::Pose map_from_odom_ = geometry::Pose::Identity();
   bus::Publisher<nav_msgs::msg::Odometry> odometry_;
   bus::Publisher<tf2_msgs::msg::TFMessage> tf_;

@@ -75,6 +75,11 @@ void TrackerService::run(const std::stop_token& stop) {
   }
 }
 
+/// Who joins while no frame comes is told all poses, too.
+void TrackerService::idle() {
+  if (outputs_.has_new_reader()) publish_poses();
+}
+
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (config_.lockstep.enabled) await_answers();
   const auto started = Clock::now();
@@ -162,6 +167,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   const bool same_closer = poses->instance() == loops_.instance;
   if (poses->revision() <= (same_closer ? loops_.revision : 0)) return;  // nothing new was closed
   const auto correction = messages::to_keyframe_poses(*poses);
+  if (correction && correction->empty()) return;  // its poses came before
   if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});

@@ -32,6 +32,7 @@ class TrackerService : public service::Service {
 
  protected:
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+  void idle() override;
 
  private:
   using BoxesMessage = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;

@@ -113,10 +113,10 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
   {
     const std::lock_guard lock(mutex_);
     if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
+    if (!poses_.take(message, messages::to_keyframe_poses(message).value())) return;
     recording_.keyframes.clear();
-    for (std::size_t i = 0; i < message.keyframe_ids().size(); ++i)
-      recording_.keyframes[message.keyframe_ids()[i]] = {message.stamps()[i],
-                                                         messages::pose_at(message.poses(), i)};
+    for (const auto& pose : poses_.poses())
+      recording_.keyframes[pose.id] = {pose.stamp_ns, pose.map_from_camera};
     recording_.keyframes_revision = message.revision();
     recording_.map_epoch = message.map_epoch();
     recording_.loops_closed = message.loops_closed();

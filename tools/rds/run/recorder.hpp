@@ -10,6 +10,7 @@
 #include "common/bus/participant.hpp"
 #include "common/service/peers.hpp"
 #include "common/concurrency/mailbox.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/PredictedBoxes.h"
@@ -53,6 +54,7 @@ class Recorder {
 
   mutable std::mutex mutex_;
   service::FollowedWriter tracker_;
+  messages::KeyframePoseTable poses_;
   std::condition_variable_any changed_;
   Recording recording_;
   std::uint64_t first_keyframe_id_ = 0;  // of the epoch; those of a saved map come before it

@@ -29,6 +29,21 @@ TEST(Inbox, TryPushRefusesWhenFullAndKeepsWhatIsThere) {
   EXPECT_EQ(inbox.try_pop(), 2);
 }
 
+TEST(Inbox, PushWhenFreeWaitsForRoomAndLosesNothing) {
+  Mailbox mailbox;
+  Inbox<int> inbox(mailbox, 3);
+  std::jthread producer([&] {
+    for (int i = 0; i < 1000; ++i) inbox.push_when_free(i);
+  });
+  for (int next = 0; next < 1000;) {
+    EXPECT_LE(inbox.size(), 3U);
+    if (const auto value = inbox.try_pop()) {
+      EXPECT_EQ(*value, next++);
+    }
+  }
+  EXPECT_EQ(inbox.dropped(), 0U);
+}
+
 TEST(Inbox, NewestLeavesNothingBehindAndCountsTheRest) {
   Mailbox mailbox;
   Inbox<int> inbox(mailbox, 10);

@@ -57,5 +57,15 @@ TEST(DelayedValues, RefuseWhatNobodyAskedFor) {
   EXPECT_FALSE(values.arrive(5, 50));
 }
 
+TEST(DelayedValues, QuestionsThatNobodyAnswersAreBounded) {
+  DelayedValues<int> values;
+  constexpr std::uint64_t kMore = 500;
+  for (std::uint64_t key = 0; key < DelayedValues<int>::kMaxWaiting + kMore; ++key) values.ask(key, key + 2);
+  EXPECT_EQ(values.size(), DelayedValues<int>::kMaxWaiting);
+  EXPECT_EQ(values.missed(), kMore);
+  EXPECT_FALSE(values.arrive(0, 1)) << "the oldest are given up";
+  EXPECT_TRUE(values.arrive(kMore, 1));
+}
+
 }  // namespace
 }  // namespace rds::tracker

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "common/geometry/keyframe_pose.hpp"
+#include "rds_msgs/msg/KeyFramePoses.h"
+
+namespace rds::messages {
+
+/// A reader's side of rds/keyframe/poses: what one writer has told, from messages with all poses and from
+/// messages with changes.
+class KeyframePoseTable {
+ public:
+  /// @param poses  of the message, converted. @return false if the message changes poses that were not told
+  /// here: one before it was missed, and nothing is known until one with all poses comes.
+  bool take(const rds_msgs::msg::KeyFramePoses& message, std::span<const geometry::KeyframePose> poses);
+
+  /// By id.
+  [[nodiscard]] std::vector<geometry::KeyframePose> poses() const;
+  void clear() { *this = {}; }
+
+ private:
+  std::map<std::uint64_t, geometry::KeyframePose> by_id_;
+  std::uint64_t instance_ = 0;
+  std::uint64_t map_epoch_ = 0;
+  std::uint64_t revision_ = 0;  // 0: nothing is known
+};
+
+/// The writer's side: which poses a message has to carry.
+///
+/// All of them first, when somebody new reads, and after so many messages that what they add to each one stays
+/// the same however many keyframes there are; else those that are new or have moved.
+class KeyframePoseChanges {
+ public:
+  /// @param poses  all, by id. @param somebody_new  has joined: all are to be told.
+  /// @return those to be told; revision and base_revision of the message are set.
+  std::vector<geometry::KeyframePose> next(std::span<const geometry::KeyframePose> poses, bool somebody_new,
+                                           rds_msgs::msg::KeyFramePoses& message);
+  /// Of the last message; 0 before the first.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  /// Another map: revisions count anew.
+  void clear() { *this = {}; }
+
+ private:
+  std::vector<geometry::KeyframePose> told_;
+  std::uint64_t revision_ = 0;
+  std::size_t since_all_ = 0;  // messages
+};
+
+}  // namespace rds::messages

@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/bus/guid.hpp"
 #include "common/bus/participant.hpp"
 
 /// What a DDS vendor has to provide. Everything else (threads, statistics, node announcement) is written
 /// once, in participant.cpp. Topic names are DDS names here ("rt/rds/odometry").
 namespace rds::bus::detail {
 
-/// An endpoint's or participant's RTPS GUID: 12 bytes of the participant, 4 of the entity.
-using Guid = std::array<std::uint8_t, 16>;
-
-/// True if both GUIDs belong to one participant.
-inline bool same_participant(const Guid& a, const Guid& b) {
-  return std::equal(a.begin(), a.begin() + 12, b.begin());
-}
-
-/// Where a back end puts a received message: it hands the bytes to decode() while it holds them.
+/// Where a back end puts a received message: it hands the bytes to decode() while it holds them, unless the
+/// writer is of another version.
 struct Sample {
   const TypeOps* type = nullptr;
   void* message = nullptr;
   std::size_t bytes = 0;
   bool decoded = false;
+  bool another_version = false;  // not decoded
 
   void decode(const std::uint8_t* data, std::size_t size) {
     bytes = size;

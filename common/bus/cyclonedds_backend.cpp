@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dds/dds.h>
+#include <dds/ddsi/ddsi_serdata.h>
 
 #include "common/bus/backend.hpp"
 #include "common/bus/cyclonedds_discovery.hpp"
 #include "common/bus/cyclonedds_domain.hpp"
+#include "common/bus/cyclonedds_endpoints.hpp"
 #include "common/bus/cyclonedds_type.hpp"
 
 namespace rds::bus::detail {
 namespace {
-
-/// An entity of Cyclone DDS, deleted with its children.
-class Entity {
- public:
-  Entity(dds_entity_t handle, const std::string& what) : handle_(handle) {
-    if (handle < 0) throw BusError("Cyclone DDS refused " + what + ": " + dds_strretcode(handle));
-  }
-  ~Entity() { dds_delete(handle_); }
-  Entity(const Entity&) = delete;
-  Entity& operator=(const Entity&) = delete;
-  [[nodiscard]] dds_entity_t get() const { return handle_; }
-
- private:
-  dds_entity_t handle_;
-};
 
 struct DeleteQos {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
@@ -55,13 +42,9 @@ QosPtr endpoint_qos(const TypeOps& type, const Qos& qos) {
   return target;
 }
 
-Guid guid_of(dds_entity_t entity) {
-  dds_guid_t source{};
-  dds_get_guid(entity, &source);
-  Guid guid{};
-  std::copy(std::begin(source.v), std::end(source.v), guid.begin());
-  return guid;
-}
+struct Unref {
+  void operator()(ddsi_serdata* message) const { ddsi_serdata_unref(message); }
+};
 
 class CycloneWriter final : public BackendWriter {
  public:
@@ -82,8 +65,10 @@ class CycloneWriter final : public BackendWriter {
 
 class CycloneReader final : public BackendReader {
  public:
-  CycloneReader(dds_entity_t participant, dds_entity_t topic, const std::string& name, const QosPtr& qos)
-      : reader_(dds_create_reader(participant, topic, qos.get(), nullptr), "a reader on " + name),
+  CycloneReader(dds_entity_t participant, dds_entity_t topic, const std::string& name, const QosPtr& qos,
+                VersionCheck<dds_instance_handle_t> versions)
+      : versions_(std::move(versions)),
+        reader_(dds_create_reader(participant, topic, qos.get(), nullptr), "a reader on " + name),
         readable_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), "a condition"),
         stop_(dds_create_guardcondition(participant), "a condition"),
         wait_set_(dds_create_waitset(participant), "a wait set") {
@@ -94,10 +79,14 @@ class CycloneReader final : public BackendReader {
   void wait() override { dds_waitset_wait(wait_set_.get(), nullptr, 0, DDS_INFINITY); }
   void wake() override { dds_set_guardcondition(stop_.get(), true); }
   bool take(Sample& sample) override {
-    void* target = &sample;
+    ddsi_serdata* message = nullptr;
     dds_sample_info_t info{};
-    while (dds_take(reader_.get(), &target, &info, 1, 1) > 0) {
-      if (info.valid_data) return true;
+    while (dds_takecdr(reader_.get(), &message, 1, &info, DDS_ANY_STATE) > 0) {
+      const std::unique_ptr<ddsi_serdata, Unref> held(message);
+      if (!info.valid_data) continue;
+      sample.another_version = versions_.others().contains(info.publication_handle);
+      if (!sample.another_version) ddsi_serdata_to_sample(message, &sample, nullptr, nullptr);
+      return true;
     }
     return false;
   }
@@ -114,6 +103,7 @@ class CycloneReader final : public BackendReader {
   [[nodiscard]] Guid guid() const override { return guid_of(reader_.get()); }
 
  private:
+  VersionCheck<dds_instance_handle_t> versions_;
   Entity reader_;
   Entity readable_;
   Entity stop_;
@@ -127,12 +117,7 @@ class CycloneBackend final : public Backend {
         participant_(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
                                             participant_qos(options.node_name).get(), nullptr),
                      "a participant in domain " + std::to_string(options.domain)),
-        publications_(
-            dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
-            "the list of publications"),
-        subscriptions_(
-            dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr),
-            "the list of subscriptions") {
+        endpoints_(participant_.get()) {
     if (!cyclonedds_discovery_is_filtered()) {
       throw BusError(
           "this build of Cyclone DDS reads type information from anybody: expected Debian 12's 0.10");
@@ -147,15 +132,14 @@ class CycloneBackend final : public Backend {
   std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
     const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
-    return std::make_unique<CycloneReader>(participant_.get(), entity.get(), topic, endpoint_qos(type, qos));
+    return std::make_unique<CycloneReader>(
+        participant_.get(), entity.get(), topic, endpoint_qos(type, qos),
+        VersionCheck<dds_instance_handle_t>(endpoints_.directory(), topic, type));
   }
   [[nodiscard]] Guid guid() const override { return guid_of(participant_.get()); }
 
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
-    std::vector<DiscoveredEndpoint> endpoints;
-    append_endpoints(publications_.get(), true, endpoints);
-    append_endpoints(subscriptions_.get(), false, endpoints);
-    return endpoints;
+    return endpoints_.directory().endpoints();
   }
 
  private:
@@ -168,25 +152,9 @@ class CycloneBackend final : public Backend {
     return topic;
   }
 
-  void append_endpoints(dds_entity_t list, bool publisher, std::vector<DiscoveredEndpoint>& endpoints) const {
-    constexpr std::size_t kMany = 1000;
-    std::vector<void*> samples(kMany, nullptr);  // nullptr: Cyclone DDS lends its own
-    std::vector<dds_sample_info_t> infos(kMany);
-    const dds_return_t count = dds_read(list, samples.data(), infos.data(), kMany, kMany);
-    const Guid self = guid();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
-      if (!infos[i].valid_data || infos[i].instance_state != DDS_IST_ALIVE) continue;
-      const auto* endpoint = static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
-      if (std::equal(self.begin(), self.end(), std::begin(endpoint->participant_key.v))) continue;
-      endpoints.push_back({endpoint->topic_name, endpoint->type_name, publisher});
-    }
-    if (count > 0) dds_return_loan(list, samples.data(), count);
-  }
-
   std::shared_ptr<void> domain_;
   Entity participant_;
-  Entity publications_;
-  Entity subscriptions_;
+  CycloneEndpoints endpoints_;
 };
 
 }  // namespace

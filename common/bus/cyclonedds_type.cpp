@@ -200,7 +200,7 @@ const ddsi_sertype_ops* type_operations() {
       delete static_cast<CarriedType*>(t);
     };
     ops.zero_samples = [](const ddsi_sertype*, void*, std::size_t) {};
-    // Samples are never allocated by Cyclone DDS: every dds_take() brings its own.
+    // Samples are never allocated by Cyclone DDS: readers take messages as bytes.
     ops.realloc_samples = [](void**, const ddsi_sertype*, void*, std::size_t, std::size_t) { std::abort(); };
     ops.free_samples = [](const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {};
     ops.equal = [](const ddsi_sertype* a, const ddsi_sertype* b) {

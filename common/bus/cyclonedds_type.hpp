@@ -9,7 +9,7 @@
 namespace rds::bus::detail {
 
 /// A Cyclone DDS type that carries any message type as its CDR bytes. A writer gives dds_write() a message, a
-/// reader gives dds_take() a Sample. The caller owns one reference.
+/// reader gives ddsi_serdata_to_sample() a Sample. The caller owns one reference.
 ddsi_sertype* make_cyclonedds_type(const TypeOps& type);
 
 }  // namespace rds::bus::detail

@@ -17,9 +17,10 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-#include "common/bus/backend.hpp"
+#include "common/bus/endpoint_directory.hpp"
 #include "common/bus/fastdds_settings.hpp"
 #include "common/bus/hand_over.hpp"
+#include "common/bus/type_version.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -35,7 +36,28 @@ Guid to_guid(const rtps::GUID_t& source) {
   return guid;
 }
 
-/// Carries any message type. A writer gives a message, a reader a Sample: so a reader learns size and
+/// What a reader gives Fast DDS to be filled. The writer's name comes only after the bytes, so while a writer
+/// of another version is there they are kept until it is known.
+struct Receipt {
+  Sample& sample;
+  VersionCheck<Guid>& versions;
+  std::vector<std::uint8_t> kept = {};
+
+  void take(const std::uint8_t* data, std::size_t size) {
+    if (versions.others().empty()) {
+      sample.decode(data, size);
+    } else {
+      kept.assign(data, data + size);
+    }
+  }
+  void writer_is(const Guid& writer) {
+    if (kept.empty()) return;
+    sample.another_version = versions.others().contains(writer);
+    if (!sample.another_version) sample.decode(kept.data(), kept.size());
+  }
+};
+
+/// Carries any message type. A writer gives a message, a reader a Receipt: so a reader learns size and
 /// outcome, and no bytes make Fast DDS itself stumble.
 class CarriedType final : public dds::TopicDataType {
  public:
@@ -53,8 +75,8 @@ class CarriedType final : public dds::TopicDataType {
     payload->encapsulation = CDR_LE;
     return size > 0;
   }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* sample) override {
-    static_cast<Sample*>(sample)->decode(payload->data, payload->length);
+  bool deserialize(rtps::SerializedPayload_t* payload, void* receipt) override {
+    static_cast<Receipt*>(receipt)->take(payload->data, payload->length);
     tell_read(payload->data);
     return true;
   }
@@ -75,42 +97,38 @@ class CarriedType final : public dds::TopicDataType {
 /// The endpoints of other participants, kept up to date by Fast DDS's discovery thread.
 class DiscoveryListener final : public dds::DomainParticipantListener {
  public:
-  void on_subscriber_discovery(dds::DomainParticipant* /*p*/, rtps::ReaderDiscoveryInfo&& info) override {
-    update(info.info.guid(), info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER,
-           {info.info.topicName().to_string(), info.info.typeName().to_string(), false});
+  void on_subscriber_discovery(dds::DomainParticipant* self, rtps::ReaderDiscoveryInfo&& info) override {
+    update(*self, info.info, info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER, false);
   }
-  void on_publisher_discovery(dds::DomainParticipant* /*p*/, rtps::WriterDiscoveryInfo&& info) override {
-    update(info.info.guid(), info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER,
-           {info.info.topicName().to_string(), info.info.typeName().to_string(), true});
+  void on_publisher_discovery(dds::DomainParticipant* self, rtps::WriterDiscoveryInfo&& info) override {
+    update(*self, info.info, info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER, true);
   }
   void on_participant_discovery(dds::DomainParticipant* /*p*/,
                                 rtps::ParticipantDiscoveryInfo&& info) override {
     using Info = rtps::ParticipantDiscoveryInfo;
     if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) return;
-    const std::lock_guard lock(mutex_);
     const Guid gone = to_guid(info.info.m_guid);
-    std::erase_if(endpoints_, [&gone](const auto& entry) { return same_participant(entry.first, gone); });
+    directory_.remove_if([&gone](const Guid& guid) { return same_participant(guid, gone); });
   }
 
-  std::vector<DiscoveredEndpoint> endpoints() const {
-    const std::lock_guard lock(mutex_);
-    std::vector<DiscoveredEndpoint> result;
-    for (const auto& [guid, endpoint] : endpoints_) result.push_back(endpoint);
-    return result;
-  }
+  [[nodiscard]] const EndpointDirectory<Guid>& directory() const { return directory_; }
 
  private:
-  void update(const rtps::GUID_t& guid, bool removed, DiscoveredEndpoint endpoint) {
-    const std::lock_guard lock(mutex_);
+  template <class Proxy>
+  void update(const dds::DomainParticipant& self, const Proxy& proxy, bool removed, bool publisher) {
+    const Guid guid = to_guid(proxy.guid());
+    if (same_participant(guid, to_guid(self.guid()))) return;  // Fast DDS tells of its own as well
     if (removed) {
-      endpoints_.erase(to_guid(guid));
-    } else {
-      endpoints_[to_guid(guid)] = std::move(endpoint);
+      directory_.remove(guid);
+      return;
     }
+    const auto& user_data = proxy.m_qos.m_userData.data_vec();
+    directory_.put(guid, {proxy.topicName().to_string(), proxy.typeName().to_string(), publisher,
+                          type_hash_in({reinterpret_cast<const char*>(user_data.data()), user_data.size()}),
+                          text_of(guid)});
   }
 
-  mutable std::mutex mutex_;
-  std::map<Guid, DiscoveredEndpoint> endpoints_;
+  EndpointDirectory<Guid> directory_;
 };
 
 class FastWriter final : public BackendWriter {
@@ -150,8 +168,11 @@ class FastWriter final : public BackendWriter {
 
 class FastReader final : public BackendReader {
  public:
-  FastReader(dds::Subscriber* subscriber, dds::Topic* topic, const dds::DataReaderQos& qos)
-      : subscriber_(subscriber), reader_(subscriber->create_datareader(topic, qos)) {
+  FastReader(dds::Subscriber* subscriber, dds::Topic* topic, const dds::DataReaderQos& qos,
+             VersionCheck<Guid> versions)
+      : subscriber_(subscriber),
+        versions_(std::move(versions)),
+        reader_(subscriber->create_datareader(topic, qos)) {
     if (reader_ == nullptr) throw BusError("Fast DDS refused a reader on " + topic->get_name());
     reader_->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
     wait_set_.attach_condition(reader_->get_statuscondition());
@@ -172,8 +193,11 @@ class FastReader final : public BackendReader {
   void wake() override { stop_.set_trigger_value(true); }
   bool take(Sample& sample) override {
     dds::SampleInfo info;
-    while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
-      if (info.valid_data) return true;
+    Receipt receipt{sample, versions_};
+    while (reader_->take_next_sample(&receipt, &info) == ReturnCode_t::RETCODE_OK) {
+      if (!info.valid_data) continue;
+      receipt.writer_is(to_guid(info.sample_identity.writer_guid()));
+      return true;
     }
     return false;
   }
@@ -191,6 +215,7 @@ class FastReader final : public BackendReader {
 
  private:
   dds::Subscriber* subscriber_;
+  VersionCheck<Guid> versions_;
   dds::DataReader* reader_;
   dds::WaitSet wait_set_;
   dds::GuardCondition stop_;
@@ -224,10 +249,13 @@ class FastBackend final : public Backend {
   }
   std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
-    return std::make_unique<FastReader>(subscriber_, find_topic(topic, type), fastdds_reader_qos(type, qos));
+    return std::make_unique<FastReader>(subscriber_, find_topic(topic, type), fastdds_reader_qos(type, qos),
+                                        VersionCheck<Guid>(listener_.directory(), topic, type));
   }
   [[nodiscard]] Guid guid() const override { return to_guid(participant_->guid()); }
-  [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override { return listener_.endpoints(); }
+  [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
+    return listener_.directory().endpoints();
+  }
 
  private:
   /// Topics live as long as the participant: few, and shared by its endpoints.

@@ -13,6 +13,7 @@
 #include "common/bus/backend.hpp"
 #include "common/bus/message_pool.hpp"
 #include "common/bus/node_announcer.hpp"
+#include "common/bus/type_version.hpp"
 
 namespace rds::bus {
 namespace {
@@ -53,6 +54,22 @@ struct Shared {
     const std::lock_guard lock(mutex);
     endpoints.erase(endpoint);
   }
+  std::vector<DiscoveredEndpoint> own() {
+    const std::lock_guard lock(mutex);
+    std::vector<DiscoveredEndpoint> result;
+    for (const Endpoint* endpoint : endpoints) result.push_back(endpoint->description());
+    return result;
+  }
+  /// The ROS topics of other participants.
+  [[nodiscard]] std::vector<DiscoveredEndpoint> others() const {
+    std::vector<DiscoveredEndpoint> result;
+    for (DiscoveredEndpoint& endpoint : backend->discovered()) {
+      if (!endpoint.topic.starts_with(kRosPrefix)) continue;
+      endpoint.topic.erase(0, kRosPrefix.size());
+      result.push_back(std::move(endpoint));
+    }
+    return result;
+  }
 
   std::unique_ptr<Backend> backend;
   detail::NodeAnnouncer announcer;
@@ -90,9 +107,11 @@ class WriterEndpoint final : public detail::PublisherEndpoint, public Endpoint {
   }
   [[nodiscard]] int matched() const override { return writer_->matched(); }
   [[nodiscard]] EndpointStatistics endpoint_statistics() const override {
-    return {topic_, true, messages_, bytes_, refused_, matched()};
+    return {topic_, true, messages_, bytes_, refused_, matched(), 0};
   }
-  [[nodiscard]] DiscoveredEndpoint description() const override { return {topic_, type_.dds_name, true}; }
+  [[nodiscard]] DiscoveredEndpoint description() const override {
+    return {topic_, type_.dds_name, true, type_.type_hash, detail::text_of(writer_->guid())};
+  }
 
  private:
   std::shared_ptr<Shared> shared_;
@@ -132,9 +151,13 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
 
   [[nodiscard]] int matched() const override { return reader_->matched(); }
   [[nodiscard]] EndpointStatistics endpoint_statistics() const override {
-    return {topic_, false, messages_, bytes_, undecodable_ + failed_ + reader_->lost(), matched()};
+    const std::uint64_t others = another_version_;
+    const std::uint64_t dropped = undecodable_ + failed_ + others + reader_->lost();
+    return {topic_, false, messages_, bytes_, dropped, matched(), others};
   }
-  [[nodiscard]] DiscoveredEndpoint description() const override { return {topic_, type_.dds_name, false}; }
+  [[nodiscard]] DiscoveredEndpoint description() const override {
+    return {topic_, type_.dds_name, false, type_.type_hash, detail::text_of(reader_->guid())};
+  }
 
  private:
   void run(const std::stop_token& stop) {
@@ -154,7 +177,7 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
       bytes_ += sample.bytes;
       call_back(message);
     } else {
-      ++undecodable_;
+      ++(sample.another_version ? another_version_ : undecodable_);
     }
     return true;
   }
@@ -178,6 +201,7 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
   std::atomic<std::uint64_t> bytes_ = 0;
   std::atomic<std::uint64_t> undecodable_ = 0;
   std::atomic<std::uint64_t> failed_ = 0;
+  std::atomic<std::uint64_t> another_version_ = 0;
   std::jthread thread_;  // last: it uses the others
 };
 
@@ -208,16 +232,22 @@ class DdsParticipant final : public Participant {
   }
 
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
-    std::vector<DiscoveredEndpoint> result;
-    for (DiscoveredEndpoint& endpoint : shared_->backend->discovered()) {
-      if (!endpoint.topic.starts_with(kRosPrefix)) continue;
-      endpoint.topic.erase(0, kRosPrefix.size());
-      result.push_back(std::move(endpoint));
-    }
-    const std::lock_guard lock(shared_->mutex);
-    for (const Endpoint* endpoint : shared_->endpoints) result.push_back(endpoint->description());
+    std::vector<DiscoveredEndpoint> result = shared_->others();
+    std::ranges::move(shared_->own(), std::back_inserter(result));
     std::ranges::sort(result, {},
                       [](const DiscoveredEndpoint& e) { return std::tuple(e.topic, e.publisher, e.type); });
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Mismatch> mismatches() const override {
+    std::map<std::string, DiscoveredEndpoint> own;  // any of a topic's endpoints: they carry one type
+    for (DiscoveredEndpoint& endpoint : shared_->own()) own.emplace(endpoint.topic, std::move(endpoint));
+    std::vector<Mismatch> result;
+    for (DiscoveredEndpoint& endpoint : shared_->others()) {
+      const auto ours = own.find(endpoint.topic);
+      if (ours == own.end() || !detail::is_another_version(ours->second, endpoint)) continue;
+      result.push_back({std::move(endpoint), ours->second.type_hash});
+    }
     return result;
   }
 

@@ -39,8 +39,9 @@ struct EndpointStatistics {
   bool publisher = false;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t dropped = 0;  // lost by the bus, refused by the writer, or undecodable
+  std::uint64_t dropped = 0;  // lost by the bus, refused by the writer, undecodable, or of another version
   int matched = 0;            // endpoints at the other side
+  std::uint64_t another_version = 0;  // among the dropped: never decoded, as its writer's type hash differs
 };
 
 /// An endpoint somebody announced on the bus.
@@ -48,6 +49,16 @@ struct DiscoveredEndpoint {
   std::string topic;  // without "rt/"
   std::string type;   // DDS type name, e.g. "nav_msgs::msg::dds_::Odometry_"
   bool publisher = false;
+  std::string type_hash =
+      {};                 // "RIHS01_…"; empty if not announced, as by plain DDS programs and ROS 2 Humble
+  std::string guid = {};  // as `ros2 topic info --verbose` writes it
+};
+
+/// An endpoint of somebody on a topic of ours whose type has the name of ours, but is defined otherwise: his
+/// messages are dropped, and what he makes of ours is unknown.
+struct Mismatch {
+  DiscoveredEndpoint theirs;
+  std::string own_type_hash;
 };
 
 namespace detail {
@@ -125,6 +136,8 @@ class Participant {
 
   [[nodiscard]] virtual std::vector<EndpointStatistics> statistics() const = 0;
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;
+  /// Those who are there now, one entry for each endpoint.
+  [[nodiscard]] virtual std::vector<Mismatch> mismatches() const = 0;
 };
 
 }  // namespace rds::bus

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/bus/backend.hpp"
+#include "common/bus/type_version.hpp"
+
+namespace rds::bus::detail {
+
+/// The endpoints that other participants announce, by the key with which a vendor's samples name their
+/// writer. Filled by the vendor's discovery before it hands out the first sample of a writer. Thread-safe.
+template <class Key>
+class EndpointDirectory {
+ public:
+  /// Writers that have left stay known by their last kRemembered, as samples of theirs may wait to be taken.
+  static constexpr std::size_t kRemembered = 256;
+
+  void put(const Key& key, DiscoveredEndpoint endpoint) {
+    const std::lock_guard lock(mutex_);
+    present_[key] = std::move(endpoint);
+    ++revision_;
+  }
+
+  void remove(const Key& key) {
+    remove_if([&key](const Key& other) { return other == key; });
+  }
+
+  template <class Predicate>
+  void remove_if(Predicate leaves) {
+    const std::lock_guard lock(mutex_);
+    for (auto entry = present_.begin(); entry != present_.end();) {
+      if (!leaves(entry->first)) {
+        ++entry;
+        continue;
+      }
+      if (entry->second.publisher) departed_.emplace_back(entry->first, std::move(entry->second));
+      entry = present_.erase(entry);
+    }
+    while (departed_.size() > kRemembered) departed_.pop_front();
+    ++revision_;
+  }
+
+  [[nodiscard]] std::vector<DiscoveredEndpoint> endpoints() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<DiscoveredEndpoint> result;
+    for (const auto& [key, endpoint] : present_) result.push_back(endpoint);
+    return result;
+  }
+
+  /// Writers, present and departed, on the topic of `own` whose type differs from its own.
+  [[nodiscard]] std::set<Key> writers_of_another_version(const DiscoveredEndpoint& own) const {
+    const std::lock_guard lock(mutex_);
+    std::set<Key> result;
+    const auto insert = [&](const auto& entry) {
+      if (entry.second.publisher && is_another_version(own, entry.second)) result.insert(entry.first);
+    };
+    std::for_each(present_.begin(), present_.end(), insert);
+    std::for_each(departed_.begin(), departed_.end(), insert);
+    return result;
+  }
+
+  /// Grows with every change.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<Key, DiscoveredEndpoint> present_;
+  std::deque<std::pair<Key, DiscoveredEndpoint>> departed_;
+  std::atomic<std::uint64_t> revision_ = 0;
+};
+
+/// Tells a reader whose samples it must not decode. For one thread.
+template <class Key>
+class VersionCheck {
+ public:
+  VersionCheck(const EndpointDirectory<Key>& directory, const std::string& topic, const TypeOps& type)
+      : directory_(directory), own_{topic, type.dds_name, false, type.type_hash, {}} {}
+
+  /// The writers of another version among those whose samples can be taken now.
+  const std::set<Key>& others() {
+    const std::uint64_t revision = directory_.revision();
+    if (revision != seen_) others_ = directory_.writers_of_another_version(own_);
+    seen_ = revision;
+    return others_;
+  }
+
+ private:
+  const EndpointDirectory<Key>& directory_;
+  DiscoveredEndpoint own_;
+  std::set<Key> others_;
+  std::uint64_t seen_ = 0;  // an empty directory has no writers
+};
+
+}  // namespace rds::bus::detail

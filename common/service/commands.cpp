@@ -7,6 +7,7 @@
 
 #include "common/messages/json.hpp"
 #include "common/service/printable.hpp"
+#include "common/service/version_watch.hpp"
 
 namespace rds::service {
 
@@ -55,7 +56,11 @@ std::string CommandServer::status() const {
                          {"matched", e.matched},
                          {"messages", e.messages},
                          {"bytes", e.bytes},
-                         {"dropped", e.dropped}});
+                         {"dropped", e.dropped},
+                         {"another_version", e.another_version}});
+  auto& others = json["another_version"] = nlohmann::json::array();
+  for (const auto& mismatch : context_.bus.mismatches())
+    if (others.size() < kMismatchesTold) others.push_back(describe(mismatch));
   for (const auto& [name, value] : context_.diagnostics.figures()) json["figures"][name] = value;
   return messages::to_text(json);
 }

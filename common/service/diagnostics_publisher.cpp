@@ -27,6 +27,7 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& pr
       presence_(presence),
       service_(service),
       publisher_(context.bus.advertise<diagnostic_msgs::msg::DiagnosticArray>("diagnostics", bus::kStream)),
+      versions_(context.bus),
       thread_([this](const std::stop_token& stop) {
         concurrency::Mailbox timer;
         while (!stop.stop_requested()) {
@@ -35,7 +36,7 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& pr
         }
       }) {}
 
-Health DiagnosticsPublisher::health(const WorkerState& worker) {
+Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t mismatches) {
   std::uint64_t troubles = context_.diagnostics.rejected();
   for (const auto& endpoint : context_.bus.statistics()) troubles += endpoint.dropped;
   const std::uint64_t lately = troubles - troubles_before_;
@@ -43,13 +44,15 @@ Health DiagnosticsPublisher::health(const WorkerState& worker) {
   if (worker.there && worker.silent_s > kHangS)
     return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
   if (const auto rivalry = presence_.rivalry()) return {kError, *rivalry};
+  if (mismatches > 0) return {kWarn, fmt::format("{} endpoints of another version", mismatches)};
   if (lately > 0) return {kWarn, fmt::format("{} messages dropped", lately)};
   return {};
 }
 
 void DiagnosticsPublisher::publish() {
   const WorkerState worker = service_.worker_state();
-  const Health health_now = health(worker);
+  const std::vector<bus::Mismatch> mismatches = versions_.look();
+  const Health health_now = health(worker, mismatches.size());
   presence_.tell(health_now, worker.silent_s);
   diagnostic_msgs::msg::DiagnosticStatus status;
   status.name(context_.name);
@@ -67,6 +70,8 @@ void DiagnosticsPublisher::publish() {
   for (const auto& endpoint : context_.bus.statistics())
     if (endpoint.dropped > 0)
       values.push_back(key_value("dropped " + endpoint.topic, fmt::format("{}", endpoint.dropped)));
+  for (const bus::Mismatch& mismatch : mismatches)
+    values.push_back(key_value("another version", describe(mismatch)));
   diagnostic_msgs::msg::DiagnosticArray report;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   report.header().stamp(messages::to_time(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services of a kind on one bus: who is active, what is answered, what is told of a worker that hangs or fails.
+// Services of a kind on one bus: who is active, what is answered, what is told of a worker that hangs or
+// fails.
 #include "common/service/service_process.hpp"
 
 #include <csignal>
@@ -179,6 +180,20 @@ TEST_F(OnTheBus, AWorkerThatHangsIsAnError) {
   send(1, "hang", "8000");
   EXPECT_TRUE(holds_within(10s, [&] { return level_of(1) == kError; })) << "while it hangs";
   EXPECT_TRUE(holds_within(10s, [&] { return level_of(1) == kOk; })) << "when it goes on";
+}
+
+TEST_F(OnTheBus, APeerOfAnotherVersionIsNamed) {
+  bus::TypeOps other = bus::type_ops<Command>();
+  other.type_hash = "RIHS01_" + std::string(64, '5');
+  const auto peer = join("peer");
+  const auto publisher = peer->make_publisher("rds/command", other, bus::kCommand);
+  const Running probe(1);
+  ASSERT_TRUE(connected());
+  EXPECT_TRUE(holds_within(10s, [&] { return level_of(1) == kWarn; }));
+  const auto status = ask("status");
+  ASSERT_TRUE(status);
+  EXPECT_THAT(status->message(), HasSubstr("rds/command: written by 01."));
+  EXPECT_THAT(status->message(), HasSubstr(" as " + other.type_hash + ", here it is RIHS01_"));
 }
 
 TEST_F(OnTheBus, TextsThatAreNoUtf8AreToldInTheStatus) {

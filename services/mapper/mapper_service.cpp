@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
+constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
 constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
 
 /// Keyframes, both before and after the worker has looked at them.
@@ -31,6 +32,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       mapper_(config.mapper, 0, std::make_unique<SpillFile>(config.mapper.correction.spill_folder)),
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
+      waiting_boxes_(kMaxBoxes),
       images_inbox_(mailbox_, max_waiting(config)),
       boxes_inbox_(mailbox_, kMaxMessages),
       poses_inbox_(mailbox_, kMaxMessages) {
@@ -105,11 +107,10 @@ void MapperService::integrate_ready() {
 
 bool MapperService::is_ready(const Images& images) const {
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
-  if (!config_.expect_boxes || boxes_by_stamp_.contains(stamp)) return true;
+  if (!config_.expect_boxes || waiting_boxes_.contains(stamp)) return true;
   if (config_.lockstep)  // boxes come in the order of the keyframes: these were lost when a mapper was killed
-    return !boxes_by_stamp_.empty() && boxes_by_stamp_.rbegin()->first > stamp;
-  const std::int64_t newest = messages::to_nanoseconds(waiting_.newest()->header().stamp());
-  return static_cast<double>(newest - stamp) * 1e-9 > config_.boxes_timeout_s;
+    return waiting_boxes_.has_later_than(stamp);
+  return static_cast<double>(waiting_.span_ns()) * 1e-9 > config_.boxes_timeout_s;
 }
 
 void MapperService::integrate(const Images& images) {
@@ -118,8 +119,8 @@ void MapperService::integrate(const Images& images) {
   if (!input)
     return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, input.error());
   const geometry::Pose camera_from_map = input->map_from_camera.inverse();
-  if (const auto boxes = boxes_by_stamp_.extract(input->stamp_ns))
-    input->boxes = labelled_boxes(boxes.mapped(), camera_from_map, input->camera);
+  if (const Boxes boxes = waiting_boxes_.take(input->stamp_ns))
+    input->boxes = labelled_boxes(boxes, camera_from_map, input->camera);
   const auto known = std::ranges::find(poses_, input->id, &KeyframePose::id);
   if (known != poses_.end()) input->map_from_camera = known->map_from_camera;
   MapDelta delta;

@@ -20,8 +20,8 @@
 #include "services/mapper/loop_knowledge.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/mapper_service_config.hpp"
+#include "services/mapper/waiting_boxes.hpp"
 #include "services/mapper/waiting_keyframes.hpp"
-#include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::mapper {
 
@@ -36,7 +36,7 @@ class MapperService : public service::Service {
 
  private:
   using Images = WaitingKeyframes::Images;
-  using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
+  using Boxes = WaitingBoxes::Boxes;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
 
   /// What late boxes of a keyframe need.
@@ -83,8 +83,8 @@ class MapperService : public service::Service {
   SemanticMapper mapper_;
   MapOutputs outputs_;
   WaitingKeyframes waiting_;
-  std::map<std::int64_t, Boxes> boxes_by_stamp_;  // of keyframes that are not integrated yet
-  std::map<std::int64_t, Integrated> integrated_by_stamp_;
+  WaitingBoxes waiting_boxes_;
+  std::map<std::int64_t, Integrated> integrated_by_stamp_;  // the newest of each stamp
   Poses early_poses_;  // of an epoch whose first keyframe has not come yet
   messages::KeyframePoseTable tracker_poses_;
   std::vector<KeyframePose> poses_;

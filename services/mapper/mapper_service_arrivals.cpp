@@ -10,7 +10,6 @@
 namespace rds::mapper {
 namespace {
 
-constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
 constexpr std::size_t kMaxEarlierEpochs = 16;
 constexpr std::uint8_t kLocal = 0;
 
@@ -63,7 +62,7 @@ void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) 
   mapper_.reset(map_epoch);
   outputs_.begin_map();
   forget_keyframes();
-  boxes_by_stamp_.erase(boxes_by_stamp_.begin(), boxes_by_stamp_.lower_bound(stamp_ns));
+  waiting_boxes_.forget_before(stamp_ns);
   if (mapper_.revision() > 0) publish_all();
   if (const Poses early = std::exchange(early_poses_, nullptr)) take(early);
 }
@@ -82,21 +81,23 @@ void MapperService::take(const Images& images) {
   if (!is_of_tracker(images->instance(), images->map_epoch(), "rds/keyframe/images")) return;
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
   if (images->map_epoch() != mapper_.map_epoch()) begin_epoch(images->map_epoch(), stamp);
-  if (integrated_by_stamp_.contains(stamp)) return;
-  waiting_.add(images);
+  const auto integrated = integrated_by_stamp_.find(stamp);
+  const bool is_integrated =
+      integrated != integrated_by_stamp_.end() && integrated->second.id >= images->keyframe_id();
+  if (!is_integrated) waiting_.add(images);
 }
 
+/// Of keyframes with one stamp (a recording that is played again) they are of the newest.
 void MapperService::take(const Boxes& boxes) {
   const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
   const auto integrated = integrated_by_stamp_.find(stamp);
-  if (integrated == integrated_by_stamp_.end()) {
-    boxes_by_stamp_[stamp] = boxes;
+  if (integrated == integrated_by_stamp_.end() || waiting_.contains(stamp)) {
+    waiting_boxes_.add(stamp, boxes);
   } else {
     const auto& [id, camera_from_map, camera] = integrated->second;
     if (const auto labelled = labelled_boxes(boxes, camera_from_map, camera))
       mapper_.set_boxes(id, *labelled);
   }
-  while (boxes_by_stamp_.size() > kMaxBoxes) boxes_by_stamp_.erase(boxes_by_stamp_.begin());
 }
 
 /// @return nullopt, counted, for a message that cannot be used; boxes that cannot be are counted and left

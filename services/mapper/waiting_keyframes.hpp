@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "common/time/continuous_time.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
 
 namespace rds::mapper {
@@ -26,14 +27,24 @@ class WaitingKeyframes {
   void clear();
 
   [[nodiscard]] bool empty() const { return by_id_.empty(); }
-  [[nodiscard]] const Images& oldest() const { return by_id_.begin()->second; }
-  [[nodiscard]] const Images& newest() const { return by_id_.rbegin()->second; }
+  [[nodiscard]] const Images& oldest() const { return by_id_.begin()->second.images; }
+  [[nodiscard]] bool contains(std::int64_t stamp_ns) const;
+  /// Time from the oldest to the newest one; it goes on where stamps go back. There must be one.
+  [[nodiscard]] std::int64_t span_ns() const {
+    return by_id_.rbegin()->second.time_ns - by_id_.begin()->second.time_ns;
+  }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
+  struct Waiting {
+    Images images;
+    std::int64_t time_ns;
+  };
+
   std::size_t capacity_;
-  std::map<std::uint64_t, Images> by_id_;
+  time::ContinuousTime clock_;
+  std::map<std::uint64_t, Waiting> by_id_;
   std::atomic<std::size_t> size_ = 0;
   std::atomic<std::uint64_t> dropped_ = 0;
 };

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "common/time/stamp_step.hpp"
+
 namespace rds::tracker {
 namespace {
+using time::StampStep;
+
 constexpr std::size_t kMaxWaiting = 5;  // as the topics keep
-}
+}  // namespace
 
 FramePairer::Frames FramePairer::set_camera(const geometry::CameraModel& camera) {
   camera_ = camera;
@@ -15,14 +19,24 @@ FramePairer::Frames FramePairer::set_camera(const geometry::CameraModel& camera)
 }
 
 FramePairer::Frames FramePairer::add_color(std::int64_t stamp_ns, image::ColorImage color) {
-  colors_.push_back({stamp_ns, std::move(color)});
+  put({stamp_ns, std::move(color)}, colors_);
   return take_complete();
 }
 
 FramePairer::Frames FramePairer::add_depth(std::int64_t stamp_ns, image::DepthImage depth) {
   depth_seen_ = true;
-  depths_.push_back({stamp_ns, std::move(depth)});
+  put({stamp_ns, std::move(depth)}, depths_);
   return take_complete();
+}
+
+template <class Picture>
+void FramePairer::put(Stamped<Picture> picture, std::deque<Stamped<Picture>>& waiting) {
+  if (!waiting.empty() &&
+      time::step_between(waiting.back().stamp_ns, picture.stamp_ns) == StampStep::kBack) {
+    unpaired_ += waiting.size();
+    waiting.clear();
+  }
+  waiting.push_back(std::move(picture));
 }
 
 FramePairer::Frames FramePairer::take_complete() {
@@ -52,7 +66,9 @@ std::optional<FramePairer::Depth> FramePairer::take_partner(std::int64_t stamp_n
 }
 
 bool FramePairer::partner_may_come(std::int64_t stamp_ns) const {
-  const bool too_late = !depths_.empty() && depths_.back().stamp_ns > stamp_ns + tolerance_ns_;
+  const bool too_late =
+      !depths_.empty() && (depths_.back().stamp_ns > stamp_ns + tolerance_ns_ ||
+                           time::step_between(depths_.back().stamp_ns, stamp_ns) == StampStep::kAhead);
   const bool broken_off = depth_seen_ && colors_.size() > kMaxWaiting;
   return !too_late && !broken_off;
 }
@@ -60,7 +76,8 @@ bool FramePairer::partner_may_come(std::int64_t stamp_ns) const {
 void FramePairer::make_frame(Color color, std::optional<Depth> depth, Frames& frames) {
   const cv::Size size(camera_->width, camera_->height);
   const bool fits = color.picture.pixels.size() == size && (!depth || depth->picture.values.size() == size);
-  const bool in_order = depth || color.stamp_ns > last_stamp_ns_;
+  const bool in_order =
+      depth || !last_stamp_ns_ || time::step_between(*last_stamp_ns_, color.stamp_ns) != StampStep::kLate;
   if (!fits || !in_order) {
     unpaired_ += depth ? 2 : 1;
     return;

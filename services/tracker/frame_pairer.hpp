@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,7 +14,8 @@ namespace rds::tracker {
 ///
 /// Every colour picture makes a frame, in the order of the stamps: with the nearest depth picture within the
 /// tolerance, or with an empty one (nothing measured) once none can come any more. That is known when a later
-/// depth picture is there, or when too many colour pictures wait for a depth stream that has broken off.
+/// depth picture is there, or one from long before, or when too many colour pictures wait for a depth stream
+/// that has broken off. Where the stamps of a stream go back, its pictures that still wait are given up.
 class FramePairer {
  public:
   using Frames = std::vector<image::RgbdFrame>;
@@ -44,6 +44,8 @@ class FramePairer {
   using Color = Stamped<image::ColorImage>;
   using Depth = Stamped<image::DepthImage>;
 
+  template <class Picture>
+  void put(Stamped<Picture> picture, std::deque<Stamped<Picture>>& waiting);
   Frames take_complete();
   std::optional<Depth> take_partner(std::int64_t stamp_ns);
   [[nodiscard]] bool partner_may_come(std::int64_t stamp_ns) const;
@@ -56,7 +58,7 @@ class FramePairer {
   std::deque<Color> colors_;
   std::deque<Depth> depths_;
   bool depth_seen_ = false;
-  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();  // of the last frame
+  std::optional<std::int64_t> last_stamp_ns_;  // of the last frame
   std::uint64_t unpaired_ = 0;
   std::uint64_t without_depth_ = 0;
 };

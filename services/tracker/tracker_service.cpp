@@ -43,6 +43,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       outputs_(context, map_epoch_),
       input_(context, mailbox_, config.camera,
              config.lockstep.enabled ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
+      stamps_(!config.lockstep.enabled),
       boxes_inbox_(mailbox_, kMaxAnswers),
       poses_inbox_(mailbox_, kMaxAnswers),
       mapping_inbox_(mailbox_, 2),
@@ -70,14 +71,45 @@ void TrackerService::run(const std::stop_token& stop) {
     handle_commands();
     sort_in_arrivals();
     if (holds_frames()) continue;
-    if (const auto frame = input_.frames().try_pop(); frame && !paused_)
-      guarded("frame", [&] { process(*frame); });
+    if (const auto frame = input_.frames().try_pop()) guarded("frame", [&] { take(*frame); });
   }
 }
 
 /// Who joins while no frame comes is told all poses, too.
 void TrackerService::idle() {
   if (outputs_.has_new_reader()) publish_poses();
+}
+
+/// Time is what the stamps of the frames say.
+void TrackerService::take(const image::RgbdFrame& frame) {
+  const time::StampVerdict verdict = stamps_.take(frame.stamp_ns);
+  if (verdict == time::StampVerdict::kBreak) begin_after_break();
+  if (verdict == time::StampVerdict::kGap) ++context_.diagnostics.counter("time gaps");
+  if (paused_) return;
+  const bool in_time = verdict != time::StampVerdict::kDoubt && verdict != time::StampVerdict::kLate;
+  in_time ? process(frame) : drop(frame);
+}
+
+/// Of another time than the frames before: acknowledged without a pose.
+void TrackerService::drop(const image::RgbdFrame& frame) {
+  ++context_.diagnostics.counter("frames out of time");
+  FrameResult result;
+  if (tracker_.map().keyframes() > 0) result.state = State::kLost;
+  outputs_.publish({frame, result, {}, frame_index_, 0, 0, input_.dropped(), box_sets_used_});
+  ++frame_index_;
+}
+
+/// Where stamps go back, boxes and predictions of before mean nothing: their stamps are of another time.
+/// Where they go ahead, these are too old by themselves.
+void TrackerService::begin_after_break() {
+  ++context_.diagnostics.counter("time breaks");
+  spdlog::warn("the camera's stamps go on {:+.3f} s from the last ones: a clock that was set, a recording that "
+               "begins again, or a long gap",
+               static_cast<double>(stamps_.break_ns()) * 1e-9);
+  if (stamps_.break_ns() > 0) return;
+  objects_.reset();
+  boxes_.clear();
+  keyframes_with_boxes_due_.clear();
 }
 
 void TrackerService::process(const image::RgbdFrame& frame) {
@@ -239,7 +271,7 @@ service::CommandOutcome TrackerService::execute(const std::string& verb, const s
 service::CommandOutcome TrackerService::finish() {
   while (const auto frame = input_.frames().try_pop()) {
     beat();
-    process(*frame);
+    take(*frame);
   }
   const std::uint64_t last_frame = frame_index_;
   if (config_.lockstep.enabled) {

@@ -12,6 +12,7 @@
 #include "common/concurrency/helper_thread.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
+#include "common/time/stamp_watch.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
@@ -46,6 +47,9 @@ class TrackerService : public service::Service {
     geometry::CameraModel camera;
   };
 
+  void take(const image::RgbdFrame& frame);
+  void drop(const image::RgbdFrame& frame);
+  void begin_after_break();
   void process(const image::RgbdFrame& frame);
   void sort_in_arrivals();
   void await_answers();
@@ -73,6 +77,7 @@ class TrackerService : public service::Service {
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;
+  time::StampWatch stamps_;  // of frames
   concurrency::Inbox<BoxesMessage> boxes_inbox_;
   concurrency::Inbox<PosesMessage> poses_inbox_;
   concurrency::Inbox<LocalMappingResult> mapping_inbox_;

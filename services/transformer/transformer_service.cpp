@@ -16,6 +16,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                        const TransformerServiceConfig& config)
     : Service(context),
       config_(config),
+      poses_(kMaxPoses),
       tracker_(context.bus),
       detections_inbox_(mailbox_, kMaxWaiting),
       poses_inbox_(mailbox_, kMaxWaiting),
@@ -57,8 +58,6 @@ void TransformerService::take_camera() {
 void TransformerService::take_pose_messages() {
   while (const auto message = poses_inbox_.try_pop())
     guarded("rds/keyframe/poses", [&] { take(*message); });
-  while (map_from_camera_by_stamp_.size() > kMaxPoses)
-    map_from_camera_by_stamp_.erase(map_from_camera_by_stamp_.begin());
 }
 
 void TransformerService::take(const Poses& message) {
@@ -67,10 +66,9 @@ void TransformerService::take(const Poses& message) {
     return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
   if (!tracker_.accept(message->instance(), message->map_epoch() == map_epoch_))
     return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another tracker");
-  if (message->map_epoch() != map_epoch_) map_from_camera_by_stamp_.clear();
+  if (message->map_epoch() != map_epoch_) poses_.clear();
   map_epoch_ = message->map_epoch();
-  for (const auto& pose : *poses)
-    map_from_camera_by_stamp_.try_emplace(pose.stamp_ns, pose.map_from_camera);
+  poses_.take(*poses);
 }
 
 void TransformerService::take_detections() {
@@ -85,9 +83,9 @@ void TransformerService::take_detections() {
 void TransformerService::lift_what_is_complete() {
   if (!camera_) return;
   std::erase_if(waiting_, [this](const Detections& detections) {
-    const auto pose = map_from_camera_by_stamp_.find(messages::to_nanoseconds(detections->header().stamp()));
-    if (pose == map_from_camera_by_stamp_.end()) return false;
-    guarded("rds/detections", [&] { lift(detections, pose->second); });
+    const auto map_from_camera = poses_.of(messages::to_nanoseconds(detections->header().stamp()));
+    if (!map_from_camera) return false;
+    guarded("rds/detections", [&] { lift(detections, *map_from_camera); });
     return true;
   });
 }
@@ -112,7 +110,7 @@ void TransformerService::lift(const Detections& detections, const geometry::Pose
 service::CommandOutcome TransformerService::execute(const std::string& verb,
                                                     const std::string& /*argument*/) {
   if (verb == "reset") {
-    map_from_camera_by_stamp_.clear();
+    poses_.clear();
     waiting_.clear();
     return {true, "forgot all keyframe poses"};
   }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "services/transformer/core/box_transform.hpp"
+#include "services/transformer/first_poses.hpp"
 #include "services/transformer/transformer_service_config.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 #include "vision_msgs/msg/Detection3DArray.h"
@@ -44,9 +44,7 @@ class TransformerService : public service::Service {
   service::FollowedWriter tracker_;
   std::uint64_t map_epoch_ = 0;
   std::optional<geometry::CameraModel> camera_;
-  // Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so
-  // independent of how long the detector takes.
-  std::map<std::int64_t, geometry::Pose> map_from_camera_by_stamp_;
+  FirstPoses poses_;
   std::deque<Detections> waiting_;
   concurrency::Inbox<Detections> detections_inbox_;
   concurrency::Inbox<Poses> poses_inbox_;

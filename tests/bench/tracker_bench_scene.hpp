@@ -70,7 +70,7 @@ struct Scene {
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {
     complete_features(picture.camera, picture.depth, config.depth.max_depth_m, features);
     TrackedFrame frame;
-    frame.stamp_ns = picture.stamp_ns;
+    frame.stamp_ns = frame.time_ns = picture.stamp_ns;
     frame.camera_from_map = last_camera_from_map;
     frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
     frame.clear_matches();

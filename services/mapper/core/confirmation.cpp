@@ -40,7 +40,7 @@ std::vector<Support> support_of_surfaces(const KeyframeRecord& record, const Sur
     const auto surface = record.doubt.surface[i];
     if (surface == 0 || !project.point(i, PixelUse::kStatic, at)) continue;
     if (const auto key = key_at(at); run.begins_with(key))
-      confirmed = history.seen_apart(key, record.stamp_ns, apart_ns);
+      confirmed = history.seen_apart(key, record.time_ns, apart_ns);
     ++support[surface].pixels;
     support[surface].confirmed += confirmed ? 1 : 0;
   }

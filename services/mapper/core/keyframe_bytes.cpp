@@ -143,7 +143,7 @@ tl::expected<KeyframeRecord, std::string> record_from_bytes(std::span<const std:
   ByteReader reader(bytes);
   KeyframeRecord record;
   record.id = reader.get<std::uint64_t>();
-  record.stamp_ns = reader.get<std::int64_t>();
+  record.stamp_ns = record.time_ns = reader.get<std::int64_t>();
   record.camera = map_file::get_camera(reader);
   get_size(reader, record);
   if (!reader.ok()) return tl::unexpected(reader.finish().error());

@@ -103,7 +103,7 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
                            std::shared_ptr<const std::vector<Eigen::Vector3f>> rays) {
   KeyframeRecord record;
   record.id = input.id;
-  record.stamp_ns = input.stamp_ns;
+  record.stamp_ns = record.time_ns = input.stamp_ns;
   record.map_from_camera = input.map_from_camera;
   record.camera = input.camera;
   record.stride = config.stride_px;

@@ -45,6 +45,7 @@ std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::
 struct KeyframeRecord {
   std::uint64_t id = 0;
   std::int64_t stamp_ns = 0;
+  std::int64_t time_ns = 0;  // of the mapper's ContinuousTime, not stored; the stamp where none is told
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   geometry::CameraModel camera;  // of the full picture
   int stride = 1;

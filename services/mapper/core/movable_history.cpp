@@ -23,17 +23,17 @@ void MovableHistory::see(const KeyframeRecord& record, const MapperConfig& confi
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!is_movable(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
     if (!project.point(i, PixelUse::kMovable, at)) continue;
-    if (const auto key = key_at(at); run.begins_with(key)) see_around(key, record.stamp_ns);
+    if (const auto key = key_at(at); run.begins_with(key)) see_around(key, record.time_ns);
   }
 }
 
-void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t stamp_ns) {
+void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t time_ns) {
   const int half = 1 << cube_bits_ >> 1;
   for (int corner = 0; corner < 8; ++corner) {
     const auto shifted = [&](unsigned axis) {
       return static_cast<std::uint16_t>(key[axis] + ((corner >> axis & 1) != 0 ? half : -half));
     };
-    cubes_[cube({shifted(0), shifted(1), shifted(2)})].add(stamp_ns);
+    cubes_[cube({shifted(0), shifted(1), shifted(2)})].add(time_ns);
   }
 }
 

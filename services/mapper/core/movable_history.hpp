@@ -28,7 +28,7 @@ class MovableHistory {
                    static_cast<std::uint16_t>(key[1] >> cube_bits_),
                    static_cast<std::uint16_t>(key[2] >> cube_bits_)});
   }
-  void see_around(const octomap::OcTreeKey& key, std::int64_t stamp_ns);
+  void see_around(const octomap::OcTreeKey& key, std::int64_t time_ns);
 
   int cube_bits_;  // voxels of a cube's side, log2
   std::unordered_map<std::uint64_t, PlaceSightings> cubes_;  // by key only: their order means nothing

@@ -7,7 +7,7 @@
 
 namespace rds::mapper {
 
-/// Stamps [ns] that can be told from any other without overflow.
+/// Times [ns] that can be told from any other without overflow.
 inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min() / 2;
 inline constexpr std::int64_t kAfterAll = std::numeric_limits<std::int64_t>::max() / 2;
 
@@ -18,11 +18,11 @@ struct PlaceSightings {
   std::int64_t counted_ns = kBeforeAll;  // of the keyframe counted last: its pixels come in one go
   std::uint32_t keyframes = 0;
 
-  void add(std::int64_t stamp_ns) {
-    first_ns = std::min(first_ns, stamp_ns);
-    last_ns = std::max(last_ns, stamp_ns);
-    keyframes += stamp_ns == counted_ns ? 0 : 1;
-    counted_ns = stamp_ns;
+  void add(std::int64_t time_ns) {
+    first_ns = std::min(first_ns, time_ns);
+    last_ns = std::max(last_ns, time_ns);
+    keyframes += time_ns == counted_ns ? 0 : 1;
+    counted_ns = time_ns;
   }
 };
 

@@ -2,11 +2,11 @@
 #include "services/mapper/core/scene_history.hpp"
 
 namespace rds::mapper {
-bool SceneHistory::is_suspect(const octomap::OcTreeKey& key, std::int64_t stamp_ns) const {
+bool SceneHistory::is_suspect(const octomap::OcTreeKey& key, std::int64_t time_ns) const {
   const PlaceSightings* there = movable.sightings(key);
   if (there == nullptr) return false;
   const PlaceSightings* seen = surfaces.sightings(key);
-  return seen == nullptr || (seen->last_ns <= stamp_ns && seen->keyframes < there->keyframes);
+  return seen == nullptr || (seen->last_ns <= time_ns && seen->keyframes < there->keyframes);
 }
 
 bool SceneHistory::is_passing(const octomap::OcTreeKey& key, std::int64_t apart_ns) const {

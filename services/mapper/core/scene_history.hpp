@@ -17,9 +17,9 @@ struct SceneHistory {
   }
 
   /// True if what was taken for static in a voxel may be something movable that has gone: movable things have
-  /// been there, too, nothing static is seen there after `stamp_ns`, and it was seen in fewer keyframes than
+  /// been there, too, nothing static is seen there after `time_ns`, and it was seen in fewer keyframes than
   /// they were.
-  [[nodiscard]] bool is_suspect(const octomap::OcTreeKey& key, std::int64_t stamp_ns) const;
+  [[nodiscard]] bool is_suspect(const octomap::OcTreeKey& key, std::int64_t time_ns) const;
 
   /// True if what is taken for static in a voxel is something movable that some keyframes do not know: seen
   /// while movable things are there, neither so long before nor after, and in fewer keyframes.

@@ -29,6 +29,7 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
   labels_ = start_.labels;
   keyframes_.clear();
   records_.clear();
+  clock_ = final_clock_ = {};
   base_ = start_.map;
   map_ = std::make_unique<Map>(base_ ? *base_ : empty_map());
   final_keyframes_ = 0;
@@ -67,6 +68,19 @@ std::shared_ptr<const std::vector<Eigen::Vector3f>> SemanticMapper::rays_of(
   return rays_;
 }
 
+/// Times follow the order of the ids, whatever the order of arrival.
+std::int64_t SemanticMapper::time_of(std::uint64_t id, std::int64_t stamp_ns) {
+  const auto next = keyframes_.upper_bound(id);
+  if (next == keyframes_.end()) return clock_.go_to(stamp_ns).time_ns;
+  return next->second.time_ns - (next->second.stamp_ns - stamp_ns);
+}
+
+/// As if all keyframes had arrived in order.
+void SemanticMapper::set_times() {
+  clock_ = final_clock_;
+  for (auto& [id, keyframe] : keyframes_) keyframe.time_ns = clock_.go_to(keyframe.stamp_ns).time_ns;
+}
+
 MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   if (const auto fault = check(input)) throw std::invalid_argument(*fault);
   if (keyframes_.contains(input.id))
@@ -74,7 +88,8 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   auto record = make_record(input, config_.sampling, rays_of(input.camera));
   if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
   mark_doubtful(record, config_);
-  keyframes_[input.id] = {input.stamp_ns, input.map_from_camera, input.map_from_camera};
+  record.time_ns = time_of(input.id, input.stamp_ns);
+  keyframes_[input.id] = {input.stamp_ns, record.time_ns, input.map_from_camera, input.map_from_camera};
   records_.put(record);
   MapDelta delta = new_delta();
   delta.keyframe_id = input.id;
@@ -92,6 +107,7 @@ std::optional<KeyframeRecord> SemanticMapper::record_of(std::uint64_t id) const 
   if (!record) return record;
   record->rays = rays_of(record->camera);
   record->map_from_camera = keyframes_.at(id).pose;
+  record->time_ns = keyframes_.at(id).time_ns;
   return record;
 }
 
@@ -101,7 +117,7 @@ void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, cons
   leave_out_passing(record, history, config_, use);
   make_scan(record, use, config_.octree, config_.sampling, scan_);
   map.octree.integrate({scan_, record.looked_for_objects, map.objects.unsighted(record, labels_), labels_,
-                        history, record.stamp_ns, delta});
+                        history, record.time_ns, delta});
 }
 
 /// Its part of the map stays as it is, whatever corrections come.
@@ -113,6 +129,7 @@ void SemanticMapper::make_final(std::uint64_t id) {
   base_->history.see(*record, config_);
   base_->objects.integrate(*record, labels_);
   integrate_into(*base_, *record, map_->history, unused);
+  if (id == keyframes_.begin()->first) final_clock_.go_to(record->stamp_ns);
   keyframes_.erase(id);
   records_.erase(id);
   ++final_keyframes_;
@@ -178,6 +195,7 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 }
 
 MapDelta SemanticMapper::rebuild() {
+  set_times();
   auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
   std::vector<std::uint64_t> lost;
   for (const auto& [id, keyframe] : keyframes_)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "common/time/continuous_time.hpp"
 #include "services/mapper/core/keyframe_store.hpp"
 #include "services/mapper/core/object_database.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
@@ -85,6 +86,7 @@ class SemanticMapper {
   };
   struct Keyframe {
     std::int64_t stamp_ns;
+    std::int64_t time_ns;            // of clock_
     geometry::Pose pose;             // map_from_camera, newest
     geometry::Pose integrated_pose;  // that the map was made with
   };
@@ -97,6 +99,8 @@ class SemanticMapper {
   MapDelta rebuild();
   /// @param history  what tells which doubtful surfaces stand, and which ones are suspect.
   void integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history, MapDelta& delta);
+  [[nodiscard]] std::int64_t time_of(std::uint64_t id, std::int64_t stamp_ns);
+  void set_times();
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
   void keep_within_limits();
@@ -114,6 +118,8 @@ class SemanticMapper {
   LabelTable labels_;
   std::map<std::uint64_t, Keyframe> keyframes_;
   KeyframeStore records_;      // of keyframes_
+  time::ContinuousTime clock_;        // at the newest keyframe
+  time::ContinuousTime final_clock_;  // at the newest one that is final, and all before it are
   Start start_;                // its map is nullptr unless there is a saved one
   std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
   std::unique_ptr<Map> map_;

@@ -149,7 +149,7 @@ bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::
                              const Update& update) const {
   if (!tree_.nodeChildExists(parent, index)) return false;
   if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
-  if (update.history.is_suspect(key, update.stamp_ns)) return true;
+  if (update.history.is_suspect(key, update.time_ns)) return true;
   const auto found = memory_.find(packed(key));
   return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
 }
@@ -158,7 +158,7 @@ bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::
 double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const {
   if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
-  return occupied && update.history.is_suspect(key, update.stamp_ns) ? config_.suspect_miss : config_.miss;
+  return occupied && update.history.is_suspect(key, update.time_ns) ? config_.suspect_miss : config_.miss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,

@@ -52,7 +52,7 @@ class SemanticOctree {
     std::vector<geometry::Box3> unsighted;  // objects that it says nothing about
     const LabelTable& labels;
     const SceneHistory& history;
-    std::int64_t stamp_ns;
+    std::int64_t time_ns;
     MapDelta& delta;  // receives what changed: arrays only
   };
 

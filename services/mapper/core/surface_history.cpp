@@ -9,7 +9,7 @@ void SurfaceHistory::see(const KeyframeRecord& record, const MapperConfig& confi
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (record.use[i] != PixelUse::kStatic || !project.point(i, PixelUse::kStatic, at)) continue;
-    if (const auto key = key_at(at); run.begins_with(key)) voxels_[packed(key)].add(record.stamp_ns);
+    if (const auto key = key_at(at); run.begins_with(key)) voxels_[packed(key)].add(record.time_ns);
   }
 }
 
@@ -22,10 +22,10 @@ const PlaceSightings* SurfaceHistory::sightings(const octomap::OcTreeKey& key) c
   return found == voxels_.end() ? nullptr : &found->second;
 }
 
-bool SurfaceHistory::seen_apart(const octomap::OcTreeKey& key, std::int64_t stamp_ns,
+bool SurfaceHistory::seen_apart(const octomap::OcTreeKey& key, std::int64_t time_ns,
                                 std::int64_t apart_ns) const {
   const PlaceSightings* seen = sightings(key);
-  return seen != nullptr && (seen->first_ns <= stamp_ns - apart_ns || seen->last_ns >= stamp_ns + apart_ns);
+  return seen != nullptr && (seen->first_ns <= time_ns - apart_ns || seen->last_ns >= time_ns + apart_ns);
 }
 
 }  // namespace rds::mapper

@@ -18,7 +18,7 @@ class SurfaceHistory {
   void know(const octomap::OcTreeKey& key);
 
   /// True if it was seen at least so long before or after this time.
-  [[nodiscard]] bool seen_apart(const octomap::OcTreeKey& key, std::int64_t stamp_ns,
+  [[nodiscard]] bool seen_apart(const octomap::OcTreeKey& key, std::int64_t time_ns,
                                 std::int64_t apart_ns) const;
 
   /// Nullptr if there are none.

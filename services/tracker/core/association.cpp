@@ -218,8 +218,8 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
 
 double trust(const SlamMap& map, const MapPoint& point) {
   if (point.observations.empty() || 2 * point.found < point.visible) return kLeastTrust;
-  const std::int64_t first_ns = map.keyframe(point.observations.front().keyframe)->stamp_ns;
-  const std::int64_t last_ns = map.keyframe(point.observations.back().keyframe)->stamp_ns;
+  const std::int64_t first_ns = map.keyframe(point.observations.front().keyframe)->time_ns;
+  const std::int64_t last_ns = map.keyframe(point.observations.back().keyframe)->time_ns;
   const auto seen_ns = static_cast<double>(std::max(last_ns, point.last_found_ns) - first_ns);
   return std::clamp(std::pow(seen_ns / kSureAfterNs, 2), kLeastTrust, 1.0);
 }

@@ -16,6 +16,7 @@ namespace rds::tracker {
 /// A frame while it is tracked.
 struct TrackedFrame {
   std::int64_t stamp_ns = 0;
+  std::int64_t time_ns = 0;  // of the tracker's ContinuousTime
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();

@@ -68,6 +68,7 @@ bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfi
 Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth,
                           const MapConfig& config) {
   Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
+  keyframe.time_ns = frame.time_ns;
   keyframe.motion = frame.motion;
   keyframe.given_fx = frame.given_fx;
   keyframe.pose_is_given = frame.pose_is_given;

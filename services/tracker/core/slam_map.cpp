@@ -40,7 +40,7 @@ Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_came
                                 std::shared_ptr<const FeatureSet> features) {
   Keyframe keyframe;
   keyframe.id = keyframes_.next_id();
-  keyframe.stamp_ns = stamp_ns;
+  keyframe.stamp_ns = keyframe.time_ns = stamp_ns;
   keyframe.map_from_camera = map_from_camera;
   keyframe.points.assign(features->size(), kNoId);
   keyframe.movable.resize(features->size());

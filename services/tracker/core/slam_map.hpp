@@ -40,7 +40,7 @@ struct MapPoint {
   KeyframeId created_by = kNoId;
   std::uint32_t visible = 1;       // frames that should have seen it
   std::uint32_t found = 1;         // frames that did
-  std::int64_t last_found_ns = 0;  // stamp of the newest of these
+  std::int64_t last_found_ns = 0;  // time of the newest of these
   std::uint64_t mark = 0;          // scratch of whoever walks over points
 };
 
@@ -52,6 +52,7 @@ struct CovisibleKeyframe {
 struct Keyframe {
   KeyframeId id = kNoId;
   std::int64_t stamp_ns = 0;
+  std::int64_t time_ns = 0;  // of the tracker's ContinuousTime; the stamp where none is told
   Pose map_from_camera = Pose::Identity();
   ShutterMotion motion;        // that px and depth of the features are compensated for
   double given_fx = 0;         // px, before calibration changed the camera; 0: it is as it is

@@ -62,8 +62,10 @@ void Tracker::start_from(SavedMap&& saved) {
   if (map_.keyframes() == 0) return;
   given_fx_ = saved.camera.given_fx;
   calibration_.begin_with_focal_scale(saved.camera.focal_scale);
-  map_.all_keyframes().for_each(
-      [&](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+  map_.all_keyframes().for_each([&](Keyframe& k) {
+    places_.add(k.id, static_descriptors(*k.features));
+    k.time_ns = clock_.go_to(k.stamp_ns).time_ns;
+  });
   state_ = State::kLost;
 }
 
@@ -75,8 +77,7 @@ void Tracker::extract(const image::RgbdFrame& picture, const MovableMask& movabl
   MovableTest is_movable;
   if (movable.any()) is_movable = [&](const Eigen::Vector2f& px) { return movable.covers(px); };
   extractor_.extract(images_->level(0), is_movable, features);
-  frame.stamp_ns = picture.stamp_ns;
-  frame.motion = shutter_motion(picture.stamp_ns);
+  frame.motion = shutter_motion(frame.time_ns);
   set_features(picture, std::move(features), frame);
   frame.clear_matches();
   result.times.extract_us = microseconds_since(start);
@@ -108,10 +109,10 @@ void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) 
     return;
   }
   if (!last_ || !has_pose(state_)) return;
-  around.camera_from_map = expected_camera_from_map(picture.stamp_ns);
+  around.camera_from_map = expected_at(time_ns_);
   if (!follows_points()) return;
   const Pose aligned = align_with_last(picture);
-  if (last_->frame.movable_there && jerk(aligned, picture.stamp_ns) > 1)
+  if (last_->frame.movable_there && jerk(aligned, time_ns_) > 1)
     around.aligned = aligned;
   else
     around.camera_from_map = aligned;
@@ -181,13 +182,16 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   if (!is_usable(given)) return result;
   const image::RgbdFrame picture = calibrated(given);
   const auto start = Clock::now();
+  go_to(picture.stamp_ns);
   Surroundings around;
   look(given, picture, around);
   const MovableMask movable = cut_movable(picture, regions, around);
   TrackedFrame frame;
+  frame.stamp_ns = picture.stamp_ns;
+  frame.time_ns = time_ns_;
   frame.given_fx = given_fx_;
   frame.movable_there = movable.any() || !regions.empty();
-  const Pose guess = around.camera_from_map.value_or(expected_camera_from_map(picture.stamp_ns));
+  const Pose guess = around.camera_from_map.value_or(expected_at(time_ns_));
   frame.camera_from_map = around.aligned.value_or(guess);
   const KeyframeNeed need = find_pose(picture, around, movable, frame, result);
   result.state = state_;
@@ -206,6 +210,16 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   remember(std::move(frame), state_);
   result.times.track_us = microseconds_since(start) - result.times.extract_us;
   return result;
+}
+
+/// Where stamps have gone back, the camera may be anywhere, and what moved before moves no more.
+void Tracker::go_to(std::int64_t stamp_ns) {
+  const auto [time_ns, went_back] = clock_.go_to(stamp_ns);
+  time_ns_ = time_ns;
+  if (!went_back) return;
+  cut_.forget();
+  velocity_.reset();
+  if (state_ != State::kNotInitialized) state_ = State::kLost;
 }
 
 void Tracker::look_at(const image::RgbdFrame& picture) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
+#include "common/time/continuous_time.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/association.hpp"
 #include "services/tracker/core/keyframe_policy.hpp"
@@ -42,6 +43,7 @@ struct SavedMap {
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
+/// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the map.
 /// With config.localize_only nothing enters the map; keyframes are then only looked at by others.
 /// Same calls, same results, bit by bit.
 class Tracker {
@@ -134,6 +136,7 @@ class Tracker {
   [[nodiscard]] bool removes_by_depth() const { return config_.removal.method == "depth"; }
   [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
   [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
+  void go_to(std::int64_t stamp_ns);
   void look_at(const image::RgbdFrame& picture);
   void guess_pose(const image::RgbdFrame& picture, Surroundings& around) const;
   void look_around(Surroundings& around);
@@ -175,16 +178,17 @@ class Tracker {
   [[nodiscard]] std::optional<Twist> motion_to(const TrackedFrame& frame) const;
   [[nodiscard]] bool has_jumped(const TrackedFrame& frame) const;
   [[nodiscard]] double jerk(const TrackedFrame& frame) const;
-  [[nodiscard]] double jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const;
+  [[nodiscard]] double jerk(const Pose& camera_from_map, std::int64_t time_ns) const;
   [[nodiscard]] double support(const TrackedFrame& frame) const;
-  [[nodiscard]] std::optional<Pose> pose_by_depth(std::int64_t stamp_ns) const;
+  [[nodiscard]] std::optional<Pose> pose_by_depth(std::int64_t time_ns) const;
   bool find_around(const Pose& by_depth, TrackedFrame& frame);
   State hold(const Pose& by_depth, TrackedFrame& frame);
   bool relocalize(TrackedFrame& frame);
   int refine_with_local_map(TrackedFrame& frame, double window_factor);
   void remember(TrackedFrame&& frame, State state);
-  [[nodiscard]] ShutterMotion shutter_motion(std::int64_t stamp_ns) const;
-  [[nodiscard]] double since_last_s(std::int64_t stamp_ns) const;
+  [[nodiscard]] ShutterMotion shutter_motion(std::int64_t time_ns) const;
+  [[nodiscard]] Pose expected_at(std::int64_t time_ns) const;
+  [[nodiscard]] double since_last_s(std::int64_t time_ns) const;
   void count_found(const TrackedFrame& frame);
   void note_found(int expected, int found, FoundShare& share, TrackedFrame& frame);
   [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame) const;
@@ -209,6 +213,8 @@ class Tracker {
   vision::PlaceIndex places_;
   FoundShare found_by_matching_;
   FoundShare found_by_following_;
+  time::ContinuousTime clock_;
+  std::int64_t time_ns_ = 0;                    // on clock_, of the frame that is tracked
   std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
   std::optional<LastFrame> last_;               // the last frame with a pose
   std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
@@ -217,7 +223,7 @@ class Tracker {
   KeyframeId newest_keyframe_ = kNoId;            // of those made here
   std::vector<KeyframePose> shown_;               // keyframes that did not enter the map, by id
   std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
-  std::optional<std::int64_t> last_keyframe_ns_;  // stamp, of those shown too
+  std::optional<std::int64_t> last_keyframe_ns_;  // time, of those shown too
   int frames_since_keyframe_ = 0;
   KeyframeId followed_view_ = kNoId;  // keyframe with the view nearest to the last followed frame's
   int covered_at_view_ = 0;       // cells of the picture with followed points when that became the nearest

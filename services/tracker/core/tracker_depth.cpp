@@ -13,9 +13,9 @@ constexpr double kApartRad = 0.1;
 }  // namespace
 
 /// nullopt where that was for too long, or depth does not tell.
-std::optional<Pose> Tracker::pose_by_depth(std::int64_t stamp_ns) const {
-  if (since_last_s(stamp_ns) > config_.quality.by_depth_s) return std::nullopt;
-  return cut_.pose_by_depth(expected_camera_from_map(stamp_ns));
+std::optional<Pose> Tracker::pose_by_depth(std::int64_t time_ns) const {
+  if (since_last_s(time_ns) > config_.quality.by_depth_s) return std::nullopt;
+  return cut_.pose_by_depth(expected_at(time_ns));
 }
 
 /// Looks for the points of the map around there. @return true if that gave the pose.

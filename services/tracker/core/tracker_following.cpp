@@ -43,7 +43,7 @@ Pose Tracker::align_with_last(const image::RgbdFrame& picture) const {
     const Eigen::Vector3d p = last_camera_from_map * point->position;
     if (p.z() > kMinDepth) seen.push_back({f.image_px, p});
   }
-  Pose expected = expected_camera_from_map(picture.stamp_ns);
+  Pose expected = expected_at(time_ns_);
   if (seen.size() < kEnoughToAlign) return expected;
   return align_sparsely(*last_->images, seen, *images_, picture.camera, expected * last_map_from_camera,
                         config_.following) *
@@ -60,7 +60,7 @@ bool Tracker::can_follow(const Surroundings& around) const {
 PointSearch Tracker::search_around(const image::RgbdFrame& picture, const Surroundings& around,
                                    const Pose& guess) const {
   const ObservationModel model(picture.camera, config_.depth);
-  return {map_,  around.points, {picture, *images_, guess, shutter_motion(picture.stamp_ns)},
+  return {map_,  around.points, {picture, *images_, guess, shutter_motion(time_ns_)},
           model, pyramid_,      config_.following};
 }
 
@@ -73,9 +73,8 @@ std::optional<Tracker::FollowedFrame> Tracker::follow_points(const image::RgbdFr
   const FollowingConfig& config = config_.following;
   FollowedFrame result{begun, {}, nullptr};
   TrackedFrame& frame = result.frame;
-  frame.stamp_ns = picture.stamp_ns;
   frame.camera_from_map = guess;
-  frame.motion = shutter_motion(picture.stamp_ns);
+  frame.motion = shutter_motion(frame.time_ns);
   FollowedPoints followed = search.find(movable, run_parts_);
   set_features(picture, std::move(followed.features), frame);
   frame.points = std::move(followed.points);

@@ -91,7 +91,7 @@ Tracker::KnownView Tracker::nearest_view(const TrackedFrame& frame) const {
   }
   const auto look_at_old = [&](KeyframeId id) {
     const Keyframe* keyframe = map_.keyframe(id);
-    if (keyframe != nullptr && seconds(frame.stamp_ns - keyframe->stamp_ns) > config_.keyframe.known_after_s)
+    if (keyframe != nullptr && seconds(frame.time_ns - keyframe->time_ns) > config_.keyframe.known_after_s)
       look_at(id, keyframe->map_from_camera);
   };
   if (const Keyframe* newest = map_.keyframe(newest_keyframe_)) look_at(newest->id, newest->map_from_camera);
@@ -107,7 +107,7 @@ KeyframeFacts Tracker::keyframe_facts(const TrackedFrame& frame, double view_cha
   facts.has_depth = has_depth(*frame.features);
   if (!config_.localize_only) add_facts_of_map(frame, facts);
   facts.view_change = view_change;
-  facts.since_last_s = seconds(frame.stamp_ns - *last_keyframe_ns_);
+  facts.since_last_s = seconds(frame.time_ns - *last_keyframe_ns_);
   facts.frames_since_last = frames_since_keyframe_;
   facts.movable_or_changed = frame.movable_there || changed_;
   return facts;
@@ -142,7 +142,7 @@ void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
     shown.id = map_.add_pose_only(shown.stamp_ns, shown.map_from_camera, reference_);
     if (mapping_centre_ == kNoId) mapping_centre_ = reference_;  // nothing new: what is there gets better
   }
-  last_keyframe_ns_ = frame.stamp_ns;
+  last_keyframe_ns_ = frame.time_ns;
   frames_since_keyframe_ = 0;
   changed_ = false;
 }
@@ -153,7 +153,7 @@ void Tracker::make_keyframe(TrackedFrame& frame, FrameResult& result) {
   frame.points = keyframe.points;  // the next frame looks for the new points too
   if (follows_points()) map_.keyframe(keyframe.id)->images = images_;
   newest_keyframe_ = reference_ = keyframe.id;
-  last_keyframe_ns_ = frame.stamp_ns;
+  last_keyframe_ns_ = frame.time_ns;
   frames_since_keyframe_ = 0;
   followed_view_ = kNoId;
   changed_ = false;

@@ -35,26 +35,31 @@ Pose Tracker::last_map_from_camera() const {
 Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
   if (given_poses_)
     if (const auto given = given_poses_(stamp_ns)) return given->inverse();
+  return expected_at(clock_.at(stamp_ns).time_ns);
+}
+
+/// By the motion model.
+Pose Tracker::expected_at(std::int64_t time_ns) const {
   Pose last = last_map_from_camera().inverse();
-  const double gap = since_last_s(stamp_ns);
+  const double gap = since_last_s(time_ns);
   if (!velocity_ || gap <= 0 || gap > kMaxPredictedGap) return last;
   return se3_exp(gap * *velocity_) * last;
 }
 
 /// Infinite where no frame had a pose yet.
-double Tracker::since_last_s(std::int64_t stamp_ns) const {
-  return last_ ? static_cast<double>(stamp_ns - last_->frame.stamp_ns) / kNsPerSecond
+double Tracker::since_last_s(std::int64_t time_ns) const {
+  return last_ ? static_cast<double>(time_ns - last_->frame.time_ns) / kNsPerSecond
                : std::numeric_limits<double>::infinity();
 }
 
-ShutterMotion Tracker::shutter_motion(std::int64_t stamp_ns) const {
-  const bool known = velocity_ && since_last_s(stamp_ns) <= kMaxPredictedGap;
+ShutterMotion Tracker::shutter_motion(std::int64_t time_ns) const {
+  const bool known = velocity_ && since_last_s(time_ns) <= kMaxPredictedGap;
   return {known ? *velocity_ : Twist::Zero(), calibration_.readout_s()};
 }
 
 /// Mean velocity since the last frame with a pose; nullopt where that is too long ago.
 std::optional<Twist> Tracker::motion_to(const TrackedFrame& frame) const {
-  const double gap = since_last_s(frame.stamp_ns);
+  const double gap = since_last_s(frame.time_ns);
   if (gap <= 0 || gap > kMaxPredictedGap) return std::nullopt;
   return Twist(se3_log(frame.camera_from_map * last_map_from_camera()) / gap);
 }
@@ -67,24 +72,24 @@ bool Tracker::has_jumped(const TrackedFrame& frame) const {
 
 /// How far the pose is from where the camera was expected; above 1 no hand accelerates it so: what moves in
 /// the picture may have been taken for standing still.
-double Tracker::jerk(const Pose& camera_from_map, std::int64_t stamp_ns) const {
-  const double gap = since_last_s(stamp_ns);
-  if (gap <= 0 || gap > kMaxPredictedGap) return 0;
-  const Twist error = se3_log(camera_from_map * expected_camera_from_map(stamp_ns).inverse());
+double Tracker::jerk(const Pose& camera_from_map, std::int64_t time_ns) const {
+  const double gap = since_last_s(time_ns);
+  if (given_poses_ || gap <= 0 || gap > kMaxPredictedGap) return 0;
+  const Twist error = se3_log(camera_from_map * expected_at(time_ns).inverse());
   return std::max(error.head<3>().norm() / (kPoseNoise + kMaxAcceleration * gap * gap / 2),
                   error.tail<3>().norm() / (kPoseNoise + kMaxTurnAcceleration * gap * gap / 2));
 }
 
 double Tracker::jerk(const TrackedFrame& frame) const {
-  return jerk(frame.camera_from_map, frame.stamp_ns);
+  return jerk(frame.camera_from_map, frame.time_ns);
 }
 
 bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
   const Keyframe* first = map_.keyframe(0);
   const bool is_own = map_.first_free_keyframe() == 0 && !config_.localize_only && !given_poses_;
   if (!lost_since_ns_ || !is_own || first == nullptr || !last_) return false;
-  const double tracked_s = static_cast<double>(last_->frame.stamp_ns - first->stamp_ns) / kNsPerSecond;
-  const double lost_s = static_cast<double>(stamp_ns - *lost_since_ns_) / kNsPerSecond;
+  const double tracked_s = static_cast<double>(last_->frame.time_ns - first->time_ns) / kNsPerSecond;
+  const double lost_s = static_cast<double>(clock_.at(stamp_ns).time_ns - *lost_since_ns_) / kNsPerSecond;
   return tracked_s < config_.quality.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
 }
 
@@ -96,7 +101,7 @@ double Tracker::support(const TrackedFrame& frame) const {
 bool Tracker::estimate_from_last_frame(TrackedFrame& frame) {
   const ObservationModel model(frame.features->camera(), config_.depth);
   const Pose aligned = frame.camera_from_map;
-  const Pose predicted = expected_camera_from_map(frame.stamp_ns);
+  const Pose predicted = expected_at(frame.time_ns);
   const Pose still = last_map_from_camera().inverse();
   const double window = config_.matching.motion_window_px;
   for (const auto& [guess, window_px] : {std::pair{predicted, window},
@@ -146,7 +151,7 @@ void Tracker::count_found(const TrackedFrame& frame) {
     MapPoint* point = map_.point(id);
     if (point == nullptr) continue;
     ++point->found;
-    point->last_found_ns = frame.stamp_ns;
+    point->last_found_ns = frame.time_ns;
   }
 }
 
@@ -169,7 +174,7 @@ bool Tracker::relocalize(TrackedFrame& frame) {
 }
 
 int Tracker::track_from_last(TrackedFrame& frame) {
-  if (since_last_s(frame.stamp_ns) > kMaxBridgedGap) return 0;
+  if (since_last_s(frame.time_ns) > kMaxBridgedGap) return 0;
   int inliers = 0;
   if (estimate_from_last_frame(frame))
     inliers = refine_with_local_map(frame, config_.matching.map_window_factor);
@@ -196,10 +201,10 @@ State Tracker::track_motion(TrackedFrame& frame) {
   if (was_lost && inliers >= config_.relocalization.min_inliers) return State::kRelocalised;
   if (!was_lost && inliers >= quality.min_inliers && sees_enough)
     return has_jumped(frame) ? State::kRelocalised : State::kTracking;
-  const auto by_depth = was_lost ? std::nullopt : pose_by_depth(frame.stamp_ns);
+  const auto by_depth = was_lost ? std::nullopt : pose_by_depth(frame.time_ns);
   if (by_depth && find_around(*by_depth, frame)) return State::kTracking;
-  if (state_ != State::kWeak) weak_since_ns_ = frame.stamp_ns;
-  const double weak_s = static_cast<double>(frame.stamp_ns - weak_since_ns_) / kNsPerSecond;
+  if (state_ != State::kWeak) weak_since_ns_ = frame.time_ns;
+  const double weak_s = static_cast<double>(frame.time_ns - weak_since_ns_) / kNsPerSecond;
   const bool weak_is_right = !was_lost && !by_depth && weak_s <= quality.weak_s && !has_jumped(frame);
   if (weak_is_right && inliers >= quality.min_inliers_weak) return State::kWeak;
   if (relocalize(frame)) return State::kRelocalised;
@@ -207,7 +212,7 @@ State Tracker::track_motion(TrackedFrame& frame) {
 }
 
 void Tracker::remember(TrackedFrame&& frame, State state) {
-  if (state == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.stamp_ns;
+  if (state == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.time_ns;
   if (!has_pose(state)) return;
   lost_since_ns_.reset();
   cut_.remember(frame.camera_from_map.inverse(), !frame.held_by_depth);

@@ -77,6 +77,36 @@ TEST(FramePairer, ADepthStreamThatBreaksOffDoesNotHoldColourForLong) {
   EXPECT_THAT(stamps(pairer.add_color(10500 * kMs, color())), ElementsAre(-10000));
 }
 
+TEST(FramePairer, FramesGoOnWhereStampsGoBack) {
+  FramePairer pairer = pairer_with_camera();
+  for (const int ms : {9000, 9033}) {
+    EXPECT_THAT(pairer.add_color(ms * kMs, color()), IsEmpty());
+    EXPECT_THAT(stamps(pairer.add_depth(ms * kMs, depth())), ElementsAre(ms));
+  }
+  EXPECT_THAT(pairer.add_depth(9066 * kMs, depth()), IsEmpty()) << "its colour is lost on the way";
+  for (const int ms : {1000, 1033, 9066}) {
+    pairer.add_depth(ms * kMs, depth());
+    EXPECT_THAT(stamps(pairer.add_color(ms * kMs, color())), ElementsAre(ms));
+  }
+  EXPECT_EQ(pairer.without_depth(), 0U);
+}
+
+TEST(FramePairer, ColourWithoutDepthGoesOnWhereStampsGoBack) {
+  FramePairer pairer = pairer_with_camera();
+  pairer.add_depth(9000 * kMs, depth());
+  EXPECT_THAT(stamps(pairer.add_color(9000 * kMs, color())), ElementsAre(9000));
+  for (int i = 0; i < 5; ++i) EXPECT_THAT(pairer.add_color((1000 + 33 * i) * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_color(1166 * kMs, color())), ElementsAre(-1000));
+}
+
+TEST(FramePairer, ALoneColourFarAheadHoldsNobodyUp) {
+  FramePairer pairer = pairer_with_camera();
+  EXPECT_THAT(pairer.add_color(1'001'000 * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(1000 * kMs, depth())), ElementsAre(-1'001'000));
+  EXPECT_THAT(pairer.add_color(1033 * kMs, color()), IsEmpty());
+  EXPECT_THAT(stamps(pairer.add_depth(1033 * kMs, depth())), ElementsAre(1033));
+}
+
 TEST(FramePairer, BoundsDepthThatWaits) {
   FramePairer pairer = pairer_with_camera();
   for (int i = 0; i < 100; ++i) EXPECT_THAT(pairer.add_depth(i * 100 * kMs, depth()), IsEmpty());

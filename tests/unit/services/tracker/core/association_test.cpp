@@ -24,7 +24,7 @@ class FramePose : public testing::Test {
   /// A keyframe at the origin that sees the first points.
   void add(std::int64_t stamp_ns, std::size_t count) {
     TrackedFrame frame = frame_of({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)});
-    frame.stamp_ns = stamp_ns;
+    frame.stamp_ns = frame.time_ns = stamp_ns;
     const Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{}, MapConfig{});
     for (std::size_t f = 0; f < view.point.size(); ++f) known[view.point[f]] = keyframe.points[f];
   }

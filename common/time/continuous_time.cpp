@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/time/continuous_time.hpp"
+
+#include <algorithm>
+
+#include "common/time/stamp_step.hpp"
+
+namespace rds::time {
+
+ContinuousTime::Moment ContinuousTime::at(std::int64_t stamp_ns) const {
+  if (!newest_ns_) return {stamp_ns, false};
+  if (step_between(*newest_ns_, stamp_ns) == StampStep::kBack) return {newest_time_ns_ + kUnknownNs, true};
+  return {newest_time_ns_ + std::min(stamp_ns - *newest_ns_, kLongestNs), false};
+}
+
+ContinuousTime::Moment ContinuousTime::go_to(std::int64_t stamp_ns) {
+  const Moment moment = at(stamp_ns);
+  const bool is_newest = !newest_ns_ || stamp_ns > *newest_ns_ || moment.went_back;
+  if (is_newest) {
+    newest_ns_ = stamp_ns;
+    newest_time_ns_ = moment.time_ns;
+  }
+  return moment;
+}
+
+}  // namespace rds::time

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "common/geometry/keyframe_pose.hpp"
+
+namespace rds::transformer {
+
+/// Each keyframe's pose as it was first told: before local bundle adjustment (paper §IV-B), and so independent
+/// of how long the detector takes.
+///
+/// Of two keyframes with one stamp (a recording that is played again) the newer one counts. Where stamps go
+/// back from one keyframe to the next, those of before are forgotten: stamps of two times cannot be told apart.
+class FirstPoses {
+ public:
+  /// @param capacity  keyframes; then those with the lowest ids are forgotten.
+  explicit FirstPoses(std::size_t capacity) : capacity_(capacity) {}
+
+  /// @param poses  by ascending ids. Keyframes that are known already, or were, are left alone.
+  void take(std::span<const geometry::KeyframePose> poses);
+  /// map_from_camera; nullopt if no keyframe of the stamp is known.
+  [[nodiscard]] std::optional<geometry::Pose> of(std::int64_t stamp_ns) const;
+  void clear();
+
+ private:
+  std::size_t capacity_;
+  std::map<std::uint64_t, geometry::KeyframePose> by_id_;
+  std::map<std::int64_t, std::uint64_t> id_of_stamp_;
+  std::uint64_t next_id_ = 0;  // all before it have been told
+};
+
+}  // namespace rds::transformer

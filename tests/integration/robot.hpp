@@ -69,7 +69,8 @@ class Robot {
   }
   std::size_t keyframes() {
     const std::lock_guard lock(mutex_);
-    return static_cast<std::size_t>(std::ranges::count_if(states_, &TrackingState::is_keyframe));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(states_, [](const TrackingState& s) { return s.is_keyframe(); }));
   }
   std::size_t keyframes_in_map() {
     const std::lock_guard lock(mutex_);

@@ -25,7 +25,7 @@ double recall(const std::vector<octomap::OcTreeKey>& expected, const std::vector
   const auto is_found = [&](const octomap::OcTreeKey& key) {
     for (int i = 0; i < 27; ++i) {
       const auto beside = [&](unsigned axis, int by) { return static_cast<octomap::key_type>(key[axis] + by); };
-      if (there.contains({beside(0, i % 3 - 1), beside(1, i / 3 % 3 - 1), beside(2, i / 9 - 1)})) return true;
+      if (there.count({beside(0, i % 3 - 1), beside(1, i / 3 % 3 - 1), beside(2, i / 9 - 1)}) > 0) return true;
     }
     return false;
   };

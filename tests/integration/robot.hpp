@@ -39,6 +39,14 @@ class Robot {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // services find each other, too
   }
 
+  /// Ends the services in order, so that others that start find nobody.
+  ~Robot() {
+    for (Process* service : {&tracker_, &transformer_, &mapper_}) service->send(SIGTERM);
+    for (Process* service : {&tracker_, &transformer_, &mapper_}) service->wait(std::chrono::seconds(10));
+  }
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+
   /// Publishes a frame with this stamp, at 30 Hz at most, and waits for its acknowledgement.
   TrackingState show(std::size_t index, std::int64_t stamp_ns) {
     std::this_thread::sleep_until(next_);

@@ -19,9 +19,7 @@ class PassingSurfaces : public testing::Test {
  protected:
   PassingSurfaces() {
     for (const std::uint64_t keyframe : {0, 2})
-      history_.see(
-          record_of(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true)),
-          config_);
+      see(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true));
   }
   /// Use of a pixel of keyframe 1.
   PixelUse use_at(const SyntheticKeyframe& keyframe, int u, int v) {

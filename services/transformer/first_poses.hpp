@@ -20,17 +20,20 @@ class FirstPoses {
   /// @param capacity  keyframes; then those with the lowest ids are forgotten.
   explicit FirstPoses(std::size_t capacity) : capacity_(capacity) {}
 
-  /// @param poses  by ascending ids. Keyframes that are known already, or were, are left alone.
+  /// @param poses  by ascending ids, of some or all keyframes. What is known already, or was, is left alone.
   void take(std::span<const geometry::KeyframePose> poses);
   /// map_from_camera; nullopt if no keyframe of the stamp is known.
   [[nodiscard]] std::optional<geometry::Pose> of(std::int64_t stamp_ns) const;
   void clear();
 
  private:
+  [[nodiscard]] bool goes_back(const geometry::KeyframePose& pose) const;
+  void forget_before(std::uint64_t id);
+
   std::size_t capacity_;
   std::map<std::uint64_t, geometry::KeyframePose> by_id_;
   std::map<std::int64_t, std::uint64_t> id_of_stamp_;
-  std::uint64_t next_id_ = 0;  // all before it have been told
+  std::uint64_t first_id_ = 0;  // all before it are forgotten
 };
 
 }  // namespace rds::transformer

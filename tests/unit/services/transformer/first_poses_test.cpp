@@ -29,6 +29,16 @@ TEST(FirstPoses, GivesThePoseThatWasToldFirst) {
   EXPECT_FALSE(poses.of(3 * kSecond));
 }
 
+TEST(FirstPoses, TakesAKeyframeThatIsToldLate) {
+  FirstPoses poses(10);
+  poses.take(std::vector{keyframe(5, 1, 0.1)});
+  poses.take(std::vector{keyframe(7, 3, 0.3)});
+  poses.take(std::vector{keyframe(5, 1, 0.5), keyframe(6, 2, 0.2), keyframe(7, 3, 0.7)});
+  EXPECT_EQ(x_at(poses, 1), 0.1);
+  EXPECT_EQ(x_at(poses, 2), 0.2);
+  EXPECT_EQ(x_at(poses, 3), 0.3);
+}
+
 TEST(FirstPoses, OfTwoKeyframesWithOneStampTheNewerCounts) {
   FirstPoses poses(10);
   poses.take(std::vector{keyframe(0, 1, 0.1), keyframe(1, 2, 0.2), keyframe(2, 1, 0.3)});

@@ -42,12 +42,6 @@ std::vector<std::uint8_t> map_of(const std::vector<KeyframeInput>& inputs, Mappe
   return to_bytes(mapper.tree());
 }
 
-TEST(MapperTime, WhoStandsThereWhileTheClockIsSetBackIsGoneWhenHeLeaves) {
-  SemanticMapper mapper{MapperConfig{}};
-  for (const KeyframeInput& input : keyframes(kSetBackBy)) mapper.integrate(input);
-  EXPECT_LE(test::occupied_between(mapper.tree(), 0.5, 2.5), 3);
-}
-
 TEST(MapperTime, TheMapIsThatOfTimeThatGoesOn) {
   EXPECT_TRUE(map_of(keyframes(kSetBackBy)) == map_of(keyframes(kAsIfLater)));
 }

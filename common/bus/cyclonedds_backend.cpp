@@ -7,6 +7,7 @@
 #include "common/bus/cyclonedds_domain.hpp"
 #include "common/bus/cyclonedds_endpoints.hpp"
 #include "common/bus/cyclonedds_type.hpp"
+#include "common/bus/security_properties.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -16,11 +17,14 @@ struct DeleteQos {
 };
 using QosPtr = std::unique_ptr<dds_qos_t, DeleteQos>;
 
-QosPtr participant_qos(const std::string& node_name) {
+QosPtr participant_qos(const ParticipantOptions& options) {
   QosPtr qos(dds_create_qos());
   const std::string user_data = kParticipantUserData;
   dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
-  dds_qset_entity_name(qos.get(), node_name.c_str());
+  dds_qset_entity_name(qos.get(), options.node_name.c_str());
+  if (options.credentials)
+    for (const auto& [name, value] : cyclonedds_security(*options.credentials))
+      dds_qset_prop(qos.get(), name.c_str(), value.c_str());
   return qos;
 }
 
@@ -115,7 +119,7 @@ class CycloneBackend final : public Backend {
   explicit CycloneBackend(const ParticipantOptions& options)
       : domain_(join_cyclonedds_domain(options)),
         participant_(dds_create_participant(static_cast<dds_domainid_t>(options.domain),
-                                            participant_qos(options.node_name).get(), nullptr),
+                                            participant_qos(options).get(), nullptr),
                      "a participant in domain " + std::to_string(options.domain)),
         endpoints_(participant_.get()) {
     if (!cyclonedds_discovery_is_filtered()) {

@@ -9,6 +9,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "common/bus/security_properties.hpp"
+
 namespace rds::bus::detail {
 namespace {
 
@@ -91,6 +93,9 @@ dds::DomainParticipantQos fastdds_participant_qos(const ParticipantOptions& opti
   qos.name(options.node_name.c_str());
   const std::string user_data = kParticipantUserData;
   qos.user_data().data_vec({user_data.begin(), user_data.end()});
+  if (options.credentials)
+    for (const auto& [name, value] : fastdds_security(*options.credentials))
+      qos.properties().properties().emplace_back(name, value);
   return qos;
 }
 

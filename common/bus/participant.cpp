@@ -37,6 +37,7 @@ struct Shared {
   explicit Shared(const ParticipantOptions& options)
       : backend(options.vendor == Vendor::kFastDds ? detail::make_fastdds_backend(options)
                                                    : detail::make_cyclonedds_backend(options)),
+        identity(options.credentials ? options.credentials->identity : ""),
         announcer(*backend, options.node_name) {}
 
   /// A participant carries one type per topic: both vendors would refuse a second one, each in its own way.
@@ -71,7 +72,19 @@ struct Shared {
     return result;
   }
 
+  /// Makes an endpoint. A vendor does not say that it was permissions that forbade it.
+  template <class Make>
+  auto explain_refusal(Make make) const {
+    try {
+      return make();
+    } catch (const BusError& e) {
+      if (identity.empty()) throw;
+      throw BusError(std::string(e.what()) + ", which the permissions of '" + identity + "' must allow");
+    }
+  }
+
   std::unique_ptr<Backend> backend;
+  std::string identity;  // empty on an open bus
   detail::NodeAnnouncer announcer;
   std::mutex mutex;
   std::set<const Endpoint*> endpoints;
@@ -212,14 +225,16 @@ class DdsParticipant final : public Participant {
   std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
                                                             const Qos& qos) override {
     shared_->check_type(topic, type);
-    return std::make_unique<WriterEndpoint>(shared_, topic, type, qos);
+    return shared_->explain_refusal(
+        [&] { return std::make_unique<WriterEndpoint>(shared_, topic, type, qos); });
   }
 
   std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
       const std::string& topic, const TypeOps& type, const Qos& qos,
       std::function<void(std::shared_ptr<const void>)> callback) override {
     shared_->check_type(topic, type);
-    return std::make_unique<ReaderEndpoint>(shared_, topic, type, qos, std::move(callback));
+    return shared_->explain_refusal(
+        [&] { return std::make_unique<ReaderEndpoint>(shared_, topic, type, qos, std::move(callback)); });
   }
 
   [[nodiscard]] std::vector<EndpointStatistics> statistics() const override {
@@ -285,6 +300,9 @@ std::unique_ptr<Participant> Participant::create(const ParticipantOptions& optio
     throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
                    std::to_string(kHighestDomain));
   }
+  if (options.credentials && options.domain > kHighestSecuredDomain)
+    throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
+                   std::to_string(kHighestSecuredDomain) + " for a secured one");
   keep_freed_memory();
   return std::make_unique<DdsParticipant>(options);
 }

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/bus/qos.hpp"
+#include "common/bus/security.hpp"
 #include "common/bus/type_ops.hpp"
 
 namespace rds::bus {
@@ -31,6 +33,7 @@ struct ParticipantOptions {
   int domain = 0;
   std::string node_name;       // as `ros2 node list` shows it, without the leading slash
   bool loopback_only = false;  // this machine only: no multicast, nobody else is disturbed
+  std::optional<Credentials> credentials = {};  // of a secured domain; without them the bus is open
 };
 
 /// Traffic of one endpoint since its creation.

@@ -16,6 +16,7 @@ struct Options {
   std::string vendor = "fastdds";
   int domain = 0;
   bool loopback_only = false;
+  std::string secure;
   std::string config_path;
   std::string log_level = "info";
 };
@@ -36,9 +37,19 @@ void add_options(CLI::App& app, Options& options) {
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   app.add_flag("--loopback", options.loopback_only, "this machine only");
+  app.add_option("--secure", options.secure, "folder of rds secure init, for a secured domain")
+      ->envname("RDS_SECURE");
   app.add_option("--config", options.config_path, "YAML file");
   app.add_option("--log-level", options.log_level)
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}));
+}
+
+/// Of the service itself: "rds-mapper" is "mapper".
+std::optional<bus::Credentials> credentials(const std::string& name, const Options& options) {
+  if (options.secure.empty()) return std::nullopt;
+  auto read = bus::read_credentials(options.secure, name.substr(name.find('-') + 1));
+  if (!read) throw std::runtime_error(read.error());
+  return std::move(*read);
 }
 
 int start(const std::string& name, const Options& options,
@@ -49,7 +60,8 @@ int start(const std::string& name, const Options& options,
   auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
                                                .domain = options.domain,
                                                .node_name = name,
-                                               .loopback_only = options.loopback_only});
+                                               .loopback_only = options.loopback_only,
+                                               .credentials = credentials(name, options)});
   Diagnostics diagnostics;
   ServiceContext context{name, *participant, diagnostics, options.domain};
   ServiceProcess process(context, factory);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Latency from write() to the callback in another process over 127.0.0.1, for every pair of vendors.
+// Latency from write() to the callback in another process over 127.0.0.1, for every pair of vendors, and for
+// each vendor on a secured domain.
 // The reader runs as a child process, because Cyclone DDS takes a short cut between participants of one
 // process.
 #include <algorithm>
@@ -21,6 +22,8 @@
 #include "common/bus/participant.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/rds/secure/secure_folder.hpp"
 
 extern char** environ;
 
@@ -45,16 +48,25 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-std::unique_ptr<Participant> join(Vendor vendor, int domain, const std::string& name) {
-  return Participant::create({.vendor = vendor, .domain = domain, .node_name = name, .loopback_only = true});
+// Topics that a secured domain's player may write and read, and its tracker read and write.
+constexpr const char* kPicture = "camera/color/image_raw";
+constexpr const char* kAnswer = "rds/tracking_state";
+
+/// @param secured  folder of a secured domain; empty: the bus is open.
+std::unique_ptr<Participant> join(Vendor vendor, int domain, const std::string& secured,
+                                  const std::string& identity) {
+  ParticipantOptions options{
+      .vendor = vendor, .domain = domain, .node_name = "bus_bench_" + identity, .loopback_only = true};
+  if (!secured.empty()) options.credentials = read_credentials(secured, identity).value();
+  return Participant::create(options);
 }
 
 /// The child: answers each picture with its latency and the CPU time used so far, until the writer leaves.
-int run_reader(const std::string& vendor, int domain) {
-  auto participant = join(vendor_from_name(vendor), domain, "bus_bench_reader");
-  auto answers = participant->advertise<Header>("answer", kStream);
+int run_reader(const std::string& vendor, int domain, const std::string& secured) {
+  auto participant = join(vendor_from_name(vendor), domain, secured, "tracker");
+  auto answers = participant->advertise<Header>(kAnswer, kStream);
   auto subscription =
-      participant->subscribe<Image>("picture", kSensor, [&](const std::shared_ptr<const Image>& image) {
+      participant->subscribe<Image>(kPicture, kSensor, [&](const std::shared_ptr<const Image>& image) {
         Header answer;
         const std::int64_t sent = std::stoll(image->header().frame_id());
         answer.stamp().nanosec(static_cast<std::uint32_t>(now_ns() - sent));
@@ -68,12 +80,12 @@ int run_reader(const std::string& vendor, int domain) {
 
 class ReaderProcess {
  public:
-  ReaderProcess(Vendor vendor, int domain) {
+  ReaderProcess(Vendor vendor, int domain, std::string secured) {
     std::string self = "/proc/self/exe";
     std::string mode = "reader";
     std::string name = name_of(vendor);
     std::string number = std::to_string(domain);
-    char* const arguments[] = {self.data(), mode.data(), name.data(), number.data(), nullptr};
+    char* const arguments[] = {self.data(), mode.data(), name.data(), number.data(), secured.data(), nullptr};
     if (posix_spawn(&pid_, self.c_str(), nullptr, nullptr, arguments, environ) != 0) {
       throw std::runtime_error("cannot start the reader process");
     }
@@ -107,15 +119,25 @@ struct Answers {
   }
 };
 
-void deliver(benchmark::State& state, Vendor writer, Vendor reader) {
+/// The folder of a secured domain, as long as this process lives.
+std::string secured_folder() {
+  static const test::TemporaryFolder parent;
+  static const std::filesystem::path folder = parent / "secured";
+  static const auto made = secure::make_secure_folder(
+      folder, {.validity = secure::ten_years(std::chrono::system_clock::now())});
+  return made ? folder.string() : throw std::runtime_error(made.error());
+}
+
+void deliver(benchmark::State& state, Vendor writer, Vendor reader, bool is_secured) {
   static std::atomic<int> next_domain = 10 + static_cast<int>(getpid() % 200);
   const int domain = next_domain++ % 230;
-  const ReaderProcess process(reader, domain);
+  const std::string secured = is_secured ? secured_folder() : "";
+  const ReaderProcess process(reader, domain, secured);
   Answers answers;
-  auto participant = join(writer, domain, "bus_bench_writer");
-  auto publisher = participant->advertise<Image>("picture", kSensor);
+  auto participant = join(writer, domain, secured, "player");
+  auto publisher = participant->advertise<Image>(kPicture, kSensor);
   auto subscription = participant->subscribe<Header>(
-      "answer", kStream, [&](const std::shared_ptr<const Header>& answer) { answers.receive(*answer); });
+      kAnswer, kStream, [&](const std::shared_ptr<const Header>& answer) { answers.receive(*answer); });
   Image image;
   image.data().assign(static_cast<std::size_t>(state.range(0)), 5);
   const auto exchange = [&] {
@@ -148,24 +170,27 @@ void deliver(benchmark::State& state, Vendor writer, Vendor reader) {
   state.counters["reader_cpu_ms"] = 1e3 * (answers.reader_cpu_s - reader_cpu) / count;
 }
 
-#define RDS_BUS_BENCHMARK(name, writer, reader)    \
-  BENCHMARK_CAPTURE(deliver, name, writer, reader) \
-      ->Arg(100)                                   \
-      ->Arg(1'500'000)                             \
-      ->Iterations(300)                            \
-      ->UseManualTime()                            \
+#define RDS_BUS_BENCHMARK(name, writer, reader, secured)    \
+  BENCHMARK_CAPTURE(deliver, name, writer, reader, secured) \
+      ->Arg(100)                                            \
+      ->Arg(1'500'000)                                      \
+      ->Iterations(300)                                     \
+      ->UseManualTime()                                     \
       ->Unit(benchmark::kMillisecond)
 
-RDS_BUS_BENCHMARK(fastdds_to_fastdds, Vendor::kFastDds, Vendor::kFastDds);
-RDS_BUS_BENCHMARK(fastdds_to_cyclonedds, Vendor::kFastDds, Vendor::kCycloneDds);
-RDS_BUS_BENCHMARK(cyclonedds_to_fastdds, Vendor::kCycloneDds, Vendor::kFastDds);
-RDS_BUS_BENCHMARK(cyclonedds_to_cyclonedds, Vendor::kCycloneDds, Vendor::kCycloneDds);
+RDS_BUS_BENCHMARK(fastdds_to_fastdds, Vendor::kFastDds, Vendor::kFastDds, false);
+RDS_BUS_BENCHMARK(fastdds_to_cyclonedds, Vendor::kFastDds, Vendor::kCycloneDds, false);
+RDS_BUS_BENCHMARK(cyclonedds_to_fastdds, Vendor::kCycloneDds, Vendor::kFastDds, false);
+RDS_BUS_BENCHMARK(cyclonedds_to_cyclonedds, Vendor::kCycloneDds, Vendor::kCycloneDds, false);
+RDS_BUS_BENCHMARK(fastdds_secured, Vendor::kFastDds, Vendor::kFastDds, true);
+RDS_BUS_BENCHMARK(cyclonedds_secured, Vendor::kCycloneDds, Vendor::kCycloneDds, true);
 
 }  // namespace
 }  // namespace rds::bus
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string(argv[1]) == "reader") return rds::bus::run_reader(argv[2], std::stoi(argv[3]));
+  if (argc == 5 && std::string(argv[1]) == "reader")
+    return rds::bus::run_reader(argv[2], std::stoi(argv[3]), argv[4]);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

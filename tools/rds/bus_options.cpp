@@ -13,6 +13,7 @@ void add_bus_options(CLI::App& command, BusOptions& options) {
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   command.add_flag("--loopback", options.loopback_only, "this machine only");
+  add_secure_options(command, options.secure);
 }
 
 }  // namespace rds

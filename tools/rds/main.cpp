@@ -8,6 +8,7 @@
 #include "tools/rds/models_command.hpp"
 #include "tools/rds/play/play_command.hpp"
 #include "tools/rds/run/run_command.hpp"
+#include "tools/rds/secure/secure_command.hpp"
 #include "tools/rds/simulate_command.hpp"
 #include "tools/rds/topic_command.hpp"
 
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   rds::tools::add_models_command(rds);
   rds::doctor::add_doctor_command(rds);
   rds::tools::add_simulate_command(rds);
+  rds::secure::add_secure_command(rds);
   try {
     rds.parse(argc, argv);
   } catch (const CLI::RuntimeError& e) {

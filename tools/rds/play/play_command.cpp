@@ -89,6 +89,7 @@ int play(const PlayOptions& options) {
 void add_play_command(CLI::App& rds) {
   auto* command = rds.add_subcommand("play", "publish a recording as a camera would");
   auto options = std::make_shared<PlayOptions>();
+  options->bus.secure.identities = {"player", "operator"};
   command->add_option("dataset", options->dataset, "folder in TUM RGB-D form")->required();
   add_rate_option(*command, options->player.rate);
   command->add_option("--start", options->player.start, "first frame");

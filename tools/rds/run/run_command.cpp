@@ -21,6 +21,7 @@ namespace rds::run {
 namespace {
 
 constexpr int kBadUsage = 2;
+const std::set<std::string> kProcesses{kPlayer, kTracker, kDetector, kTransformer, kMapper, kLoopCloser};
 
 /// "fastdds", or "tracker=cyclonedds,mapper=fastdds" for single processes.
 void parse_vendors(const std::string& text, RunOptions& options) {
@@ -37,8 +38,6 @@ void parse_vendors(const std::string& text, RunOptions& options) {
     std::string process = part.substr(0, equals);
     if (process == "player") process = kPlayer;
     if (process != kPlayer && !process.starts_with("rds-")) process.insert(0, "rds-");
-    static const std::set<std::string> kProcesses{kPlayer,      kTracker, kDetector,
-                                                  kTransformer, kMapper,  kLoopCloser};
     if (process == "rds-loop_closer") process = kLoopCloser;
     if (!kProcesses.contains(process))
       throw std::invalid_argument(
@@ -53,6 +52,18 @@ void check_files(const RunOptions& options) {
   for (const auto& file : {options.config, options.detections, options.poses})
     if (!file.empty() && !std::filesystem::is_regular_file(file))
       throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+}
+
+/// The vendors' handshakes do not understand each other.
+void check_secured(const RunOptions& options) {
+  if (options.secure.folder.empty()) return;
+  const bus::Vendor vendor = options.vendor_of(kPlayer);
+  for (const std::string& process : kProcesses)
+    if (options.vendor_of(process) != vendor)
+      throw std::runtime_error(
+          fmt::format("--secure: {} is on {} and {} on {}, expected one vendor for all of a secured domain",
+                      kPlayer, bus::name_of(vendor), process, bus::name_of(options.vendor_of(process))));
+  (void)options.secure.credentials();
 }
 
 /// The poses can be read, and reach into what is played.
@@ -90,6 +101,7 @@ void check_map(RunOptions& options) {
 int run(RunOptions& options, const std::string& vendors) {
   try {
     parse_vendors(vendors, options);
+    check_secured(options);
     check_files(options);
     check_map(options);
     const auto dataset = image::TumDataset::open(options.dataset);
@@ -139,6 +151,8 @@ void add_run_command(CLI::App& rds) {
       ->check(CLI::Range(0, 232));
   command->add_flag("--network", options->network,
                     "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");
+  command->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
+      ->envname("RDS_SECURE");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, no_dynamics] {

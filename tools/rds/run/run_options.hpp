@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/bus/participant.hpp"
+#include "tools/rds/secure_options.hpp"
 
 namespace rds::run {
 
@@ -31,6 +32,7 @@ struct RunOptions {
   bool localize_only = false;
   std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
   bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
+  SecureOptions secure{.identities = {"operator"}};
   bool video = false;
   bool force = false;
 

@@ -99,6 +99,8 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
                                   "--config",
                                   config.string()};
     if (!options.network) line.emplace_back("--loopback");
+    if (!options.secure.folder.empty())
+      line.insert(line.end(), {"--secure", fs::absolute(options.secure.folder).string()});
     commands.push_back({process, std::move(line), folder / "log" / (process + ".log")});
   }
   return commands;

@@ -43,7 +43,8 @@ std::unique_ptr<bus::Participant> join(const RunOptions& options, int domain) {
   return bus::Participant::create({.vendor = options.vendor_of(kPlayer),
                                    .domain = domain,
                                    .node_name = "rds_run",
-                                   .loopback_only = !options.network});
+                                   .loopback_only = !options.network,
+                                   .credentials = options.secure.credentials()});
 }
 
 }  // namespace

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "tools/rds/secure/certificate_authority.hpp"
+#include "tools/rds/secure/roles.hpp"
+
+/// The two documents of DDS Security 1.1 (sections 9.4.1.2 and 9.4.1.3), before they are signed.
+namespace rds::secure {
+
+/// What holds for everybody in the domains 0 to 230. common/bus/README.md gives the reasons.
+std::string governance();
+
+/// What the holder of the certificate with this subject may do; anything else is denied.
+std::string permissions(const Role& role, const std::string& subject, const Validity& validity);
+
+}  // namespace rds::secure

@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/log/StdoutErrConsumer.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
@@ -24,12 +26,14 @@ constexpr int kLivelinessLeaseS = 100'000'000;  // three years
 constexpr int kAnnouncementsAtStart = 10;
 constexpr std::uint32_t kAnnouncementAtStartPeriodNs = 100'000'000;
 
-/// Once, before the first participant: the user's profiles, and no short cut between participants of one
-/// process (it would run a reader's history under the writer's lock; every participant of ours is a process
-/// anyway).
+/// Once, before the first participant: complaints go to stderr (stdout is for what a tool prints), the user's
+/// profiles, and no short cut between participants of one process (it would run a reader's history under the
+/// writer's lock; every participant of ours is a process anyway).
 void prepare_library() {
   static std::once_flag once;
   std::call_once(once, [] {
+    dds::Log::ClearConsumers();
+    dds::Log::RegisterConsumer(std::make_unique<dds::StdoutErrConsumer>());
     dds::DomainParticipantFactory::get_instance()->load_profiles();
     auto settings = eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings();
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;

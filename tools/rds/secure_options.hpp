@@ -13,8 +13,8 @@ namespace rds {
 
 /// As whom a tool takes part in a secured domain.
 struct SecureOptions {
-  std::string folder;                                        // empty: the bus is open
-  std::string identity;                                      // empty: the first of `identities` that is there
+  std::string folder = {};                                   // empty: the bus is open
+  std::string identity = {};                                 // empty: the first of `identities` that is there
   std::vector<std::string> identities{"operator", "reader"};  // the tool's own choice
 
   /// @return nothing on an open bus. @throws std::runtime_error with one sentence if they cannot be used.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <optional>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
 #include "common/service/service_process.hpp"
 #include "common/service/stop_signals.hpp"

@@ -14,7 +14,7 @@ Topics operator+(Topics left, const Topics& right) {
 /// What every service says and reads: services trust each other's pictures and maps, but none writes for
 /// another.
 Role service(const std::string& name, const Topics& publishes, const Topics& reads_besides = {}) {
-  return {name, publishes + Topics{"rds/command_result", "diagnostics"},
+  return {name, publishes + Topics{"rds/services", "rds/command_result", "diagnostics"},
           Topics{"rds/*", "diagnostics"} + reads_besides};
 }
 
@@ -34,7 +34,7 @@ std::vector<Role> roles(const Topics& camera_topics) {
        Topics{"rds/*", "tf", "diagnostics"} + camera_topics},
       {"reader",
        {},
-       {"rds/map/*", "rds/odometry", "rds/tracking_state", "rds/boxes", "tf", "diagnostics"}},
+       {"rds/map/*", "rds/odometry", "rds/tracking_state", "rds/boxes", "rds/services", "tf", "diagnostics"}},
       {"player", camera_topics, {"rds/tracking_state"}},
       {"camera", camera_topics, {}},
   };

@@ -42,7 +42,7 @@ void write_file(const fs::path& file, mode_t mode, const std::string& text) {
 std::vector<std::string> fill(const fs::path& folder, const FolderOptions& options) {
   const CertificateAuthority authority(options.validity);
   write_file(folder / bus::kCaFile, kPublic, authority.certificate());
-  write_file(folder / bus::kGovernanceFile, kPublic, authority.sign(governance()));
+  write_file(folder / bus::kGovernanceFile, kPublic, authority.sign(governance(options.camera_topics)));
   std::vector<std::string> names;
   for (const Role& role : roles(options.camera_topics)) {
     const Identity identity = authority.issue(role.name);

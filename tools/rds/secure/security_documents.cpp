@@ -31,15 +31,38 @@ std::string date(std::chrono::system_clock::time_point time) {
 }
 
 /// Every participant takes part in ROS 2's graph.
-std::string topics(const std::string& element, std::vector<std::string> names) {
+std::string topics(const std::string& element, const std::vector<std::string>& names) {
   std::string text = "      <" + element + ">\n        <topics>\n          <topic>ros_discovery_info</topic>\n";
   for (const std::string& name : names) text += "          <topic>rt/" + escaped(name) + "</topic>\n";
   return text + "        </topics>\n      </" + element + ">\n";
 }
 
+/// @param metadata,data  what is encrypted of this topic: ENCRYPT or NONE.
+std::string topic_rule(const std::string& expression, const std::string& metadata, const std::string& data) {
+  return fmt::format(R"(      <topic_rule>
+        <topic_expression>{}</topic_expression>
+        <enable_discovery_protection>true</enable_discovery_protection>
+        <enable_liveliness_protection>true</enable_liveliness_protection>
+        <enable_read_access_control>true</enable_read_access_control>
+        <enable_write_access_control>true</enable_write_access_control>
+        <metadata_protection_kind>{}</metadata_protection_kind>
+        <data_protection_kind>{}</data_protection_kind>
+      </topic_rule>
+)",
+                     escaped(expression), metadata, data);
+}
+
+/// The first rule that fits holds.
+std::string topic_rules(std::vector<std::string> pictures) {
+  pictures.emplace_back("rds/keyframe/images");
+  std::string rules;
+  for (const std::string& topic : pictures) rules += topic_rule("rt/" + topic, "NONE", "ENCRYPT");
+  return rules + topic_rule("*", "ENCRYPT", "NONE");
+}
+
 }  // namespace
 
-std::string governance() {
+std::string governance(const std::vector<std::string>& camera_topics) {
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_governance.xsd">
 <domain_access_rules>
@@ -51,21 +74,12 @@ std::string governance() {
     <liveliness_protection_kind>ENCRYPT</liveliness_protection_kind>
     <rtps_protection_kind>NONE</rtps_protection_kind>
     <topic_access_rules>
-      <topic_rule>
-        <topic_expression>*</topic_expression>
-        <enable_discovery_protection>true</enable_discovery_protection>
-        <enable_liveliness_protection>true</enable_liveliness_protection>
-        <enable_read_access_control>true</enable_read_access_control>
-        <enable_write_access_control>true</enable_write_access_control>
-        <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
-        <data_protection_kind>NONE</data_protection_kind>
-      </topic_rule>
-    </topic_access_rules>
+{}    </topic_access_rules>
   </domain_rule>
 </domain_access_rules>
 </dds>
 )",
-                     all_domains());
+                     all_domains(), topic_rules(camera_topics));
 }
 
 std::string permissions(const Role& role, const std::string& subject, const Validity& validity) {

@@ -37,7 +37,7 @@ def lookup_request(levels):
 
 
 class HostileTypes(unittest.TestCase):
-    def meet(self, vendor, hostile_act, picture_expected):
+    def meet(self, vendor, hostile_act, served):
         domain = next(DOMAINS)
         stranger = rtps_stranger.Stranger(domain)
         self.addCleanup(stranger.close)
@@ -46,7 +46,7 @@ class HostileTypes(unittest.TestCase):
             stranger.announce()
             self.assertTrue(stranger.hears(b"RTPS"), "the stranger is not taken for a participant")
             hostile_act(stranger)
-            if picture_expected:
+            if served:
                 self.assertTrue(stranger.hears(vendor.encode()), "the stranger's reader is not served")
             seen = len(reader.lines)
             self.assertTrue(reader.wait_for(lambda lines: len(lines) >= seen + 20))

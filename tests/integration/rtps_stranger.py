@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A participant made of plain RTPS messages on 127.0.0.1 that can say what no DDS library would."""
 
+import contextlib
 import os
 import socket
 import struct
+import time
 
 VENDOR = b"\x01\x0f"
 TO_ANYBODY = bytes(4)
@@ -30,27 +32,26 @@ def parameter_list(*parameters):
 
 
 class Stranger:
-    """Announces itself to the participants 0 to 3 of a domain; what they send it lands in `receive()`."""
+    """Announces itself to the participants 0 to 3 of a domain; what it says is repeated until it hears what it waits for."""
 
     def __init__(self, domain):
         self.prefix = VENDOR + os.urandom(10)
         self.ports = [7410 + 250 * domain + 2 * i for i in range(4)]
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.socket.bind(("127.0.0.1", 0))
-        self.socket.settimeout(1)
-        self.sent = {}  # messages per writer
+        self.socket.settimeout(0.2)
+        self.locator = struct.pack("<iI", 1, self.socket.getsockname()[1]) + bytes(12) + b"\x7f\x00\x00\x01"
+        self.written = {}  # messages per writer
+        self.said = []  # all that was sent
 
     def close(self):
         self.socket.close()
 
     def announce(self):
-        where = struct.pack("<iI", 1, self.socket.getsockname()[1]) + bytes(12) + b"\x7f\x00\x00\x01"
-        self.locator = where
         data = parameter_list(
             parameter(0x15, b"\x02\x02"), parameter(0x16, VENDOR), parameter(0x50, self.prefix + PARTICIPANT),
-            parameter(0x31, where), parameter(0x32, where), parameter(0x02, struct.pack("<iI", 100, 0)),
+            parameter(0x31, self.locator), parameter(0x32, self.locator), parameter(0x02, struct.pack("<iI", 100, 0)),
             parameter(0x58, struct.pack("<I", ALL_BUILTIN_ENDPOINTS)))
-        self.sent.pop(PARTICIPANTS_WRITER, None)
         self.publish(PARTICIPANTS_WRITER, data, reliable=False)
 
     def subscribe(self, topic, type_name, type_information):
@@ -60,29 +61,27 @@ class Stranger:
             parameter(0x2F, self.locator), parameter(PID_TYPE_INFORMATION, type_information)))
 
     def publish(self, writer, payload, reliable=True):
-        number = self.sent[writer] = self.sent.get(writer, 0) + 1
-        messages = [self._data(writer, number, payload)] if len(payload) <= FRAGMENT else self._fragments(writer, number, payload)
-        for message in messages:
-            self._send(message)
+        number = self.written[writer] = self.written.get(writer, 0) + 1
+        messages = [self._data(writer, number, payload)] if len(payload) <= FRAGMENT else list(self._fragments(writer, number, payload))
         if reliable:
             body = TO_ANYBODY + writer + struct.pack("<iIiII", 0, 1, 0, number, number)
-            self._send(struct.pack("<BBH", 0x07, 3, len(body)) + body)
+            messages.append(struct.pack("<BBH", 0x07, 3, len(body)) + body)
+        for message in messages:
+            self._send(message)
+        self.said += messages
 
-    def receive(self):
-        """The next message somebody sent here; None if there is none for a second."""
-        try:
-            return self.socket.recv(65536)
-        except socket.timeout:
-            return None
-
-    def hears(self, content, messages=500):
-        """True if one of the next messages has this content."""
-        for _ in range(messages):
-            message = self.receive()
-            if message is None:
-                return False
-            if content in message:
-                return True
+    def hears(self, content, seconds=30):
+        """True if somebody sends a message with this content here."""
+        end = time.monotonic() + seconds
+        repeat = time.monotonic() + 1
+        while time.monotonic() < end:
+            with contextlib.suppress(socket.timeout):
+                if content in self.socket.recv(65536):
+                    return True
+            if time.monotonic() > repeat:
+                repeat = time.monotonic() + 1
+                for message in self.said:
+                    self._send(message)
         return False
 
     @staticmethod

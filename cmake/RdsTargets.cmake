@@ -58,14 +58,15 @@ function(rds_executable name)
   target_link_libraries(${name} PRIVATE rds_options ${A_PRIVATE})
 endfunction()
 
-# Made by the test fixture dynamic_sequences, shared by all presets.
-set(RDS_DYNAMIC_DIR ${PROJECT_SOURCE_DIR}/build/dynamic)
+# Made by test fixtures (tests/support), shared by all presets.
+set(RDS_RECORDINGS_DIR ${PROJECT_SOURCE_DIR}/build/recordings)
 
-# rds_test(NAME SOURCES x_test.cpp PRIVATE libs [LABEL unit|integration|system|bench] [TIMEOUT s] [SERIAL] [DYNAMIC])
-# One GoogleTest executable; every TEST becomes a ctest test that knows where the recordings are through RDS_SHARED;
-# with DYNAMIC also where sequences with people are, made from them by the fixture dynamic_sequences, through RDS_DYNAMIC.
+# rds_test(NAME SOURCES x_test.cpp PRIVATE libs [LABEL unit|integration|system|bench] [TIMEOUT s] [SERIAL] [RECORDINGS|PATHS])
+# One GoogleTest executable; every TEST becomes a ctest test that knows where the recordings are through RDS_SHARED; with
+# RECORDINGS also, through RDS_RECORDINGS, where those are that fixtures make: with people put into RDS_SHARED's, and rendered ones.
+# With PATHS there are more rendered ones (tests/support/render_recordings.sh).
 function(rds_test name)
-  cmake_parse_arguments(A "SERIAL;DYNAMIC" "LABEL;TIMEOUT" "SOURCES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(A "SERIAL;RECORDINGS;PATHS" "LABEL;TIMEOUT" "SOURCES;PRIVATE" ${ARGN})
   if(NOT A_LABEL)
     set(A_LABEL unit)
   endif()
@@ -81,8 +82,10 @@ function(rds_test name)
   if(A_SERIAL)
     list(APPEND properties RUN_SERIAL ON)
   endif()
-  if(A_DYNAMIC)
-    list(APPEND properties FIXTURES_REQUIRED dynamic_sequences ENVIRONMENT RDS_DYNAMIC=${RDS_DYNAMIC_DIR})
+  if(A_PATHS)
+    list(APPEND properties FIXTURES_REQUIRED paths ENVIRONMENT RDS_RECORDINGS=${RDS_RECORDINGS_DIR})
+  elseif(A_RECORDINGS)
+    list(APPEND properties FIXTURES_REQUIRED recordings ENVIRONMENT RDS_RECORDINGS=${RDS_RECORDINGS_DIR})
   endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
 endfunction()

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kFindBackFrames = 10;
 constexpr double kMaxErrorRatio = 1.3;  // to the undisturbed run
 constexpr FrameRange kDark{.first = 120, .count = 30};
+constexpr std::size_t kLookedAtFrames = 220;
 
 struct RunFigures {
   std::vector<std::string> states;  // per frame
@@ -70,8 +71,10 @@ class DisturbedRun : public testing::Test {
 
 /// Of a second without usable pictures the first `held` frames are WEAK, the others LOST.
 void DisturbedRun::expect_held_then_lost(Darkened darkened, std::size_t held) {
-  RDS_REQUIRE_SHARED("data/tum_fr1_rpy");
-  make_excerpt(shared() / "data/tum_fr1_rpy", place / "whole", 220, 240);
+  if (why_not_shared("data/tum_fr1_rpy").empty())
+    make_excerpt(shared() / "data/tum_fr1_rpy", place / "whole", kLookedAtFrames, 240);
+  else
+    make_excerpt(recording_of_a_room().folder, place / "whole", kLookedAtFrames);
   make_blacked_out(place / "whole", place / "dark", kDark, darkened);
   const RunFigures whole = run_of("whole");
   const RunFigures dark = run_of("dark");
@@ -92,8 +95,7 @@ TEST_F(DisturbedRun, ACoveredCameraIsLostAtOnceAndLeavesNoTrace) {
 }
 
 TEST_F(DisturbedRun, FindsItselfAfterACut) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
-  make_excerpt(shared() / "data/7scenes_kitchen", place / "whole", 340);
+  make_excerpt(recording_of_a_room().folder, place / "whole", 340);
   make_cut(place / "whole", place / "cut", {250, 45});
   const RunFigures whole = run_of("whole");
   const RunFigures cut = run_of("cut");
@@ -105,9 +107,10 @@ TEST_F(DisturbedRun, FindsItselfAfterACut) {
 }
 
 TEST_F(DisturbedRun, FindsItselfAfterAJumpToAPlaceSeenTenSecondsAgo) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
-  make_jump(shared() / "data/7scenes_kitchen", place / "whole", 14, 14, 14);
-  make_jump(shared() / "data/7scenes_kitchen", place / "jump", 14, 4, 8);
+  const TestRecording recording = recording_of_a_room();
+  const double jump_s = recording.bound(14, 11.5);
+  make_jump(recording.folder, place / "whole", jump_s, jump_s, jump_s);
+  make_jump(recording.folder, place / "jump", jump_s, jump_s - 10, jump_s - 6);
   const RunFigures whole = run_of("whole");
   const RunFigures jump = run_of("jump");
   ASSERT_GT(jump.states.size(), whole.states.size() + 30);

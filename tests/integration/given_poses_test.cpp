@@ -52,9 +52,8 @@ TEST(GivenPoses, AreFollowedEvenWhereNothingCanBeTracked) {
 }
 
 TEST(GivenPoses, MakeTheMapOfARecording) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  const auto dataset = shared() / "data/7scenes_kitchen";
+  const auto dataset = recording_of_a_room().folder;
   const ProcessResult result = run(dataset, place / "out",
                                    {"--rate", "max", "--no-dynamics", "--start", "200", "--frames", "60",
                                     "--poses", (dataset / "groundtruth.txt").string()});

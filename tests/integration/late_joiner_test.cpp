@@ -38,9 +38,8 @@ class LateJoiner : public testing::TestWithParam<bool> {
 };
 
 TEST_P(LateJoiner, RebuildsTheMappersTreeFromFullMapAndDeltasOverEitherBus) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 300);
+  make_excerpt(recording_of_a_room().folder, place / "data", 300);
   Process process(command(place.path()));
   ASSERT_TRUE(process.wait_for_output("frame 6", 60s)) << process.standard_error();  // in the middle
   const auto fast_bus = join(bus::Vendor::kFastDds);

@@ -26,9 +26,8 @@ const std::vector<std::string> kServices{"rds-tracker", "rds-detector", "rds-tra
 class KilledService : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 120);
+  make_excerpt(recording_of_a_room().folder, place / "data", 120);
   Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string()});
   ASSERT_TRUE(process.wait_for_output("frame", 60s));
   std::this_thread::sleep_for(2s);
@@ -50,9 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),
 
 /// What was under way in it is lost, and nobody waits for that for long.
 TEST(KilledMapper, DoesNotHoldALockstepRunUp) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 240);
+  make_excerpt(recording_of_a_room().folder, place / "data", 240);
   Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
                    "--rate", "max"});
   ASSERT_TRUE(process.wait_for_output("frame", 60s));
@@ -66,9 +64,8 @@ TEST(KilledMapper, DoesNotHoldALockstepRunUp) {
 }
 
 TEST(PausedServices, DoNotHoldALockstepRunUp) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 300);
+  make_excerpt(recording_of_a_room().folder, place / "data", 300);
   Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
                    "--rate", "max", "--domain", "27"});
   const auto bus = bus::Participant::create({.domain = 27, .node_name = "pauser", .loopback_only = true});
@@ -86,9 +83,8 @@ TEST(PausedServices, DoNotHoldALockstepRunUp) {
 }
 
 TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
-  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  Process process({rds(), "run", "--dataset", (shared() / "data/7scenes_kitchen").string(), "--out",
+  Process process({rds(), "run", "--dataset", recording_of_a_room().folder.string(), "--out",
                    (place / "out").string()});
   ASSERT_TRUE(process.wait_for_output("frame", 60s));
   std::vector<pid_t> services;
@@ -104,7 +100,6 @@ TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
 class LoneService : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(LoneService, StartsWithoutTheOthersAndStopsWhenAsked) {
-  RDS_REQUIRE_SHARED("models");
   for (const char* bus : {"fastdds", "cyclonedds"}) {
     Process process(
         {std::string(RDS_BIN_DIR) + "/" + GetParam(), "--bus", bus, "--domain", "25", "--loopback"});

@@ -38,13 +38,12 @@ Process::Environment reporting_to(const fs::path& folder) {
 class SanitizedRun : public ::testing::TestWithParam<RunMode> {};
 
 TEST_P(SanitizedRun, IsCleanInEveryProcess) {
-  RDS_REQUIRE_DYNAMIC("kitchen_walkers");
   const TemporaryFolder place;
   const fs::path reports = place / "reports";
   fs::create_directory(reports);
   // A sanitizer makes everything ten times slower.
   write_text(place / "slow.yaml", "tracker: {lockstep_timeout_s: 300}\n");
-  const ProcessResult result = run(dynamic_sequence("kitchen_walkers"), place / "out",
+  const ProcessResult result = run(recording_with_people().folder, place / "out",
                                    {"--start", "20", "--frames", "40", "--bus", GetParam().bus, "--rate",
                                     GetParam().rate, "--config", (place / "slow.yaml").string()},
                                    std::chrono::minutes(10), reporting_to(reports));

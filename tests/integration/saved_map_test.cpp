@@ -32,14 +32,12 @@ void expect_same_files(const fs::path& a, const fs::path& b, const std::vector<s
   for (const std::string& file : files) EXPECT_EQ(read_text(a / file), read_text(b / file)) << file;
 }
 
-/// Maps the first frames of a recording in a kitchen, without people, and goes on from there.
+/// Maps the first frames of a recording without people, and goes on from there.
 class SavedMap : public ::testing::Test {
  protected:
-  void SetUp() override { RDS_REQUIRE_SHARED("data/7scenes_kitchen"); }
-
-  static fs::path recording() { return shared() / "data/7scenes_kitchen"; }
+  fs::path recording() const { return room.folder; }
   fs::path first() const { return place / "first"; }
-  void map_first(int frames) const {
+  void map_first(std::size_t frames) const {
     const ProcessResult result =
         run(recording(), first(), {"--rate", "max", "--no-dynamics", "--frames", std::to_string(frames)});
     ASSERT_EQ(result.status, 0) << result.standard_error;
@@ -50,51 +48,53 @@ class SavedMap : public ::testing::Test {
     return run(dataset, out, arguments);
   }
 
+  const TestRecording room = recording_of_a_room();
+  const std::size_t mapped = room.frames * 3 / 5;
   TemporaryFolder place;
 };
 
 TEST_F(SavedMap, ALaterPartIsMappedOnInItWithTheSameBytesOverEitherBus) {
-  ASSERT_NO_FATAL_FAILURE(map_first(300));
+  ASSERT_NO_FATAL_FAILURE(map_first(mapped));
+  const std::size_t start = room.frames / 2;
   for (const char* bus : {"fastdds", "cyclonedds"}) {
     const ProcessResult result =
-        go_on(recording(), place / bus, {"--no-dynamics", "--start", "250", "--bus", bus});
+        go_on(recording(), place / bus, {"--no-dynamics", "--start", std::to_string(start), "--bus", bus});
     ASSERT_EQ(result.status, 0) << result.standard_error;
   }
   const auto found = states(place / "fastdds");
-  ASSERT_EQ(found.size(), 250U);
+  ASSERT_EQ(found.size(), room.frames - start);
   const auto relocalised = std::ranges::find(found, "RELOCALISED");
   EXPECT_LT(relocalised - found.begin(), 5);
   EXPECT_EQ(std::count(found.begin(), relocalised, "LOST"), relocalised - found.begin())
       << "no pose is invented";
   const auto figures = score(recording(), place / "fastdds");
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.070);
+  EXPECT_LE(figures["ate_final"].get<double>(), room.bound(0.070, 0.010));
   expect_same_files(place / "fastdds", place / "cyclonedds",
                     {"trajectory.txt", "trajectory_optimized.txt", "keyframes.txt", "map.ot", "map.rds"});
   EXPECT_GT(fs::file_size(place / "fastdds/map.rds"), fs::file_size(first() / "map.rds"));
 }
 
 TEST_F(SavedMap, LocalizeOnlyTracksAndLeavesTheMapByteForByte) {
-  ASSERT_NO_FATAL_FAILURE(map_first(300));
+  ASSERT_NO_FATAL_FAILURE(map_first(mapped));
   const auto out = place / "localized";
   const ProcessResult result = go_on(recording(), out, {"--no-dynamics", "--localize-only"});
   ASSERT_EQ(result.status, 0) << result.standard_error;
   const auto figures = score(recording(), out);
   EXPECT_GE(figures["tracked"].get<double>(), 0.98);
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.080);
+  EXPECT_LE(figures["ate_final"].get<double>(), room.bound(0.080, 0.010));
   expect_same_files(first(), out, {"map.ot", "map.rds", "objects.json", "grid.pgm", "grid.yaml"});
 }
 
 TEST_F(SavedMap, LocalizeOnlyRemovesPeopleAndLeavesTheMap) {
-  RDS_REQUIRE_DYNAMIC("kitchen_walkers");
-  ASSERT_NO_FATAL_FAILURE(map_first(300));
+  ASSERT_NO_FATAL_FAILURE(map_first(mapped));
   const auto out = place / "walkers";
-  const auto dataset = dynamic_sequence("kitchen_walkers");
+  const auto dataset = recording_with_people().folder;
   const ProcessResult result = go_on(dataset, out, {"--localize-only"});
   ASSERT_EQ(result.status, 0) << result.standard_error;
   const auto figures = score(dataset, out);
   EXPECT_GE(figures["tracked"].get<double>(), 0.9);
   EXPECT_GE(figures["box_recall"].get<double>(), 0.6);
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.080);
+  EXPECT_LE(figures["ate_final"].get<double>(), room.bound(0.080, 0.010));
   expect_same_files(first(), out, {"map.ot", "map.rds"});
 }
 

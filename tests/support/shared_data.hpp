@@ -15,8 +15,30 @@ std::filesystem::path shared();
 std::string why_not_shared(const std::string& name);
 
 /// Folder of a recording into which people were put (kitchen_walkers, kitchen_crowd, fr1_walkers); empty
-/// unless the test was declared DYNAMIC and the fixture could make it.
+/// unless the test was declared RECORDINGS and the fixture could make it.
 std::filesystem::path dynamic_sequence(const std::string& name);
+
+/// Folder of a recording that a fixture has rendered: `room` and `room_empty` (its twin without people) for a
+/// test declared RECORDINGS; `rpy`, `halfsphere`, `static`, with people, and `loop` for one declared PATHS.
+/// @throws std::runtime_error if it is not there.
+std::filesystem::path rendered_recording(const std::string& name);
+
+/// A recording to test on: of a real camera, or rendered where there is none.
+struct TestRecording {
+  std::filesystem::path folder;
+  std::size_t frames;
+  bool rendered;
+
+  /// The bound for this one; a rendered one has exact truth.
+  [[nodiscard]] double bound(double recorded_one, double rendered_one) const {
+    return rendered ? rendered_one : recorded_one;
+  }
+};
+
+/// A camera moves, nothing else: RDS_SHARED's 7scenes_kitchen, else `room_empty`.
+TestRecording recording_of_a_room();
+/// The same with people: kitchen_walkers, else `room`.
+TestRecording recording_with_people();
 
 }  // namespace rds::test
 

@@ -12,7 +12,7 @@ namespace {
 
 #define SKIP_WITHOUT(recordings) \
   if ((recordings).empty())      \
-  GTEST_SKIP() << "RDS_SHARED/data/wire is missing: messages of an independent encoder"
+  GTEST_SKIP() << "RDS_SHARED is not set, so there are no messages of an independent encoder (data/wire)"
 
 /// The recordings list the constants of a message with its values; ours are not part of a message.
 Json without_constants(const Json& json) {

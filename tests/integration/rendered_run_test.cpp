@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the camera
+// with people in the picture, and a way around the room that closes a loop.
+#include <gmock/gmock.h>
+
+#include "tests/integration/run_support.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::test {
+namespace {
+
+/// What `rds eval` must say of a recording and its twin without people.
+struct RenderedFigures {
+  std::string name;
+  std::string bus;
+  double max_ate_m;
+  double min_box_recall;
+  double max_residue;
+  double min_static_recall;
+};
+
+void PrintTo(const RenderedFigures& figures, std::ostream* out) {
+  *out << figures.name;
+}
+
+class RenderedRun : public ::testing::TestWithParam<RenderedFigures> {};
+
+TEST_P(RenderedRun, KeepsPeopleOutOfPoseAndMap) {
+  const RenderedFigures& expected = GetParam();
+  const TemporaryFolder place;
+  const auto dataset = rendered_recording(expected.name);
+  const ProcessResult result = run(dataset, place / "out", {"--rate", "max", "--bus", expected.bus});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  const auto figures = score(dataset, place / "out", rendered_recording(expected.name + "_empty"));
+  std::cout << figures.dump() << '\n';
+  EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
+  EXPECT_LE(figures["ate_final"].get<double>(), expected.max_ate_m);
+  EXPECT_GE(figures["box_recall"].get<double>(), expected.min_box_recall);
+  EXPECT_LE(figures["residue"].get<double>(), expected.max_residue);
+  EXPECT_GE(figures["static_recall"].get<double>(), expected.min_static_recall);
+}
+
+INSTANTIATE_TEST_SUITE_P(Path, RenderedRun,
+                         ::testing::Values(RenderedFigures{"room", "fastdds", 0.010, 0.85, 0.01, 0.97},
+                                           RenderedFigures{"rpy", "cyclonedds", 0.010, 0.85, 0.02, 0.80},
+                                           RenderedFigures{"halfsphere", "fastdds", 0.010, 0.85, 0.01, 0.97},
+                                           RenderedFigures{"static", "cyclonedds", 0.010, 0.85, 0.02, 0.70}),
+                         [](const auto& path) { return path.param.name; });
+
+TEST(RenderedLoop, IsClosedThroughAllProcesses) {
+  const TemporaryFolder place;
+  const auto dataset = rendered_recording("loop");
+  const ProcessResult result = run(dataset, place / "out", {"--rate", "max"});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  const auto summary = nlohmann::json::parse(read_text(place / "out/summary.json"));
+  EXPECT_GE(summary["loops_closed"].get<int>(), 1);
+  const auto figures = score(dataset, place / "out");
+  std::cout << summary["loops_closed"] << figures.dump() << '\n';
+  EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.02);
+}
+
+}  // namespace
+}  // namespace rds::test

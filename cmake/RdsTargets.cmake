@@ -87,7 +87,7 @@ function(rds_test name)
   elseif(A_RECORDINGS)
     list(APPEND properties FIXTURES_REQUIRED recordings ENVIRONMENT RDS_RECORDINGS=${RDS_RECORDINGS_DIR})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES ${properties})
 endfunction()
 
 # rds_benchmark(NAME SOURCES x_bench.cpp PRIVATE libs): a Google Benchmark executable in build/<preset>/bench, not a test.

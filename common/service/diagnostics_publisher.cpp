@@ -5,12 +5,17 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/service/process_usage.hpp"
+#include "common/service/supervisor.hpp"
 
 namespace rds::service {
 namespace {
 
 constexpr std::chrono::milliseconds kPeriod{1000};
 constexpr double kHangS = 5;  // a worker that is silent for longer hangs
+
+bool hangs(const WorkerState& worker) {
+  return worker.there && worker.silent_s > kHangS;
+}
 
 diagnostic_msgs::msg::KeyValue key_value(const std::string& key, const std::string& value) {
   diagnostic_msgs::msg::KeyValue pair;
@@ -41,12 +46,24 @@ Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t misma
   for (const auto& endpoint : context_.bus.statistics()) troubles += endpoint.dropped;
   const std::uint64_t lately = troubles - troubles_before_;
   troubles_before_ = troubles;
-  if (worker.there && worker.silent_s > kHangS)
+  if (hangs(worker))
     return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
   if (const auto rivalry = presence_.rivalry()) return {kError, *rivalry};
   if (mismatches > 0) return {kWarn, fmt::format("{} endpoints of another version", mismatches)};
   if (lately > 0) return {kWarn, fmt::format("{} messages dropped", lately)};
   return {};
+}
+
+void DiagnosticsPublisher::tell_supervisor(const WorkerState& worker, const Health& health) {
+  if (!hangs(worker)) tell_supervisor_alive();
+  std::string status = presence_.is_active() ? "active" : "stand-by";
+  if (!health.message.empty()) status += ": " + health.message;
+  if (status != told_) tell_supervisor_status(status);
+  told_ = std::move(status);
+}
+
+double DiagnosticsPublisher::silent_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - published_.load()).count();
 }
 
 void DiagnosticsPublisher::publish() {
@@ -77,6 +94,8 @@ void DiagnosticsPublisher::publish() {
   report.header().stamp(messages::to_time(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));
   report.status().push_back(std::move(status));
   publisher_.write(report);
+  published_ = std::chrono::steady_clock::now();
+  tell_supervisor(worker, health_now);
 }
 
 }  // namespace rds::service

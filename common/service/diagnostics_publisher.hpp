@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
 #include <thread>
 
 #include "common/service/presence.hpp"
@@ -10,15 +14,20 @@
 
 namespace rds::service {
 
-/// Publishes a process's figures on `diagnostics` and its state on `rds/services` once a second, from a
-/// thread of its own; how the service is, is what its worker shows.
+/// Publishes a process's figures on `diagnostics` and its state on `rds/services` once a second, from a thread
+/// of its own; how the service is, is what its worker shows. What supervises the process (systemd) hears that it is
+/// alive only while the worker is.
 class DiagnosticsPublisher {
  public:
   DiagnosticsPublisher(ServiceContext& context, Presence& presence, const ServiceSlot& service);
 
+  /// Since the last report [s]; any thread. Much more than a second if the bus hangs.
+  [[nodiscard]] double silent_s() const;
+
  private:
   void publish();
   Health health(const WorkerState& worker, std::size_t mismatches);
+  void tell_supervisor(const WorkerState& worker, const Health& health);
 
   ServiceContext& context_;
   Presence& presence_;
@@ -26,6 +35,8 @@ class DiagnosticsPublisher {
   bus::Publisher<diagnostic_msgs::msg::DiagnosticArray> publisher_;
   VersionWatch versions_;
   std::uint64_t troubles_before_ = 0;
+  std::string told_;  // to the supervisor
+  std::atomic<std::chrono::steady_clock::time_point> published_ = std::chrono::steady_clock::now();
   std::jthread thread_;  // last: it uses the members above
 };
 

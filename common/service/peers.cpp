@@ -14,9 +14,9 @@ constexpr std::size_t kMaxPeers = 256;
 
 }  // namespace
 
-Peers::Peers(bus::Participant& bus, std::function<void()> changed)
+Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qos& qos)
     : changed_(std::move(changed)),
-      subscription_(bus.subscribe<ServiceStatus>(kServicesTopic, bus::kLatchedEvery,
+      subscription_(bus.subscribe<ServiceStatus>(kServicesTopic, qos,
                                                  [this](const auto& status) { take(*status); })) {}
 
 void Peers::take(const ServiceStatus& status) {

@@ -34,7 +34,9 @@ class Peers {
   static constexpr std::chrono::milliseconds kReplacedAfter{2500};
 
   /// @param changed  called on a bus thread after each status that tells of another role; may be empty.
-  explicit Peers(bus::Participant& bus, std::function<void()> changed = {});
+  /// @param qos  kStream: only what is said from now on counts, not a last status that a service has left.
+  explicit Peers(bus::Participant& bus, std::function<void()> changed = {},
+                 const bus::Qos& qos = bus::kLatchedEvery);
 
   /// Whether an active service of this instance has been heard of lately.
   [[nodiscard]] bool is_there(std::uint64_t instance) const;

@@ -22,6 +22,7 @@ struct Options {
   std::string secure;
   std::string config_path;
   std::string log_level = "info";
+  double exit_when_hung_s = 0;
 };
 
 void set_up_log(const std::string& name, const std::string& level) {
@@ -43,6 +44,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--secure", options.secure, "folder of rds secure init, for a secured domain")
       ->envname("RDS_SECURE");
   app.add_option("--config", options.config_path, "YAML file");
+  app.add_option("--exit-when-hung", options.exit_when_hung_s,
+                 "End when the worker has been silent for so long [s], for containers (default: 0, never)")
+      ->envname("RDS_EXIT_WHEN_HUNG")
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--log-level", options.log_level)
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}));
 }
@@ -67,7 +72,7 @@ int start(const std::string& name, const Options& options,
                                                .credentials = credentials(name, options)});
   Diagnostics diagnostics;
   ServiceContext context{name, *participant, diagnostics, options.domain};
-  ServiceProcess process(context, factory);
+  ServiceProcess process(context, factory, options.exit_when_hung_s);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
   return process.run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/service/service_process.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include <unistd.h>
 
 #include "common/service/stop_signals.hpp"
+#include "common/service/supervisor.hpp"
 
 namespace rds::service {
 namespace {
@@ -20,31 +22,42 @@ constexpr std::chrono::seconds kStopLimit{20};      // for a worker to end
 
 }  // namespace
 
-ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory)
+ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s)
     : context_(context),
       factory_(std::move(factory)),
       events_(mailbox_, kMaxEvents),
       presence_(context, [this] { events_.push(Event::kPeersChanged); }),
       commands_(context, presence_, service_),
-      publisher_(context, presence_, service_) {}
+      publisher_(context, presence_, service_),
+      hang_watch_(exit_when_hung_s) {}
 
 int ServiceProcess::run() {
   activate();
-  std::jthread signals([this](const std::stop_token& stop) { watch_signals(stop); });
+  tell_supervisor_ready();
+  std::jthread watcher([this](const std::stop_token& stop) { watch(stop); });
   while (true) {
     mailbox_.wait_for({}, kRoleCheck, [this] { return !events_.locked_empty(); });
     const auto event = events_.try_pop();
     if (event == Event::kSignal || event == Event::kWorkerEnded) break;
     change_role();
   }
+  tell_supervisor_stopping();
   stand_by();
   presence_.say_goodbye();
   return failed_ ? 1 : 0;
 }
 
-void ServiceProcess::watch_signals(const std::stop_token& stop) {
+void ServiceProcess::end_if_hung(double since_last_look_s) {
+  const double silent_s = std::max(service_.worker_state().silent_s, publisher_.silent_s());
+  if (!hang_watch_.look(silent_s, since_last_look_s)) return;
+  spdlog::critical("ended: nothing has been heard of the worker for {:.0f} s", silent_s);
+  _exit(1);
+}
+
+void ServiceProcess::watch(const std::stop_token& stop) {
   const sigset_t signals = stop_signals();
   std::optional<std::chrono::steady_clock::time_point> stopping_since;
+  auto last_look = std::chrono::steady_clock::now();
   while (!stop.stop_requested()) {
     const int received = sigtimedwait(&signals, nullptr, &kSignalPoll);
     if (received > 0 && stopping_since) {
@@ -52,6 +65,8 @@ void ServiceProcess::watch_signals(const std::stop_token& stop) {
       _exit(128 + received);
     }
     const auto now = std::chrono::steady_clock::now();
+    end_if_hung(std::chrono::duration<double>(now - last_look).count());
+    last_look = now;
     if (received > 0) {
       stopping_since = now;
       request_stop();

@@ -6,6 +6,7 @@
 
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
+#include "common/service/hang_watch.hpp"
 #include "common/service/presence.hpp"
 #include "common/service/service_slot.hpp"
 
@@ -16,7 +17,9 @@ namespace rds::service {
 class ServiceProcess {
  public:
   /// @param context  must outlive it.
-  ServiceProcess(ServiceContext& context, ServiceFactory factory);
+  /// @param exit_when_hung_s  the process ends with status 1 when the worker, or what reports about it, was silent for
+  /// longer [s]; 0: never. For supervisors that start again what has ended, but see nothing that hangs.
+  ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s = 0);
 
   /// Runs until SIGINT or SIGTERM (both must be blocked in all threads) or until the worker fails. A second
   /// signal ends the process at once. @return 0 after a clean stop, 1 after a fault.
@@ -28,7 +31,8 @@ class ServiceProcess {
  private:
   enum class Event { kSignal, kWorkerEnded, kPeersChanged };
 
-  void watch_signals(const std::stop_token& stop);
+  void watch(const std::stop_token& stop);
+  void end_if_hung(double since_last_look_s);
   void activate();
   void stand_by();
   void change_role();
@@ -43,6 +47,7 @@ class ServiceProcess {
   Presence presence_;
   CommandServer commands_;
   DiagnosticsPublisher publisher_;
+  HangWatch hang_watch_;
   std::jthread worker_;
 };
 

@@ -10,6 +10,7 @@
 #include "tools/rds/run/run_command.hpp"
 #include "tools/rds/secure/secure_command.hpp"
 #include "tools/rds/simulate_command.hpp"
+#include "tools/rds/status_command.hpp"
 #include "tools/rds/topic_command.hpp"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   rds::tools::add_eval_command(rds);
   rds::tools::add_map_command(rds);
   rds::tools::add_topic_command(rds);
+  rds::tools::add_status_command(rds);
   rds::tools::add_models_command(rds);
   rds::doctor::add_doctor_command(rds);
   rds::tools::add_simulate_command(rds);

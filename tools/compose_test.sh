@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # compose_test.sh [--build] [VENDOR...]: starts compose/compose.yaml, plays a recording, and sees a map arrive outside the
-# containers, on each vendor (default: fastdds cyclonedds). Needs what tools/test.sh has built; stops what it started.
+# containers, on each vendor (default: fastdds cyclonedds); looks at what the containers may do, and kills and stops a service
+# in one of them. Needs what tools/test.sh has built; stops what it started.
 #
 # --build     compiles in the image instead of taking build/release/bin and lib.
 # RDS_SHARED  folder with recordings; without it a short sequence is rendered.
@@ -19,7 +20,7 @@ export ROS_DOMAIN_ID=${ROS_DOMAIN_ID:-$((100 + $$ % 100))}
 
 compose() { docker compose --ansi never -p rds-test -f "$root/compose/compose.yaml" --profile player "$@"; }
 clean_up() {
-  compose down --timeout 5 >/dev/null 2>&1 || true
+  compose down --volumes --timeout 5 >/dev/null 2>&1 || true
   stop_engine
 }
 trap clean_up EXIT
@@ -34,14 +35,73 @@ provide_input() {
   [ -f "$RDS_DATASET/groundtruth.txt" ] || "$rds" simulate --out "$RDS_DATASET" --path xyz --people 1 --seconds 5 --force
 }
 
+services=(tracker detector transformer mapper loop-closer)
+
+# expect WHAT EXPECTED FOUND
+expect() { [ "$2" = "$3" ] || fail "$1: '$3', expected '$2'"; }
+
+# inside SERVICE COMMAND: in the service's container, as its own user.
+inside() { compose exec -T "$1" sh -c "$2"; }
+
+# signal_service SERVICE SIGNAL: to its program, whose parent is the container's init.
+signal_service() {
+  inside "$1" "for p in /proc/[0-9]*; do [ \"\$(cat \$p/comm 2>/dev/null)\" != rds-$1 ] || kill -$2 \${p#/proc/}; done"
+}
+
+# What a service's container may do, as the engine was told and as the kernel says of a process in it.
+check_confinement() {
+  local service=$1 id
+  id=$(compose ps --quiet "$service")
+  inspect() { docker inspect --format "$1" "$id"; }
+  expect "$service: file system read-only" true "$(inspect '{{.HostConfig.ReadonlyRootfs}}')"
+  expect "$service: log" "local 10m 3" "$(inspect '{{with .HostConfig.LogConfig}}{{.Type}} {{index .Config "max-size"}} {{index .Config "max-file"}}{{end}}')"
+  expect "$service: shares /dev/shm with the host" no "$([ "$(inspect '{{.HostConfig.IpcMode}}')" = host ] && echo yes || echo no)"
+  expect "$service: memory limited" yes "$([ "$(inspect '{{.HostConfig.Memory}}')" -gt 0 ] && echo yes || echo no)"
+  expect "$service: a user without privileges" no "$(inside "$service" '[ "$(id -u)" = 0 ] && echo yes || echo no')"
+  expect "$service: capabilities" "CapBnd: 0000000000000000 CapEff: 0000000000000000 CapPrm: 0000000000000000 NoNewPrivs: 1" \
+    "$(inside "$service" 'grep -hE "^(CapPrm|CapEff|CapBnd|NoNewPrivs)" /proc/1/status' | tr '\t' ' ' | sort | paste -sd ' ')"
+  expect "$service: folders that it can write to" "" \
+    "$(inside "$service" 'for f in / /etc /usr/local/bin /var/lib/rds; do touch "$f/x" 2>/dev/null && echo "$f"; done; true')"
+}
+
+status() { "$rds" status --bus "$RDS_BUS" "$@"; }
+
+# wait_for SECONDS WHAT COMMAND...
+wait_for() {
+  local limit=$1 what=$2 end=$((SECONDS + $1))
+  shift 2
+  until "$@" >/dev/null 2>&1; do
+    [ "$SECONDS" -lt "$end" ] || { compose ps >&2; compose logs --tail 20 >&2; fail "$RDS_BUS: $what: not within $limit s"; }
+    sleep 1
+  done
+}
+is_unhealthy() { [ "$(docker inspect --format '{{.State.Health.Status}}' "$(compose ps --quiet "$1")")" = unhealthy ]; }
+
+# A service that is stopped is seen, from outside and by its container; one that is killed comes back by itself.
+disturb() {
+  say "$RDS_BUS: the mapper is stopped"
+  signal_service mapper STOP
+  wait_for 10 "a stopped mapper is seen" eval '! status --service mapper'
+  wait_for 60 "its container is unhealthy" is_unhealthy mapper
+  signal_service mapper CONT
+  wait_for 10 "it is well again" status --service mapper
+  say "$RDS_BUS: the loop closer is killed"
+  signal_service loop-closer KILL
+  wait_for 20 "it comes back" eval 'status --service loop-closer && status'
+}
+
 # One whole run on a vendor; the map is asked for from this machine, outside the containers.
 try_vendor() {
   export RDS_BUS=$1
   local started=$SECONDS
   say "$RDS_BUS: starting the services"
-  compose up --detach --wait --wait-timeout 180 tracker detector transformer mapper loop-closer >"$log" 2>&1 ||
+  compose up --detach --wait --wait-timeout 180 "${services[@]}" >"$log" 2>&1 ||
     { cat "$log" >&2; compose logs --tail 20 >&2; fail "$RDS_BUS: the services did not become healthy"; }
-  say "$RDS_BUS: healthy after $((SECONDS - started)) s; playing"
+  say "$RDS_BUS: healthy after $((SECONDS - started)) s"
+  status || fail "$RDS_BUS: not seen from outside the containers"
+  local service
+  for service in "${services[@]}"; do check_confinement "$service"; done
+  say "$RDS_BUS: playing"
   compose up --no-recreate --exit-code-from player player >"$log" 2>&1 ||
     { tail -n 30 "$log" >&2; fail "$RDS_BUS: the player failed"; }
   local map
@@ -49,7 +109,8 @@ try_vendor() {
     { compose logs --tail 20 >&2; fail "$RDS_BUS: no map arrived outside the containers"; }
   say "$RDS_BUS: the map arrived:"
   sed 's/^/  /' <<<"$map"
-  compose down --timeout 5 >/dev/null 2>&1
+  disturb
+  compose down --volumes --timeout 5 >/dev/null 2>&1
 }
 
 begun=$SECONDS

@@ -28,12 +28,18 @@ start_engine() {
   # A socket's path may have 107 characters at most.
   engine_run=$(mktemp -d)
   export DOCKER_HOST=unix://$engine_run/docker.sock
+  launch_engine
+  say "engine: one of our own"
+}
+
+# Waits until it answers.
+launch_engine() {
   PATH=$PATH:/usr/sbin dockerd --iptables=false --ip6tables=false --bridge=none --ip-forward=false \
     --data-root "$engine_folder/engine" --exec-root "$engine_run/exec" -p "$engine_run/pid" -H "$DOCKER_HOST" \
-    >"$engine_folder/engine.log" 2>&1 &
+    >>"$engine_folder/engine.log" 2>&1 &
   engine_pid=$!
   for _ in $(seq 60); do
-    ! docker info >/dev/null 2>&1 || { say "engine: one of our own"; return; }
+    ! docker info >/dev/null 2>&1 || return 0
     kill -0 "$engine_pid" 2>/dev/null || break
     sleep 0.5
   done

@@ -81,13 +81,13 @@ is_unhealthy() { [ "$(docker inspect --format '{{.State.Health.Status}}' "$(comp
 disturb() {
   say "$RDS_BUS: the mapper is stopped"
   signal_service mapper STOP
-  wait_for 10 "a stopped mapper is seen" eval '! status --service mapper'
-  wait_for 60 "its container is unhealthy" is_unhealthy mapper
+  wait_for 60 "a stopped mapper is seen" eval '! status --service mapper'
+  wait_for 180 "its container is unhealthy" is_unhealthy mapper
   signal_service mapper CONT
-  wait_for 10 "it is well again" status --service mapper
+  wait_for 60 "it is well again" status --service mapper --wait 20
   say "$RDS_BUS: the loop closer is killed"
   signal_service loop-closer KILL
-  wait_for 20 "it comes back" eval 'status --service loop-closer && status'
+  wait_for 60 "it comes back" status --wait 20
 }
 
 # One whole run on a vendor; the map is asked for from this machine, outside the containers.

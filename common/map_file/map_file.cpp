@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/map_file/map_file.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 #include <openssl/sha.h>
 
@@ -92,22 +89,14 @@ tl::expected<void, std::string> write_map_file(const fs::path& file, const Secti
   return write_atomically(file, to_bytes(sections));
 }
 
-tl::expected<Sections, std::string> read_map_file(const fs::path& file) {
-  std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file, error))
-    return tl::unexpected(fmt::format("{}: cannot be read, expected a saved map (map.rds)", file.string()));
-  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-  auto sections = sections_from_bytes(bytes);
+tl::expected<Sections, std::string> read_map_file(const fs::path& file, const FileLimits& limits) {
+  const auto bytes = read_regular_file(file, limits);
+  if (!bytes)
+    return tl::unexpected(fmt::format("{}: cannot be read, expected a saved map (map.rds): {}", file.string(),
+                                      bytes.error()));
+  auto sections = sections_from_bytes(*bytes);
   if (!sections) return tl::unexpected(fmt::format("{}: {}", file.string(), sections.error()));
   return sections;
-}
-
-bool looks_like_map_file(const fs::path& file) {
-  std::array<std::uint8_t, kMagic.size()> start{};
-  std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(start.data()), start.size());
-  return in && start == kMagic;
 }
 
 }  // namespace rds::map_file

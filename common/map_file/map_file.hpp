@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "common/map_file/byte_writer.hpp"
+#include "common/map_file/regular_file.hpp"
 
 namespace rds::map_file {
 
@@ -30,11 +31,10 @@ tl::expected<Sections, std::string> sections_from_bytes(std::span<const std::uin
 /// @return or one sentence naming the file.
 tl::expected<void, std::string> write_map_file(const std::filesystem::path& file, const Sections& sections);
 
+/// Reads a regular file.
 /// @return the sections; or one sentence naming the file and what was expected, for a file that cannot be
-/// read, is not a saved map, was written by a newer version, is torn or was altered.
-tl::expected<Sections, std::string> read_map_file(const std::filesystem::path& file);
-
-/// True if the file starts as a saved map does.
-bool looks_like_map_file(const std::filesystem::path& file);
+/// read, is too large, is not a saved map, was written by a newer version, is torn or was altered.
+tl::expected<Sections, std::string> read_map_file(const std::filesystem::path& file,
+                                                  const FileLimits& limits = {});
 
 }  // namespace rds::map_file

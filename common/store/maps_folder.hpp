@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -16,6 +17,7 @@ struct MapsConfig {
   bool checkpoint = true;   // the live map is kept in checkpoints/ below it, and taken back at a start
   double checkpoint_s = 5;  // between two checkpoints, when something has changed
   double backup_s = 600;    // between two copies of it, which serve if it is damaged; 0: none
+  std::uint64_t max_map_mb = 4000;  // a larger file of a saved map is not read
 
   bool operator==(const MapsConfig&) const = default;
 };

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/map_file/atomic_file.hpp"
 #include "tools/evaluation/plot_panel.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 
@@ -153,16 +154,14 @@ cv::Mat draw_trajectory_plot(const TrajectoryPlotInput& input) {
 
 tl::expected<void, std::string> write_trajectory_plot(const std::filesystem::path& file,
                                                       const TrajectoryPlotInput& input) {
-  bool written = false;
+  std::vector<std::uint8_t> content;
   try {
-    written = cv::imwrite(file.string(), draw_trajectory_plot(input));
-  } catch (const cv::Exception&) {
-    written = false;  // an ending that is no picture format
-  }
-  if (!written)
+    cv::imencode(file.extension().string(), draw_trajectory_plot(input), content);
+  } catch (const cv::Exception&) {  // an ending that is no picture format
     return tl::unexpected(
         fmt::format("{}: cannot be written, expected a picture file such as plot.png", file.string()));
-  return {};
+  }
+  return map_file::write_atomically(file, content);
 }
 
 }  // namespace rds::evaluation

@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include <pthread.h>
+#include <unistd.h>
 
 namespace rds {
 namespace {
@@ -16,6 +17,7 @@ sigset_t interrupt_signals() {
   return signals;
 }
 
+constexpr int kKilledBy = 128;  // exit status of a process that a signal has ended, without the signal's number
 constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 100'000'000};
 
 }  // namespace
@@ -24,8 +26,12 @@ Interrupt::Interrupt() {
   const sigset_t signals = interrupt_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   waiter_ = std::jthread([this, signals](const std::stop_token& stop) {
-    while (!stop.stop_requested())
-      if (sigtimedwait(&signals, nullptr, &kPollInterval) > 0) source_.request_stop();
+    while (!stop.stop_requested()) {
+      const int received = sigtimedwait(&signals, nullptr, &kPollInterval);
+      if (received <= 0) continue;
+      if (source_.stop_requested()) _exit(kKilledBy + received);
+      source_.request_stop();
+    }
   });
 }
 

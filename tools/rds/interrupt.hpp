@@ -6,7 +6,8 @@
 
 namespace rds {
 
-/// Turns Ctrl-C and SIGTERM into a stop request, as long as it lives. Make it before any other thread starts.
+/// Turns Ctrl-C and SIGTERM into a stop request, as long as it lives; a second one ends the process at once.
+/// Make it before any other thread starts.
 class Interrupt {
  public:
   Interrupt();

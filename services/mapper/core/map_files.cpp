@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/map_files.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -19,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using map_file::write_atomically;
 
-std::string start_of(const fs::path& file) {
-  std::string start(kOctomapStartBytes, ' ');
-  std::ifstream in(file, std::ios::binary);
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start.substr(0, static_cast<std::size_t>(in.gcount()));
-}
-
 }  // namespace
 
 WriteResult write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
@@ -41,23 +32,23 @@ WriteResult write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
   return write_atomically(file, content);
 }
 
-tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const fs::path& file) {
-  std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file, error))
-    return tl::unexpected(fmt::format("{}: cannot be read, expected a saved map (map.ot)", file.string()));
-  const std::vector<std::uint8_t> content{std::istreambuf_iterator<char>(in), {}};
-  auto tree = tree_from_octomap_file(content);
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const fs::path& file,
+                                                                       const map_file::FileLimits& limits) {
+  const auto content = map_file::read_regular_file(file, limits);
+  if (!content)
+    return tl::unexpected(fmt::format("{}: cannot be read, expected a saved map (map.ot): {}", file.string(),
+                                      content.error()));
+  auto tree = tree_from_octomap_file(*content);
   if (!tree) return tl::unexpected(fmt::format("{}: {}", file.string(), tree.error()));
   return tree;
 }
 
 bool looks_like_tree(const fs::path& file) {
-  return starts_as_octomap_file(start_of(file));
+  return starts_as_octomap_file(map_file::start_of_file(file, kOctomapStartBytes));
 }
 
 bool looks_like_binary_tree(const fs::path& file) {
-  return starts_as_binary_octomap_file(start_of(file));
+  return starts_as_binary_octomap_file(map_file::start_of_file(file, kOctomapStartBytes));
 }
 
 WriteResult write_objects(const fs::path& file, std::span<const MapObject> objects) {

@@ -9,6 +9,7 @@
 #include <octomap/ColorOcTree.h>
 #include <tl/expected.hpp>
 
+#include "common/map_file/regular_file.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
 #include "services/mapper/core/types.hpp"
 
@@ -24,7 +25,8 @@ WriteResult write_tree(const std::filesystem::path& file, const octomap::ColorOc
 /// Reads map.ot, or a .bt file of OctoMap. What is neither, is cut off, or has bytes behind its end is
 /// refused.
 /// @return one sentence naming the file and what was expected.
-tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const std::filesystem::path& file);
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(
+    const std::filesystem::path& file, const map_file::FileLimits& limits = {});
 
 /// True if the file starts as OctoMap's .ot and .bt files do.
 bool looks_like_tree(const std::filesystem::path& file);

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <octomap/ColorOcTree.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tools/rds/map_picture.hpp"
+#include "tools/rds/run/result_file.hpp"
 
 namespace rds::run {
 namespace {
@@ -48,9 +48,7 @@ void write_map_image(const std::filesystem::path& folder, const std::string& des
     scene.labels = json.value("labels", std::vector<std::string>{});
     if (json.contains("up")) options.up = vector_of(json["up"]);
   }
-  const auto file = folder / "map.png";
-  if (!cv::imwrite(file.string(), tools::render_map(scene, options)))
-    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_picture(folder / "map.png", tools::render_map(scene, options));
 }
 
 }  // namespace rds::run

@@ -2,8 +2,10 @@
 #include "tools/rds/run/mjpeg_avi.hpp"
 
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 namespace rds::run {
@@ -40,10 +42,13 @@ void zeros(std::ostream& out, int words) {
 }  // namespace
 
 MjpegAvi::MjpegAvi(const std::filesystem::path& file, double frames_per_second)
-    : out_(file, std::ios::binary), frames_per_second_(frames_per_second) {}
+    : file_(file), out_(file, std::ios::binary), frames_per_second_(frames_per_second) {}
 
 MjpegAvi::~MjpegAvi() {
-  close();
+  try {
+    close();
+  } catch (const std::exception&) {  // of a run that was broken off
+  }
 }
 
 void MjpegAvi::add(const cv::Mat& bgr) {
@@ -63,7 +68,8 @@ void MjpegAvi::add(const cv::Mat& bgr) {
 }
 
 void MjpegAvi::close() {
-  if (!out_.is_open() || offsets_.empty()) return;
+  if (closed_ || offsets_.empty()) return;
+  closed_ = true;
   tag(out_, "idx1");
   u32(out_, static_cast<std::uint32_t>(16 * offsets_.size()));
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
@@ -75,6 +81,7 @@ void MjpegAvi::close() {
   out_.seekp(0);
   write_header(movi_bytes_ + 8 + static_cast<std::uint32_t>(16 * offsets_.size()));
   out_.close();
+  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file_.string()));
 }
 
 void MjpegAvi::write_header(std::uint32_t data_bytes) {

@@ -4,8 +4,11 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "common/map_file/replace_folder.hpp"
 
 namespace rds::run {
 namespace fs = std::filesystem;
@@ -45,9 +48,12 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::publish() {
-  fs::remove_all(wanted_);
-  fs::rename(partial_, wanted_);
+  const auto replaced = map_file::replace_folder(AT_FDCWD, partial_, AT_FDCWD, wanted_);
+  if (!replaced)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", wanted_.string(), replaced.error()));
   published_ = true;
+  std::error_code ignored;
+  if (*replaced) fs::remove_all(partial_, ignored);  // the earlier run
 }
 
 }  // namespace rds::run

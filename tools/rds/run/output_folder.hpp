@@ -20,7 +20,8 @@ class OutputFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
 
-  /// Gives the folder its final name. @throws std::filesystem::filesystem_error
+  /// Gives the folder its final name. An earlier run is there until then, and removed afterwards.
+  /// @throws std::runtime_error with one sentence; the earlier run is then left as it was.
   void publish();
 
  private:

@@ -6,6 +6,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "tools/rds/run/overlay.hpp"
+#include "tools/rds/run/result_file.hpp"
 
 namespace rds::run {
 namespace {
@@ -42,9 +43,20 @@ std::optional<OverlayWriter::Picture> OverlayWriter::take_picture(std::int64_t s
 }
 
 void OverlayWriter::draw_all(const std::stop_token& stop) {
-  while (mailbox_.wait(stop, [this] { return !features_.locked_empty(); }))
-    while (const auto features = features_.try_pop()) draw(*features);
-  while (const auto features = features_.try_pop()) draw(*features);
+  const auto draw_waiting = [this] {
+    while (const auto features = features_.try_pop())
+      if (!failure_) draw_or_fail(*features);
+  };
+  while (mailbox_.wait(stop, [this] { return !features_.locked_empty(); })) draw_waiting();
+  draw_waiting();
+}
+
+void OverlayWriter::draw_or_fail(const Features& features) {
+  try {
+    draw(features);
+  } catch (const std::exception&) {
+    failure_ = std::current_exception();
+  }
 }
 
 void OverlayWriter::draw(const Features& features) {
@@ -57,13 +69,14 @@ void OverlayWriter::draw(const Features& features) {
       draw_overlay(picture->color.bgr(), *features, recorder_.predictions(stamp_ns), *frame);
   if (video_) video_->add(drawn);
   if (picture->index % kEvery == 0)
-    cv::imwrite((folder_ / "overlay" / fmt::format("{:06}.jpg", picture->index)).string(), drawn,
-                {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+    write_picture(folder_ / "overlay" / fmt::format("{:06}.jpg", picture->index), drawn,
+                  {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
 }
 
 void OverlayWriter::finish() {
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
   if (video_) video_->close();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -27,7 +28,7 @@ class OverlayWriter {
   /// The picture of one frame, before or after its features arrive. Shares the pixels.
   void add_picture(std::size_t index, const image::RgbdFrame& frame);
 
-  /// Draws what is left and closes the files.
+  /// Draws what is left and closes the files. @throws std::runtime_error naming a file that cannot be written.
   void finish();
 
  private:
@@ -38,6 +39,7 @@ class OverlayWriter {
   };
   void draw_all(const std::stop_token& stop);
   void draw(const Features& features);
+  void draw_or_fail(const Features& features);
   std::optional<Picture> take_picture(std::int64_t stamp_ns);
 
   Recorder& recorder_;
@@ -48,6 +50,7 @@ class OverlayWriter {
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Features> features_;
   bus::Subscription subscription_;
+  std::exception_ptr failure_;  // of the thread, which then draws no more
   std::jthread thread_;  // last: it uses the members above
 };
 

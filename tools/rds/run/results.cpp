@@ -2,7 +2,6 @@
 #include "tools/rds/run/results.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "tools/evaluation/trajectory_evaluation.hpp"
 #include "tools/evaluation/trajectory_plot.hpp"
 #include "tools/rds/run/map_image.hpp"
+#include "tools/rds/run/result_file.hpp"
 #include "tools/rds/run/run_files.hpp"
 
 namespace rds::run {
@@ -31,12 +31,6 @@ std::span<const StampedPose> truth_of(const image::TumDataset& dataset) {
 std::optional<double> ate_of(const image::TumDataset& dataset, const std::vector<StampedPose>& poses) {
   const auto errors = evaluation::evaluate_trajectory(truth_of(dataset), poses);
   return errors ? std::optional(errors->absolute_m.rmse) : std::nullopt;
-}
-
-void write_summary(const nlohmann::ordered_json& summary, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << messages::to_text(summary, 2) << '\n';
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
 }
 
 void print_main_figures(const nlohmann::ordered_json& s) {
@@ -68,7 +62,7 @@ void write_all_results(SummaryInput input, const image::TumDataset& dataset,
         {truth_of(dataset), optimized, input.options.dataset.lexically_normal().filename().string()}));
   if (std::filesystem::exists(folder / "map.ot")) write_map_image(folder, input.map_description, optimized);
   const auto summary = summarize(input);
-  write_summary(summary, folder / "summary.json");
+  write_result(folder / "summary.json", messages::to_text(summary, 2) + '\n');
   print_main_figures(summary);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/run/run_files.hpp"
 
-#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "common/geometry/stamp.hpp"
 #include "common/geometry/trajectory.hpp"
 #include "common/messages/json.hpp"
+#include "tools/rds/run/result_file.hpp"
 
 namespace rds::run {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 using geometry::format_stamp;
 using geometry::StampedPose;
 using nlohmann::ordered_json;
-
-std::ofstream open(const std::filesystem::path& file) {
-  std::ofstream out(file);
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-  return out;
-}
 
 void write(const std::filesystem::path& file, const std::vector<StampedPose>& poses) {
   const auto written = geometry::write_trajectory(file, poses);
@@ -38,7 +33,7 @@ std::vector<StampedPose> keyframes(const Recording& recording) {
 }
 
 void write_frames(const Recording& recording, const std::filesystem::path& file) {
-  std::ofstream out = open(file);
+  std::ostringstream out;
   out << "stamp,state,features,dynamic_features,inliers,extract_ms,predict_ms,track_ms,total_ms,boxes\n";
   for (const auto& [stamp, f] : recording.frames) {
     const auto boxes = recording.predictions.find(stamp);
@@ -46,6 +41,7 @@ void write_frames(const Recording& recording, const std::filesystem::path& file)
                        f.features, f.dynamic_features, f.inliers, f.extract_ms, f.predict_ms, f.track_ms,
                        f.total_ms, boxes == recording.predictions.end() ? 0 : boxes->second.size());
   }
+  write_result(file, out.str());
 }
 
 /// A number with at most `decimals` decimals, so that files stay readable and equal runs give equal bytes.
@@ -65,12 +61,13 @@ ordered_json to_json(const Eigen::Vector3d& v) {
 template <class Records, class ToJson>
 void write_lines(const std::map<std::int64_t, Records>& by_stamp, const std::string& name,
                  const std::filesystem::path& file, ToJson to_json_of) {
-  std::ofstream out = open(file);
+  std::ostringstream out;
   for (const auto& [stamp, records] : by_stamp) {
     auto list = ordered_json::array();
     for (const auto& record : records) list.push_back(to_json_of(record));
     out << fmt::format("{{\"stamp\": {}, \"{}\": {}}}\n", format_stamp(stamp), name, messages::to_text(list));
   }
+  write_result(file, out.str());
 }
 
 ordered_json detection_json(const DetectionRecord& d) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/run/service_commands.hpp"
 
-#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "services/mapper/mapper_service_config.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "services/transformer/transformer_service_config.hpp"
+#include "tools/rds/run/result_file.hpp"
 #include "tools/rds/run/topology.hpp"
 
 namespace rds::run {
@@ -71,9 +71,7 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
 }
 
 fs::path write_config(const YAML::Node& node, const fs::path& file) {
-  std::ofstream out(file);
-  out << YAML::Dump(node) << '\n';
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_result(file, YAML::Dump(node) + '\n');
   return file;
 }
 

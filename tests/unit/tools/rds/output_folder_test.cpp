@@ -37,6 +37,26 @@ TEST(OutputFolder, OverwritesAnEarlierRunOnlyWhenForced) {
   EXPECT_EQ(test::read_text(place / "out" / "summary.json"), "new");
 }
 
+TEST(OutputFolder, LeavesTheEarlierRunWhenItCannotBePublished) {
+  const TemporaryFolder place;
+  write_text(place / "out" / "summary.json", "old");
+  OutputFolder folder(place / "out", true);
+  remove_all(folder.path());
+  EXPECT_THROW(folder.publish(), std::runtime_error);
+  EXPECT_EQ(test::read_text(place / "out" / "summary.json"), "old");
+}
+
+TEST(OutputFolder, LeavesNothingOfTheEarlierRunWhenItIsPublished) {
+  const TemporaryFolder place;
+  write_text(place / "out" / "summary.json", "old");
+  write_text(place / "out" / "overlay" / "000000.jpg", "old");
+  OutputFolder folder(place / "out", true);
+  write_text(folder.path() / "summary.json", "new");
+  folder.publish();
+  EXPECT_FALSE(exists(place / "out" / "overlay"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place.path()), {}), 1);
+}
+
 TEST(OutputFolder, NeverReplacesAFolderThatIsNoRun) {
   const TemporaryFolder place;
   write_text(place / "out" / "thesis.tex", "precious");

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/rds/run/mjpeg_avi.hpp"
+#include "tools/rds/run/result_file.hpp"
 
 namespace rds::run {
 namespace {
@@ -73,6 +76,38 @@ TEST_F(RunFilesTest, TablesHaveALinePerFrame) {
       HasSubstr(R"({"stamp": 1.000000, "boxes": [{"id":7,"label":"person","box":[1.0,2.0,3.46,4.0])"));
   EXPECT_THAT(text("predictions.jsonl"), HasSubstr(R"({"stamp": 1.033000, "boxes": []})"));
   EXPECT_THAT(text("detections.jsonl"), HasSubstr(R"("score":0.9,"box":[1.0,2.0,3.0,4.0],"depth_m":1.5)"));
+}
+
+/// Where a disk is full nothing looks like a result.
+TEST(RunFilesOnAFullDisk, EveryWriterSaysWhichFileHasNoRoom) {
+  const test::TemporaryFolder place;
+  const auto fault = [](const auto& write) -> std::string {
+    const test::FileSizeLimit limit(100);
+    try {
+      write();
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  Recording recording;  // without poses: trajectories are short enough
+  for (int i = 0; i < 20; ++i) recording.frames[i] = {.stamp_ns = i, .state = "LOST", .has_pose = false};
+  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }), HasSubstr("frames.csv: cannot be written"));
+  recording.frames.clear();
+  recording.detections[1] = two_frames().detections.begin()->second;
+  recording.detections[2] = recording.detections[1];
+  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }),
+              HasSubstr("detections.jsonl: cannot be written"));
+  EXPECT_THAT(fault([&] { write_result(place / "summary.json", std::string(200, ' ')); }),
+              HasSubstr("summary.json: cannot be written"));
+  EXPECT_THAT(fault([&] { write_picture(place / "map.png", cv::Mat::zeros(50, 50, CV_8UC3)); }),
+              HasSubstr("map.png: cannot be written"));
+  EXPECT_THAT(fault([&] {
+                MjpegAvi video(place / "overlay.avi", 30);
+                video.add(cv::Mat::zeros(50, 50, CV_8UC3));
+                video.close();
+              }),
+              HasSubstr("overlay.avi: cannot be written"));
 }
 
 }  // namespace

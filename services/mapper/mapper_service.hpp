@@ -85,7 +85,7 @@ class MapperService : public service::Service {
   WaitingKeyframes waiting_;
   WaitingBoxes waiting_boxes_;
   std::map<std::int64_t, Integrated> integrated_by_stamp_;  // the newest of each stamp
-  Poses early_poses_;  // of an epoch whose first keyframe has not come yet
+  std::vector<Poses> early_poses_;  // of an epoch whose first keyframe has not come yet, in order
   messages::KeyframePoseTable tracker_poses_;
   std::vector<KeyframePose> poses_;
   std::uint64_t poses_revision_ = 0;  // of the newest LOCAL poses

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxEarlierEpochs = 16;
 constexpr std::uint8_t kLocal = 0;
+constexpr std::size_t kMaxEarlyPoses = 100;
 
 }  // namespace
 
@@ -64,7 +65,7 @@ void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) 
   forget_keyframes();
   waiting_boxes_.forget_before(stamp_ns);
   if (mapper_.revision() > 0) publish_all();
-  if (const Poses early = std::exchange(early_poses_, nullptr)) take(early);
+  for (const Poses& early : std::exchange(early_poses_, {})) take(early);
 }
 
 void MapperService::forget_keyframes() {
@@ -121,7 +122,8 @@ void MapperService::take(const Poses& message) {
   if (!local && !is_of_loop_closer(message)) return;
   if (message->map_epoch() != mapper_.map_epoch()) {
     if (!config_.localize_only) {
-      early_poses_ = message;
+      if (early_poses_.size() >= kMaxEarlyPoses) early_poses_.clear();  // the next ones with all poses will do
+      early_poses_.push_back(message);  // all of them: the first tells all poses, the next ones what changed
       return;
     }
     begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));

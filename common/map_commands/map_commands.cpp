@@ -47,7 +47,9 @@ MapCommands::~MapCommands() {
 }
 
 MapCommands::TakeOver MapCommands::carry_out(const Order& order, const std::stop_token& stop) const {
-  const map_file::FileLimits limits{config_.max_map_mb * 1'000'000, order.deadline, stop};
+  map_file::FileLimits limits = limits_of(config_);
+  limits.deadline = order.deadline;
+  limits.stop = stop;
   try {
     return order.job(limits);
   } catch (const std::exception& e) {

@@ -18,6 +18,11 @@
 
 namespace rds::map_commands {
 
+/// Of files of saved maps, as configured.
+inline map_file::FileLimits limits_of(const store::MapsConfig& config) {
+  return {.max_bytes = config.max_map_mb * 1'000'000};
+}
+
 /// The commands `save` and `load` of a service that has a part of the map.
 ///
 /// A thread of its own touches the disk, so that the worker goes on meanwhile; it does one command at a time,

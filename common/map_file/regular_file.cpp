@@ -26,8 +26,8 @@ std::optional<FileFault> fault_of(const FileLimits& limits) {
 tl::expected<std::size_t, FileFault> size_of(const Descriptor& file, const FileLimits& limits) {
   struct stat about {};
   if (!file.is_open() || fstat(file.number(), &about) != 0) return tl::unexpected(std::strerror(errno));
-  if (S_ISDIR(about.st_mode)) return tl::unexpected("is a folder, expected a file");
-  if (!S_ISREG(about.st_mode)) return tl::unexpected("is no regular file");
+  if (S_ISDIR(about.st_mode)) return tl::unexpected<FileFault>("is a folder, expected a file");
+  if (!S_ISREG(about.st_mode)) return tl::unexpected<FileFault>("is no regular file");
   const auto size = static_cast<std::uint64_t>(about.st_size);
   if (size <= limits.max_bytes) return static_cast<std::size_t>(size);
   return tl::unexpected(fmt::format("has {} bytes, expected at most {}", size, limits.max_bytes));

@@ -19,7 +19,7 @@ namespace rds::map_file {
 struct FileLimits {
   std::uint64_t max_bytes = std::uint64_t{4} << 30;  // of one file
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
-  std::stop_token stop;
+  std::stop_token stop = {};
 };
 
 /// What is wrong with a file, in words that can follow "FILE: ".

@@ -22,15 +22,6 @@ inline const std::string kLoopCloser = "loop_closer";
 /// The services that have a part of the map; each writes the section of its name.
 inline const std::array<std::string, 3> kParts{kTracker, kMapper, kLoopCloser};
 
-/// The file that a service writes into the folder of the command `save`: FOLDER/tracker.rds …
-std::filesystem::path service_file(const std::filesystem::path& folder, const std::string& service);
-
-/// Makes one map.rds of the services' files in a folder and removes these. What a service did not save is
-/// left out.
-/// @return or one sentence naming the file that is damaged, cannot be written, or that there is none.
-tl::expected<void, std::string> merge_service_files(const std::filesystem::path& folder,
-                                                    const std::filesystem::path& target);
-
 /// A saved map from what a user names: the file, or a folder that holds map.rds. @return or one sentence.
 tl::expected<Sections, std::string> read_saved_map(const std::filesystem::path& path,
                                                    const FileLimits& limits = {});

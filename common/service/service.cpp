@@ -29,6 +29,7 @@ void Service::handle_commands() {
   while (auto command = commands_.try_pop()) {
     CommandOutcome outcome;
     try {
+      if (begin(*command)) continue;
       outcome = execute(command->verb, command->argument);
     } catch (const std::exception& e) {
       ++context_.diagnostics.counter("commands failed");

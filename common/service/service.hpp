@@ -33,11 +33,13 @@ struct CommandOutcome {
   std::string message;  // what was done, or why not
 };
 
-/// A command on its way to the worker, and how to answer it.
+/// A command on its way to the worker, and how to answer it: once, from any thread.
 struct PendingCommand {
   std::string verb;
   std::string argument;
   std::function<void(const CommandOutcome&)> answer;
+  std::uint64_t request_id = 0;
+  bool to_all = false;  // not to this service alone
 };
 
 /// One worker thread that owns a core; bus callbacks only fill its inboxes.
@@ -61,11 +63,17 @@ class Service {
   [[nodiscard]] std::chrono::steady_clock::duration silent_for() const;
 
  protected:
+  /// Begins a command that is answered later, on the worker. @return false for all others: they are for
+  /// execute().
+  virtual bool begin(const PendingCommand& command) {
+    (void)command;
+    return false;
+  }
   /// Carries a command out, on the worker. Unknown verbs: unknown_command().
   virtual CommandOutcome execute(const std::string& verb, const std::string& argument) = 0;
   [[nodiscard]] static CommandOutcome unknown_command(const std::string& verb);
 
-  /// Answers all waiting commands, on the worker; an exception becomes the answer.
+  /// Begins or answers all waiting commands, on the worker; an exception becomes the answer.
   void handle_commands();
 
   /// The worker is alive. Called by wait(), and where one step of the worker may take seconds.

@@ -23,10 +23,10 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       tracker_(context.bus),
       loop_closer_(config.loop_closer),
+      map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
-  if (!config.map_file.empty())
-    if (const auto started = start_from(config.map_file); !started) throw std::runtime_error(started.error());
+  if (!config.map_file.empty()) read_start(config);
   if (!config.localize_only)
     subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
         "rds/keyframe/features", bus::kKeyframeFeatures,
@@ -35,9 +35,21 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
 }
 
+/// @throws std::runtime_error with one sentence.
+void LoopCloserService::read_start(const LoopCloserServiceConfig& config) {
+  const auto sections = map_file::read_saved_map(config.map_file, {map_file::kKeyframePoses},
+                                                 map_commands::limits_of(config.maps));
+  if (!sections) throw std::runtime_error(sections.error());
+  if (const auto started = start_from(*sections, config.map_file); !started)
+    throw std::runtime_error(started.error());
+}
+
 void LoopCloserService::run(const std::stop_token& stop) {
-  while (wait(stop, [this] { return !features_.locked_empty() || !commands_.locked_empty(); })) {
+  while (wait(stop, [this] {
+    return !features_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
+  })) {
     handle_commands();
+    map_commands_.settle();
     if (const auto features = features_.try_pop())
       guarded("rds/keyframe/features", [&] { take(*features); });
   }
@@ -88,9 +100,8 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
   poses_.write(corrected_);
 }
 
-service::CommandOutcome LoopCloserService::execute(const std::string& verb, const std::string& argument) {
-  if (verb == "save") return save(argument);
-  if (verb == "load") return load(argument);
+service::CommandOutcome LoopCloserService::execute(const std::string& verb,
+                                                   const std::string& /*argument*/) {
   if (verb == "reset") {
     loop_closer_.reset();
     corrected_ = {};
@@ -103,19 +114,17 @@ service::CommandOutcome LoopCloserService::execute(const std::string& verb, cons
   return unknown_command(verb);
 }
 
-tl::expected<void, std::string> LoopCloserService::start_from(const std::filesystem::path& saved_map) {
+tl::expected<void, std::string> LoopCloserService::start_from(const map_file::Sections& saved,
+                                                              const std::filesystem::path& from) {
   const auto refuse = [&](const std::string& why) {
-    return tl::unexpected(fmt::format("{}: loops cannot be closed to it: {}", saved_map.string(), why));
+    return tl::unexpected(fmt::format("{}: loops cannot be closed to it: {}", from.string(), why));
   };
-  const auto sections = map_file::read_saved_map(saved_map, {map_file::kKeyframePoses});
-  if (!sections) return tl::unexpected(sections.error());
-  const auto own = sections->find(map_file::kLoopCloser);
-  if (own == sections->end()) {
-    spdlog::warn("{}: was saved without a loop closer, so none of its keyframes is known",
-                 saved_map.string());
+  const auto own = saved.find(map_file::kLoopCloser);
+  if (own == saved.end()) {
+    spdlog::warn("{}: was saved without a loop closer, so none of its keyframes is known", from.string());
     return {};
   }
-  const auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
+  const auto poses = map_file::keyframe_poses_from_bytes(saved.at(map_file::kKeyframePoses));
   if (!poses) return refuse(poses.error());
   if (const auto started = loop_closer_.start_from(own->second, *poses); !started)
     return refuse(started.error());
@@ -123,16 +132,30 @@ tl::expected<void, std::string> LoopCloserService::start_from(const std::filesys
   return {};
 }
 
-service::CommandOutcome LoopCloserService::save(const std::string& folder) const {
-  const auto written = map_file::write_map_file(map_file::service_file(folder, map_file::kLoopCloser),
-                                                {{map_file::kLoopCloser, loop_closer_.to_bytes()}});
-  if (!written) return {false, written.error()};
-  return {true, "keyframes written to " + folder};
-}
-
-service::CommandOutcome LoopCloserService::load(const std::string& saved_map) {
-  if (const auto started = start_from(saved_map); !started) return {false, started.error()};
-  return {true, "keyframes of " + saved_map};
+/// `save` and `load`; from a map that cannot be read or does not fit nothing is taken over.
+bool LoopCloserService::begin(const service::PendingCommand& command) {
+  if (command.verb == "save") {
+    map_commands_.save(
+        command,
+        [this]() -> map_file::MapPart {
+          return {map_file::kLoopCloser, {{map_file::kLoopCloser, loop_closer_.to_bytes()}}, {}};
+        },
+        "keyframes");
+    return true;
+  }
+  if (command.verb != "load") return false;
+  using map_commands::MapCommands;
+  map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
+                                  -> tl::expected<MapCommands::TakeOver, std::string> {
+    auto sections = map_file::read_saved_map(map, {map_file::kKeyframePoses}, limits);
+    if (!sections) return tl::unexpected(sections.error());
+    const auto read = std::make_shared<map_file::Sections>(std::move(*sections));
+    return [this, read, from = map.path()]() -> service::CommandOutcome {
+      if (const auto started = start_from(*read, from); !started) return {false, started.error()};
+      return {true, "keyframes of " + from.filename().string()};
+    };
+  });
+  return true;
 }
 
 }  // namespace rds::loop_closer

@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/map_commands/map_commands.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
@@ -23,20 +24,22 @@ class LoopCloserService : public service::Service {
   void run(const std::stop_token& stop) override;
 
  protected:
+  bool begin(const service::PendingCommand& command) override;
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:
   using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
   void take(const Features& features);
-  tl::expected<void, std::string> start_from(const std::filesystem::path& saved_map);
-  [[nodiscard]] service::CommandOutcome save(const std::string& folder) const;
-  service::CommandOutcome load(const std::string& saved_map);
+  void read_start(const LoopCloserServiceConfig& config);
+  tl::expected<void, std::string> start_from(const map_file::Sections& saved,
+                                             const std::filesystem::path& from);
   void answer(const Features& features, const LoopAnswer& answer);
 
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
   bool paused_ = false;
+  map_commands::MapCommands map_commands_;
   rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop
   int repeats_ = 0;                         // answers that still carry its poses
   concurrency::Inbox<Features> features_;

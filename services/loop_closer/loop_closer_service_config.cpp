@@ -8,6 +8,7 @@ void read(config::ConfigReader& reader, LoopCloserServiceConfig& config) {
   reader.value("lockstep", config.lockstep);
   reader.value("map_file", config.map_file);
   reader.value("localize_only", config.localize_only);
+  read(reader, config.maps);
   read(reader, config.loop_closer);
 }
 

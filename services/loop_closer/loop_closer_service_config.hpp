@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/config/config_reader.hpp"
+#include "common/store/maps_folder.hpp"
 #include "services/loop_closer/core/loop_closer_config.hpp"
 
 namespace rds::loop_closer {
@@ -11,6 +12,7 @@ struct LoopCloserServiceConfig {
   bool lockstep = false;       // no keyframe is ever dropped
   std::string map_file;        // saved map whose keyframes it starts from; empty: none
   bool localize_only = false;  // keyframes are not listened to
+  store::MapsConfig maps;
   LoopCloserConfig loop_closer;
 
   bool operator==(const LoopCloserServiceConfig&) const = default;

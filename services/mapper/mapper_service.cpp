@@ -33,11 +33,12 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
       waiting_boxes_(kMaxBoxes),
+      map_commands_(mailbox_, config.maps, map_file::kMapper),
       images_inbox_(mailbox_, max_waiting(config)),
       boxes_inbox_(mailbox_, kMaxMessages),
       poses_inbox_(mailbox_, kMaxMessages) {
   if (!config.map_file.empty()) {
-    if (const auto started = start_from(config.map_file); !started) throw std::runtime_error(started.error());
+    read_start();
     publish_all();
   }
   if (!config.localize_only) subscribe_to_keyframes();
@@ -60,8 +61,11 @@ void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
   while (!stop.stop_requested()) {
     beat();
-    mailbox_.wait_for(stop, kReaderLook, [this] { return something_arrived() || !commands_.locked_empty(); });
+    mailbox_.wait_for(stop, kReaderLook, [this] {
+      return something_arrived() || !commands_.locked_empty() || map_commands_.locked_ready();
+    });
     handle_commands();
+    map_commands_.settle();
     take_arrivals();
     if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;

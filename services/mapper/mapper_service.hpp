@@ -12,6 +12,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/map_commands/map_commands.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
@@ -32,6 +33,7 @@ class MapperService : public service::Service {
   void run(const std::stop_token& stop) override;
 
  protected:
+  bool begin(const service::PendingCommand& command) override;
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:
@@ -68,9 +70,11 @@ class MapperService : public service::Service {
   [[nodiscard]] MapProgress progress() const;
   service::CommandOutcome finish(const std::string& argument);
   void subscribe_to_keyframes();
-  tl::expected<void, std::string> start_from(const std::filesystem::path& saved_map);
-  service::CommandOutcome save(const std::string& folder) const;
-  service::CommandOutcome load(const std::string& saved_map);
+  void read_start();
+  [[nodiscard]] map_file::MapPart map_part() const;
+  void load(const service::PendingCommand& command);
+  service::CommandOutcome take_over(const tl::expected<void, std::string>& started,
+                                    const std::filesystem::path& from);
   void wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes);
 
   MapperServiceConfig config_;
@@ -96,6 +100,7 @@ class MapperService : public service::Service {
   int since_full_ = 0;
   int since_correction_ = 0;
   bool paused_ = false;
+  map_commands::MapCommands map_commands_;
   concurrency::Inbox<Images> images_inbox_;
   concurrency::Inbox<Boxes> boxes_inbox_;
   concurrency::Inbox<Poses> poses_inbox_;

@@ -6,6 +6,7 @@
 #include "common/map_file/saved_map.hpp"
 #include "common/messages/json.hpp"
 #include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/octomap_file.hpp"
 #include "services/mapper/mapper_service.hpp"
 
 namespace rds::mapper {
@@ -14,12 +15,14 @@ namespace {
 constexpr std::chrono::seconds kRestLimit{30};          // lockstep: everything that was sent must come
 constexpr std::chrono::milliseconds kQuietLimit{1500};  // real time: what has not come by then was dropped
 
+std::string not_mapped_on(const std::filesystem::path& from, const std::string& why) {
+  return fmt::format("{}: cannot be mapped on: {}", from.string(), why);
+}
+
 }  // namespace
 
 service::CommandOutcome MapperService::execute(const std::string& verb, const std::string& argument) {
   if (verb == "finish") return finish(argument);
-  if (verb == "save") return save(argument);
-  if (verb == "load") return load(argument);
   if (verb == "reset") {
     mapper_.reset(mapper_.map_epoch());
     outputs_.begin_map();
@@ -75,36 +78,65 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
   }
 }
 
-/// From a saved map, or from OctoMap's tree in a file.
-tl::expected<void, std::string> MapperService::start_from(const std::filesystem::path& saved_map) {
-  const auto refuse = [&](const std::string& why) {
-    return tl::unexpected(fmt::format("{}: cannot be mapped on: {}", saved_map.string(), why));
-  };
-  if (looks_like_tree(saved_map)) {
-    auto tree = read_tree(saved_map);
-    if (!tree) return tl::unexpected(tree.error());
-    const auto started = mapper_.start_from(std::move(**tree));
-    return started ? started : refuse(started.error());
+/// From the setting map_file: a saved map, or OctoMap's tree. @throws std::runtime_error with one sentence.
+void MapperService::read_start() {
+  const std::filesystem::path from = config_.map_file;
+  const auto limits = map_commands::limits_of(config_.maps);
+  tl::expected<void, std::string> started;
+  if (looks_like_tree(from)) {
+    auto tree = read_tree(from, limits);
+    if (!tree) throw std::runtime_error(tree.error());
+    started = mapper_.start_from(std::move(**tree));
+  } else {
+    const auto sections = map_file::read_saved_map(from, {map_file::kMapper}, limits);
+    if (!sections) throw std::runtime_error(sections.error());
+    started = mapper_.start_from(sections->at(map_file::kMapper));
   }
-  const auto sections = map_file::read_saved_map(saved_map, {map_file::kMapper});
-  if (!sections) return tl::unexpected(sections.error());
-  const auto started = mapper_.start_from(sections->at(map_file::kMapper));
-  return started ? started : refuse(started.error());
+  if (!started) throw std::runtime_error(not_mapped_on(from, started.error()));
 }
 
-service::CommandOutcome MapperService::save(const std::string& folder) const {
-  const std::filesystem::path place(folder);
-  for (const WriteResult& result :
-       {write_tree(place / "map.ot", mapper_.tree()),
-        write_objects(place / "objects.json", mapper_.objects()), write_grid(place, mapper_.grid()),
-        map_file::write_map_file(map_file::service_file(place, map_file::kMapper),
-                                 {{map_file::kMapper, mapper_.to_bytes()}})})
-    if (!result) return {false, result.error()};
-  return {true, fmt::format("map of {} nodes written to {}", mapper_.tree().size(), folder)};
+bool MapperService::begin(const service::PendingCommand& command) {
+  if (command.verb == "load") {
+    load(command);
+  } else if (command.verb == "save") {
+    map_commands_.save(
+        command, [this] { return map_part(); }, fmt::format("map of {} nodes", mapper_.tree().size()));
+  } else {
+    return false;
+  }
+  return true;
 }
 
-service::CommandOutcome MapperService::load(const std::string& saved_map) {
-  if (const auto started = start_from(saved_map); !started) return {false, started.error()};
+map_file::MapPart MapperService::map_part() const {
+  return {map_file::kMapper,
+          {{map_file::kMapper, mapper_.to_bytes()}},
+          files_for_others(mapper_.tree(), mapper_.objects(), mapper_.grid())};
+}
+
+/// Of a map that only OctoMap knows, its map.ot.
+void MapperService::load(const service::PendingCommand& command) {
+  using map_commands::MapCommands;
+  map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
+                                  -> tl::expected<MapCommands::TakeOver, std::string> {
+    const auto from = map.path();
+    if (!map.has_file(map_file::kMapFile) && map.has_file(kTreeFile)) {
+      const auto bytes = map.read(kTreeFile, limits);
+      auto tree = bytes ? tree_from_octomap_file(*bytes) : tl::unexpected(bytes.error());
+      if (!tree) return tl::unexpected(tree.error());
+      const auto read = std::make_shared<std::unique_ptr<octomap::ColorOcTree>>(std::move(*tree));
+      return [this, from, read] { return take_over(mapper_.start_from(std::move(**read)), from); };
+    }
+    auto sections = map_file::read_saved_map(map, {map_file::kMapper}, limits);
+    if (!sections) return tl::unexpected(sections.error());
+    const auto read = std::make_shared<map_file::Bytes>(std::move(sections->at(map_file::kMapper)));
+    return [this, from, read] { return take_over(mapper_.start_from(*read), from); };
+  });
+}
+
+/// The new map is published; of one that does not fit nothing has changed.
+service::CommandOutcome MapperService::take_over(const tl::expected<void, std::string>& started,
+                                                 const std::filesystem::path& from) {
+  if (!started) return {false, not_mapped_on(from, started.error())};
   outputs_.begin_map();
   forget_keyframes();
   publish_all();

@@ -12,6 +12,7 @@ void read(config::ConfigReader& reader, MapperServiceConfig& config) {
   reader.value("local_correction_every", config.local_correction_every, 1, 100000, "keyframes");
   reader.value("map_file", config.map_file);
   reader.value("localize_only", config.localize_only);
+  read(reader, config.maps);
   read(reader, config.mapper);
 }
 

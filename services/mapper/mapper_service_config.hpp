@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/config/config_reader.hpp"
+#include "common/store/maps_folder.hpp"
 #include "services/mapper/core/mapper_config.hpp"
 
 namespace rds::mapper {
@@ -17,6 +18,7 @@ struct MapperServiceConfig {
   int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to
+  store::MapsConfig maps;
   MapperConfig mapper;
 
   bool operator==(const MapperServiceConfig&) const = default;

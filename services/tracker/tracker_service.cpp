@@ -14,6 +14,7 @@
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/random_id.hpp"
 #include "services/tracker/pose_file.hpp"
+#include "services/tracker/saved_start.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -47,6 +48,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       boxes_inbox_(mailbox_, kMaxAnswers),
       poses_inbox_(mailbox_, kMaxAnswers),
       mapping_inbox_(mailbox_, 2),
+      map_commands_(mailbox_, config.maps, map_file::kTracker),
       mapping_worker_(config.tracker.local_mapping, config.mapping_nice, mapping_inbox_),
       boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
           "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
@@ -55,7 +57,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
             if (m->source() == kLoop) poses_inbox_.push(std::move(m));
           })) {
   if (!config.map_file.empty()) {
-    if (const auto read = read_start(config.map_file); !read) throw std::runtime_error(read.error());
+    start_ = read_start_or_throw(config);
     start_map();
   }
   spdlog::info("map epoch {:016x}", map_epoch_);
@@ -66,9 +68,11 @@ void TrackerService::run(const std::stop_token& stop) {
   const auto holds_frames = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
   while (wait(stop, [&] {
     return (!holds_frames() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
-           !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+           !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty() ||
+           map_commands_.locked_ready();
   })) {
     handle_commands();
+    map_commands_.settle();
     sort_in_arrivals();
     if (holds_frames()) continue;
     if (const auto frame = input_.frames().try_pop()) guarded("frame", [&] { take(*frame); });
@@ -252,10 +256,9 @@ void TrackerService::publish_poses() {
   outputs_.publish_poses(tracker_.keyframe_poses(), loops_);
 }
 
-service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& argument) {
+service::CommandOutcome TrackerService::execute(const std::string& verb,
+                                                const std::string& /*argument*/) {
   if (verb == "finish") return finish();
-  if (verb == "save") return save(argument);
-  if (verb == "load") return load(argument);
   if (verb == "reset") {
     reset();
     return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};

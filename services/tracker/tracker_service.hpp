@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "common/concurrency/helper_thread.hpp"
+#include "common/map_commands/map_commands.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/time/stamp_watch.hpp"
@@ -32,6 +32,7 @@ class TrackerService : public service::Service {
   void run(const std::stop_token& stop) override;
 
  protected:
+  bool begin(const service::PendingCommand& command) override;
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
   void idle() override;
 
@@ -62,9 +63,8 @@ class TrackerService : public service::Service {
   void publish_poses();
   void reset();
   void start_map();
-  tl::expected<void, std::string> read_start(const std::filesystem::path& saved_map);
-  service::CommandOutcome save(const std::string& folder) const;
-  service::CommandOutcome load(const std::string& saved_map);
+  [[nodiscard]] map_file::MapPart map_part() const;
+  void load(const service::PendingCommand& command);
   service::CommandOutcome finish();
 
   TrackerServiceConfig config_;
@@ -89,6 +89,7 @@ class TrackerService : public service::Service {
   std::uint64_t box_sets_used_ = 0;
   LoopState loops_;
   bool paused_ = false;
+  map_commands::MapCommands map_commands_;
   MappingWorker mapping_worker_;
   bus::Subscription boxes_subscription_;
   bus::Subscription poses_subscription_;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/config/config_reader.hpp"
+#include "common/store/maps_folder.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/tracker_config.hpp"
 
@@ -42,6 +43,7 @@ struct TrackerServiceConfig {
   std::string poses_file;        // TUM trajectory that the camera follows; empty: poses are estimated
   double poses_max_gap_s = 0.1;  // between neighbours that a pose is interpolated from
   std::string map_file;          // saved map that it starts from; empty: none
+  store::MapsConfig maps;
   TrackerConfig tracker;
   prediction::PredictionConfig prediction;
 

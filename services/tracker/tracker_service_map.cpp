@@ -3,25 +3,24 @@
 #include <spdlog/spdlog.h>
 
 #include "common/map_file/geometry_bytes.hpp"
-#include "common/map_file/saved_map.hpp"
 #include "services/tracker/core/map_bytes.hpp"
+#include "services/tracker/saved_start.hpp"
 #include "services/tracker/tracker_service.hpp"
 
 namespace rds::tracker {
 
-/// Reads what the next epoch begins with; after a fault everything is as before.
-tl::expected<void, std::string> TrackerService::read_start(const std::filesystem::path& saved_map) {
-  const auto refuse = [&](const std::string& why) {
-    return tl::unexpected(fmt::format("{}: cannot be tracked in: {}", saved_map.string(), why));
-  };
-  const auto sections = map_file::read_saved_map(saved_map, {map_file::kTracker, map_file::kKeyframePoses});
-  if (!sections) return tl::unexpected(sections.error());
-  const auto poses = map_file::keyframe_poses_from_bytes(sections->at(map_file::kKeyframePoses));
-  if (!poses) return refuse(poses.error());
-  auto map = map_from_bytes(sections->at(map_file::kTracker), *poses, config_.tracker);
-  if (!map) return refuse(map.error());
-  start_ = std::move(*map);
-  return {};
+bool TrackerService::begin(const service::PendingCommand& command) {
+  if (command.verb == "load") {
+    load(command);
+  } else if (command.verb == "save") {
+    const SlamMap& map = tracker_.map();
+    map_commands_.save(
+        command, [this] { return map_part(); },
+        fmt::format("{} keyframes and {} points", map.keyframes(), map.points()));
+  } else {
+    return false;
+  }
+  return true;
 }
 
 void TrackerService::start_map() {
@@ -31,22 +30,34 @@ void TrackerService::start_map() {
                tracker_.map().points());
 }
 
-service::CommandOutcome TrackerService::save(const std::string& folder) const {
+map_file::MapPart TrackerService::map_part() const {
   const SlamMap& map = tracker_.map();
-  const auto written = map_file::write_map_file(
-      map_file::service_file(folder, map_file::kTracker),
-      {{map_file::kTracker, to_bytes(map, tracker_.known_camera(), config_.tracker.extraction)},
-       {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}});
-  if (!written) return {false, written.error()};
-  return {true,
-          fmt::format("{} keyframes and {} points written to {}", map.keyframes(), map.points(), folder)};
+  return {map_file::kTracker,
+          {{map_file::kTracker, to_bytes(map, tracker_.known_camera(), config_.tracker.extraction)},
+           {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}},
+          {}};
 }
 
-service::CommandOutcome TrackerService::load(const std::string& saved_map) {
-  if (!config_.poses_file.empty()) return {false, "poses are given by poses_file, which know no saved map"};
-  if (const auto read = read_start(saved_map); !read) return {false, read.error()};
-  reset();
-  return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
+/// Begins a new map epoch with a saved map; after a fault everything is as before.
+void TrackerService::load(const service::PendingCommand& command) {
+  if (!config_.poses_file.empty())
+    return command.answer({false, "poses are given by poses_file, which know no saved map"});
+  using map_commands::MapCommands;
+  const auto take_over = [this](SavedMap saved) -> service::CommandOutcome {
+    start_ = std::move(saved);
+    reset();
+    return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
+  };
+  map_commands_.load(command, [config = config_.tracker, take_over](const map_file::Folder& map,
+                                                                    const map_file::FileLimits& limits)
+                                  -> tl::expected<MapCommands::TakeOver, std::string> {
+    const auto sections = map_file::read_saved_map(map, kNeededSections, limits);
+    if (!sections) return tl::unexpected(sections.error());
+    auto start = to_start(*sections, config, map.path());
+    if (!start) return tl::unexpected(start.error());
+    const auto read = std::make_shared<SavedMap>(std::move(*start));
+    return [read, take_over] { return take_over(std::move(*read)); };
+  });
 }
 
 }  // namespace rds::tracker

@@ -2,12 +2,14 @@
 #include "tools/rds/live_map_save.hpp"
 
 #include <algorithm>
+#include <random>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <nlohmann/json.hpp>
 
+#include "common/map_file/atomic_file.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "tools/rds/run/commander.hpp"
 #include "tools/rds/run/topology.hpp"
@@ -16,30 +18,15 @@ namespace rds::tools {
 namespace fs = std::filesystem;
 namespace {
 
+using Answer = tl::expected<std::string, std::string>;
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kStatusTime{300};
-constexpr std::chrono::seconds kSaveTime{60};
+constexpr std::chrono::seconds kCommandTime{90};  // longer than a service takes to give up
 
-/// A folder that disappears with the object.
-class PartsFolder {
- public:
-  explicit PartsFolder(const fs::path& beside) : path_(fs::absolute(beside)) {
-    path_ += fmt::format(".parts-{}", getpid());
-    std::error_code error;
-    fs::create_directories(path_, error);
-    fs::permissions(path_, fs::perms::all, error);  // the services may run as another user
-  }
-  ~PartsFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PartsFolder(const PartsFolder&) = delete;
-  PartsFolder& operator=(const PartsFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+std::string random_id() {
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}", device(), device());
+}
 
 /// The services with a part of the map that answer before the deadline; all three end the wait.
 std::vector<std::string> wait_for_services(run::Commander& commander, Clock::time_point deadline,
@@ -54,25 +41,81 @@ std::vector<std::string> wait_for_services(run::Commander& commander, Clock::tim
   return there;
 }
 
-}  // namespace
-
-tl::expected<void, std::string> save_live_map(bus::Participant& participant, const fs::path& file,
-                                              std::chrono::duration<double> timeout,
-                                              const std::stop_token& stop) {
-  run::Commander commander(participant);
-  const auto services =
+tl::expected<std::vector<std::string>, std::string> find_services(run::Commander& commander,
+                                                                  std::chrono::duration<double> timeout,
+                                                                  const std::stop_token& stop) {
+  auto services =
       wait_for_services(commander, Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout), stop);
   for (const std::string& needed : {run::kTracker, run::kMapper})
     if (std::ranges::find(services, needed) == services.end())
       return tl::unexpected(fmt::format("{} does not answer, expected it to be running", needed));
-  const PartsFolder parts(file);
-  for (const std::string& service : services) {
-    const auto reply = commander.ask(service, "save", parts.path().string(), stop, kSaveTime);
-    if (!reply)
-      return tl::unexpected(fmt::format("{}: no answer to 'save' in {} s", service, kSaveTime.count()));
-    if (!reply->success) return tl::unexpected(fmt::format("{}: {}", service, reply->message));
+  return services;
+}
+
+Answer ask(run::Commander& commander, const std::string& service, const std::string& verb,
+           const std::string& argument, const std::stop_token& stop) {
+  const auto reply = commander.ask(service, verb, argument, stop, kCommandTime);
+  if (!reply)
+    return tl::unexpected(fmt::format("{}: no answer to '{}' in {} s", service, verb, kCommandTime.count()));
+  if (!reply->success) return tl::unexpected(fmt::format("{}: {}", service, reply->message));
+  return reply->message;
+}
+
+}  // namespace
+
+tl::expected<LiveSave, std::string> save_live_map(bus::Participant& participant, const std::string& name,
+                                                  std::chrono::duration<double> timeout,
+                                                  const std::stop_token& stop) {
+  run::Commander commander(participant);
+  const auto services = find_services(commander, timeout, stop);
+  if (!services) return tl::unexpected(services.error());
+  nlohmann::json order{{"name", name}, {"id", random_id()}, {"parts", nlohmann::json::array()}};
+  for (const std::string& service : *services) order["parts"].push_back(run::part_of(service));
+  LiveSave saved;
+  bool published = false;
+  for (const std::string& service : *services) {
+    const Answer answer = ask(commander, service, "save", order.dump(), stop);
+    if (!answer) return tl::unexpected(answer.error());
+    const auto json = nlohmann::json::parse(*answer, nullptr, false);
+    if (!json.is_object()) return tl::unexpected(fmt::format("{}: answered in another form", service));
+    published |= json.value("state", "") == "published";
+    saved.folder = json.value("folder", "");
+    saved.by_service[service] = json.value("saved", "");
   }
-  return map_file::merge_service_files(parts.path(), file);
+  if (!published) return tl::unexpected(fmt::format("{}: its parts do not lie in one folder of maps", name));
+  return saved;
+}
+
+tl::expected<void, std::string> save_live_map_as(bus::Participant& participant, const fs::path& file,
+                                                 std::chrono::duration<double> timeout,
+                                                 const std::stop_token& stop) {
+  const std::string name = "for-rds-map-save-" + random_id();
+  const auto saved = save_live_map(participant, name, timeout, stop);
+  if (!saved) return tl::unexpected(saved.error());
+  const auto bytes = map_file::read_regular_file(saved->folder / map_file::kMapFile);
+  if (!bytes)
+    return tl::unexpected(
+        fmt::format("{}: the services' folder of maps cannot be read from here ({}); the map is there as {}",
+                    (saved->folder / map_file::kMapFile).string(), bytes.error(), name));
+  auto written = map_file::write_atomically(file, *bytes);
+  std::error_code ignored;
+  if (written) fs::remove_all(saved->folder, ignored);
+  return written;
+}
+
+tl::expected<std::map<std::string, std::string>, std::string> load_live_map(
+    bus::Participant& participant, const std::string& name, std::chrono::duration<double> timeout,
+    const std::stop_token& stop) {
+  run::Commander commander(participant);
+  const auto services = find_services(commander, timeout, stop);
+  if (!services) return tl::unexpected(services.error());
+  std::map<std::string, std::string> answers;
+  for (const std::string& service : *services) {
+    const Answer answer = ask(commander, service, "load", name, stop);
+    if (!answer) return tl::unexpected(answer.error());
+    answers[service] = *answer;
+  }
+  return answers;
 }
 
 }  // namespace rds::tools

@@ -10,10 +10,9 @@
 
 #include "common/messages/json.hpp"
 #include "tools/rds/exit.hpp"
-#include "tools/rds/interrupt.hpp"
-#include "tools/rds/live_map_save.hpp"
 #include "tools/rds/map_diff_command.hpp"
 #include "tools/rds/map_export.hpp"
+#include "tools/rds/map_names_command.hpp"
 #include "tools/rds/map_source.hpp"
 
 namespace rds::tools {
@@ -26,24 +25,6 @@ struct MapOptions {
   std::string up = "-y";
   std::vector<double> point;
 };
-
-/// All that running services know, for them to go on from.
-void save_all(const MapOptions& options) {
-  if (!options.source.is_live())
-    exit_with(kExitBadInput,
-              fmt::format("{}: expected no --map, an .rds is written by running services", options.output));
-  const Interrupt interrupt;
-  try {
-    const auto participant = bus::Participant::create(options.source.bus.participant("rds_map"));
-    const auto saved =
-        save_live_map(*participant, options.output, std::chrono::duration<double>(options.source.timeout_s),
-                      interrupt.token());
-    if (!saved) exit_with(kExitFault, saved.error());
-  } catch (const bus::BusError& e) {
-    exit_with(kExitFault, e.what());
-  }
-  fmt::print("{}\n", options.output);
-}
 
 void info(const MapOptions& options) {
   const LiveMap map = load(options.source);
@@ -65,8 +46,16 @@ void write(const MapOptions& options, const std::string& format) {
   fmt::print("{}\n", options.output);
 }
 
-bool is_rds(const std::filesystem::path& file) {
-  return file.extension() == ".rds";
+/// To a file of OctoMap's, or all that running services know: to a file or as a map of a name.
+void save(const MapOptions& options) {
+  const bool to_rds = std::filesystem::path(options.output).extension() == ".rds";
+  if (!options.source.is_live() && to_rds)
+    exit_with(kExitBadInput,
+              fmt::format("{}: expected no --map, an .rds is written by running services", options.output));
+  if (to_rds) return save_as_file(options.source, options.output);
+  if (options.source.is_live() && is_map_name(options.output))
+    return save_by_name(options.source, options.output);
+  write(options, "ot");
 }
 
 void query(const MapOptions& options) {
@@ -94,11 +83,9 @@ void add_map_command(CLI::App& rds) {
   add_subcommand(*map, "info", "Size, bounds and contents", std::make_shared<MapOptions>(), info);
 
   const auto saved = std::make_shared<MapOptions>();
-  auto* save = add_subcommand(
-      *map, "save", "Write the map as OctoMap .ot, or as .rds for the services to go on from", saved,
-      [](const MapOptions& options) { is_rds(options.output) ? save_all(options) : write(options, "ot"); });
-  save->add_option("file", saved->output, "File to write; .rds: the services share this file system")
-      ->required();
+  auto* saving = add_subcommand(*map, "save", "Write the map as OctoMap .ot, or as .rds or by a name for the services to go on from",
+                                saved, save);
+  saving->add_option("file", saved->output, "File to write, or a name in the services' folder of maps")->required();
 
   const auto exported = std::make_shared<MapOptions>();
   auto* exporting =
@@ -117,6 +104,7 @@ void add_map_command(CLI::App& rds) {
   auto* querying = add_subcommand(*map, "query", "What is at a point of the map frame", queried, query);
   querying->add_option("point", queried->point, "X Y Z [m]")->required()->expected(3);
   add_map_diff_command(*map);
+  add_map_names_commands(*map);
 }
 
 }  // namespace rds::tools

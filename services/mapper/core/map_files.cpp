@@ -17,19 +17,36 @@ namespace {
 namespace fs = std::filesystem;
 using map_file::write_atomically;
 
-}  // namespace
+map_file::Bytes bytes_of(const std::string& text) {
+  return {text.begin(), text.end()};
+}
 
-WriteResult write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
+/// A tree as OctoMap's file.
+map_file::Bytes to_octomap_file(const octomap::ColorOcTree& tree) {
   std::ostringstream header;  // the header that octomap::AbstractOcTree::write makes
   header << "# Octomap OcTree file\n# (feel free to add / change comments, but leave the first line as it "
             "is!)\n#\n"
          << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
          << "\ndata\n";
-  const std::string head = header.str();
-  std::vector<std::uint8_t> content(head.begin(), head.end());
+  map_file::Bytes content = bytes_of(header.str());
   const auto nodes = to_bytes(tree);
   content.insert(content.end(), nodes.begin(), nodes.end());
-  return write_atomically(file, content);
+  return content;
+}
+
+}  // namespace
+
+std::map<std::string, map_file::Bytes> files_for_others(const octomap::ColorOcTree& tree,
+                                                        std::span<const MapObject> objects,
+                                                        const OccupancyGrid& grid) {
+  return {{kTreeFile, to_octomap_file(tree)},
+          {"objects.json", bytes_of(to_json(objects))},
+          {"grid.pgm", bytes_of(to_pgm(grid))},
+          {"grid.yaml", bytes_of(to_map_server_yaml(grid, "grid.pgm"))}};
+}
+
+WriteResult write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
+  return write_atomically(file, to_octomap_file(tree));
 }
 
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(const fs::path& file,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <octomap/ColorOcTree.h>
 #include <tl/expected.hpp>
 
+#include "common/map_file/byte_writer.hpp"
 #include "common/map_file/regular_file.hpp"
 #include "services/mapper/core/occupancy_grid.hpp"
 #include "services/mapper/core/types.hpp"
@@ -32,6 +34,13 @@ tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(
 bool looks_like_tree(const std::filesystem::path& file);
 /// True for .bt alone: occupied or free, no more.
 bool looks_like_binary_tree(const std::filesystem::path& file);
+
+inline const std::string kTreeFile = "map.ot";
+
+/// What lies beside map.rds for other programs, by name: map.ot, objects.json, grid.pgm and grid.yaml.
+std::map<std::string, map_file::Bytes> files_for_others(const octomap::ColorOcTree& tree,
+                                                        std::span<const MapObject> objects,
+                                                        const OccupancyGrid& grid);
 
 /// objects.json.
 WriteResult write_objects(const std::filesystem::path& file, std::span<const MapObject> objects);

@@ -54,7 +54,7 @@ YAML::Node read_user_config(const fs::path& file) {
 }
 
 /// Takes the command line's word into one service's configuration.
-void complete(YAML::Node& node, const std::string& process, const RunOptions& options) {
+void complete(YAML::Node& node, const std::string& process, const RunOptions& options, const fs::path& folder) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
   if (process == kTracker) node["dynamics"] = options.dynamics;
   if (process == kTracker && !options.poses.empty())
@@ -64,6 +64,7 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
   if (keeps_map && !options.map.empty() && (process == kMapper || !options.map_is_octree))
     node["map_file"] = fs::absolute(options.map).string();
   if (keeps_map) node["localize_only"] = options.localize_only;
+  if (keeps_map) node["maps_dir"] = (folder / kMapsFolder).string();
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
   if (!options.model_dir.empty()) node["model_dir"] = fs::absolute(options.model_dir).string();
@@ -87,7 +88,7 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
     if (!options.dynamics && (process == kDetector || process == kTransformer)) continue;
     if (!options.poses.empty() && process == kLoopCloser) continue;
     YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
-    complete(node, process, options);
+    complete(node, process, options, folder);
     const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
     std::vector<std::string> line{(executables / process).string(),
                                   "--bus",

@@ -9,6 +9,9 @@
 
 namespace rds::run {
 
+/// Below the folder of a run, while it lasts: the services' folder of maps.
+inline const std::string kMapsFolder = "maps";
+
 /// How to start the services of a run, each with its own configuration file in `folder`/config.
 ///
 /// A service's configuration is its section of the user's --config file (tracker, detector, transformer,

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/map_file/saved_map.hpp"
 #include "tools/rds/run/results.hpp"
 #include "tools/rds/run/service_commands.hpp"
 #include "tools/rds/run/topology.hpp"
@@ -25,6 +24,7 @@ constexpr seconds kAcknowledgeLimit{30};
 constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
 constexpr seconds kFinishLimit{120};
 constexpr milliseconds kStopLimit{2500};
+const std::string kMapName = "map";
 
 std::vector<Endpoint> endpoints_of(const nlohmann::json& list) {
   std::vector<Endpoint> endpoints;
@@ -158,11 +158,21 @@ void Session::drain(const std::stop_token& stop) {
 
 /// Every service that has a part of the map writes it; together they are map.rds.
 void Session::save_map(const std::stop_token& stop) {
+  nlohmann::json order{{"name", kMapName}, {"id", "run"}, {"parts", nlohmann::json::array()}};
+  std::vector<std::string> services;
   for (const std::string& service : {kTracker, kMapper, kLoopCloser})
-    if (fleet_->alive(service)) ask(service, "save", folder_.path().string(), stop);
-  if (stop.stop_requested()) return;
-  const auto merged = map_file::merge_service_files(folder_.path(), folder_.path() / map_file::kMapFile);
-  if (!merged) expect(false, merged.error(), stop);
+    if (fleet_->alive(service)) services.push_back(service);
+  for (const std::string& service : services) order["parts"].push_back(part_of(service));
+  for (const std::string& service : services) ask(service, "save", order.dump(), stop);
+  if (!stop.stop_requested()) take_map_files();
+}
+
+/// From the services' folder of maps into that of the results.
+void Session::take_map_files() {
+  const auto saved = folder_.path() / kMapsFolder / kMapName;
+  if (!std::filesystem::exists(saved)) return;  // a service has not saved its part, and that was said
+  for (const auto& file : std::filesystem::directory_iterator(saved))
+    std::filesystem::rename(file.path(), folder_.path() / file.path().filename());
 }
 
 /// What does not hold is said, and the run is not complete; of a run that is stopped nothing is expected.
@@ -196,6 +206,7 @@ void Session::write_results(Recording recording) {
                      {},
                      {}},
                     dataset_, folder_.path());
+  std::filesystem::remove_all(folder_.path() / kMapsFolder);
   folder_.publish();
 }
 

@@ -35,6 +35,7 @@ class Session {
   void show_progress(std::size_t played);
   void drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
+  void take_map_files();
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);

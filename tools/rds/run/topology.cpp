@@ -41,6 +41,12 @@ std::size_t count_running(const std::set<std::string>& processes, const std::set
 
 }  // namespace
 
+std::string part_of(const std::string& service) {
+  std::string part = service.substr(std::string("rds-").size());
+  std::ranges::replace(part, '-', '_');
+  return part;
+}
+
 std::vector<std::string> missing_links(const std::set<std::string>& running,
                                        const std::map<std::string, std::vector<Endpoint>>& endpoints,
                                        bool localize_only) {

@@ -16,6 +16,9 @@ inline const std::string kTransformer = "rds-transformer";
 inline const std::string kMapper = "rds-mapper";
 inline const std::string kLoopCloser = "rds-loop-closer";
 
+/// The name of a service's part in a saved map: "tracker" of "rds-tracker".
+std::string part_of(const std::string& service);
+
 /// One endpoint of a process, as its status tells.
 struct Endpoint {
   std::string topic;

@@ -89,8 +89,9 @@ class RunningMapper {
 
 class MapperOnTheBus : public ::testing::Test {
  protected:
-  static MapperServiceConfig config() {
+  MapperServiceConfig config() const {
     MapperServiceConfig config;
+    config.maps.maps_dir = maps.path().string();
     config.expect_boxes = false;
     return config;
   }
@@ -110,11 +111,11 @@ class MapperOnTheBus : public ::testing::Test {
   }
   /// The mapper's own tree, from its file.
   std::vector<std::uint8_t> saved_tree() {
-    const rds::test::TemporaryFolder place;
-    EXPECT_TRUE(mapper->command("save", place.path().string()).success);
-    return to_bytes(**read_tree(place / "map.ot"));
+    EXPECT_TRUE(mapper->command("save", "saved").success);
+    return to_bytes(**read_tree(maps / "saved" / "map.ot"));
   }
 
+  rds::test::TemporaryFolder maps;
   std::unique_ptr<bus::Participant> bus = join("others");
   bus::Publisher<Images> images = bus->advertise<Images>("rds/keyframe/images", bus::kKeyframeImages);
   bus::Publisher<Poses> poses = bus->advertise<Poses>("rds/keyframe/poses", bus::kLatched);

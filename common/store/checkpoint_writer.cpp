@@ -27,14 +27,23 @@ CheckpointWriter::~CheckpointWriter() {
 }
 
 bool CheckpointWriter::write(Batch& batch) {
+  bool fits = false;
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.bytes() + under_way_.bytes() + batch.bytes() > limits_.max_waiting_bytes) return false;
-    waiting_.add(std::exchange(batch, {}));
+    fits = waiting_.bytes() + under_way_.bytes() + batch.bytes() <= limits_.max_waiting_bytes;
+    if (fits) waiting_.add(std::exchange(batch, {}));
     asked_ = true;
   }
   changed_.notify_all();
-  return true;
+  return fits;
+}
+
+void CheckpointWriter::try_again() {
+  {
+    const std::lock_guard lock(mutex_);
+    asked_ = true;
+  }
+  changed_.notify_all();
 }
 
 void CheckpointWriter::write(Snapshot snapshot) {
@@ -63,6 +72,12 @@ std::optional<Bytes> CheckpointWriter::get(const std::string& kind, std::uint64_
   const std::lock_guard lock(store_mutex_);
   auto row = checkpoint_.store.get(kind, id);
   return row ? std::move(*row) : std::nullopt;
+}
+
+tl::expected<void, std::string> CheckpointWriter::for_each(const std::string& kind,
+                                                           const Store::Visit& visit) const {
+  const std::lock_guard lock(store_mutex_);
+  return checkpoint_.store.for_each(kind, visit);
 }
 
 bool CheckpointWriter::flush(Clock::time_point deadline) {

@@ -42,6 +42,8 @@ class CheckpointWriter {
 
   /// Takes changes over; the batch is empty then. @return false if too much waits: then it is as it was.
   [[nodiscard]] bool write(Batch& batch);
+  /// Tries to write what could not be written.
+  void try_again();
   /// Takes a snapshot over; one that waits is replaced.
   void write(Snapshot snapshot);
   /// Makes the store as it is now the previous one, before anything more is written.
@@ -50,6 +52,9 @@ class CheckpointWriter {
   /// The bytes of a row as they will be when all batches are written; nullopt if it is not there or cannot be
   /// read.
   [[nodiscard]] std::optional<Bytes> get(const std::string& kind, std::uint64_t id) const;
+
+  /// Visits the rows of a kind that are written, by ascending id. @return or one sentence.
+  tl::expected<void, std::string> for_each(const std::string& kind, const Store::Visit& visit) const;
 
   /// Tries to write all that waits. @return false if that failed, or the time is over.
   bool flush(Clock::time_point deadline);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/store/store.hpp"
 
+#include <array>
+#include <bit>
 #include <cstdlib>
 
 #include <fcntl.h>
@@ -8,7 +10,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include "common/store/checksum.hpp"
+#include "common/map_file/checksum.hpp"
 
 namespace rds::store {
 namespace fs = std::filesystem;
@@ -22,8 +24,19 @@ constexpr const char* kTables =
     " PRIMARY KEY (kind, id)) WITHOUT ROWID;"
     "CREATE TABLE manifest (one INTEGER PRIMARY KEY, rows INTEGER, digest INTEGER, checksum INTEGER);";
 
+std::array<std::uint8_t, 8> raw(std::uint64_t number) {
+  return std::bit_cast<std::array<std::uint8_t, 8>>(number);
+}
+
+/// Of a row: kind, id and bytes.
+std::uint64_t checksum_of(std::string_view kind, std::uint64_t id, std::span<const std::uint8_t> bytes) {
+  const auto* letters = reinterpret_cast<const std::uint8_t*>(kind.data());
+  const std::uint64_t of_kind = map_file::checksum_of({letters, kind.size()});
+  return map_file::checksum_of(bytes, map_file::checksum_of(raw(id), of_kind));
+}
+
 std::uint64_t checksum_of_manifest(std::uint64_t rows, std::uint64_t digest) {
-  return checksum_of("manifest", rows, std::bit_cast<std::array<std::uint8_t, sizeof(digest)>>(digest));
+  return checksum_of("manifest", rows, raw(digest));
 }
 
 Fault::Kind kind_of(const SqliteError& error) {
@@ -149,11 +162,12 @@ std::optional<std::string> Store::verify() {
   if (checksum_of_manifest(manifest_.rows, manifest_.digest) != manifest.number(2))
     return "its manifest has another checksum";
   Manifest found;
-  auto rows = connection_.prepare("SELECT kind, id, checksum, bytes FROM rows");
+  auto rows = connection_.prepare(
+      "SELECT kind, id, checksum, bytes, typeof(kind) = 'text' AND typeof(id) = 'integer' FROM rows");
   auto more = rows.step();
   for (; more && *more; more = rows.step()) {
     const std::uint64_t checksum = checksum_of(rows.text(0), rows.number(1), rows.blob(3));
-    if (checksum != rows.number(2))
+    if (checksum != rows.number(2) || rows.number(4) == 0)
       return fmt::format("row {} of '{}' has another checksum", rows.number(1), rows.text(0));
     ++found.rows;
     found.digest += checksum;
@@ -189,6 +203,7 @@ Store::Result Store::change(const Batch& batch) {
     if (auto done = connection_.run("DELETE FROM rows;"); !done) return done;
     manifest_ = {};
   }
+  bool changed = batch.clears();
   auto look = connection_.prepare("SELECT checksum FROM rows WHERE kind = ?1 AND id = ?2");
   auto put = connection_.prepare("INSERT OR REPLACE INTO rows VALUES (?1, ?2, ?3, ?4)");
   auto erase = connection_.prepare("DELETE FROM rows WHERE kind = ?1 AND id = ?2");
@@ -204,8 +219,9 @@ Store::Result Store::change(const Batch& batch) {
     if (!done) return done;
     manifest_.rows = manifest_.rows + (bytes ? 1 : 0) - (*there ? 1 : 0);
     manifest_.digest += checksum - old;
+    changed = true;
   }
-  return write_manifest(manifest_);
+  return changed ? write_manifest(manifest_) : Result();
 }
 
 tl::expected<std::optional<Bytes>, std::string> Store::get(std::string_view kind, std::uint64_t id) const {

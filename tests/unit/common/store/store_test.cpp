@@ -151,6 +151,12 @@ TEST_F(StoreFile, NoticesRowsThatAreMissingOrOther) {
   EXPECT_THAT(fault().sentence, HasSubstr("4 rows of 5"));
 }
 
+TEST_F(StoreFile, NoticesAKeyOfAnotherType) {
+  { ASSERT_TRUE(opened().apply(batch_of(0, 5))); }
+  run_sql("UPDATE rows SET kind = CAST(kind AS BLOB) WHERE id = 2;");  // the same bytes, never found again
+  EXPECT_EQ(fault().kind, Fault::Kind::kDamaged);
+}
+
 TEST_F(StoreFile, IsCopiedWithAllRows) {
   Store store = opened();
   ASSERT_TRUE(store.apply(batch_of(0, 20, 50'000)));

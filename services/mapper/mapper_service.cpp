@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/messages/conversions.hpp"
+#include "common/service/checkpoints.hpp"
 #include "services/mapper/keyframe_input.hpp"
 #include "services/mapper/spill_file.hpp"
 
@@ -22,6 +23,12 @@ std::size_t max_waiting(const MapperServiceConfig& config) {
   return config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting;
 }
 
+/// Of keyframe records: in the checkpoint, else in a file that goes with the process.
+std::unique_ptr<SpillStorage> storage_of(LastingMap& lasting, const MapperServiceConfig& config) {
+  if (auto storage = lasting.storage()) return storage;
+  return std::make_unique<SpillFile>(config.mapper.correction.spill_folder);
+}
+
 }  // namespace
 
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
@@ -29,7 +36,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       config_(config),
       tracker_(context.bus),
       loop_closer_(context.bus),
-      mapper_(config.mapper, 0, std::make_unique<SpillFile>(config.mapper.correction.spill_folder)),
+      lasting_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
+               config.maps.checkpoint_s),
+      mapper_(config.mapper, 0, storage_of(lasting_, config)),
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
       waiting_boxes_(kMaxBoxes),
@@ -41,6 +50,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
     read_start();
     publish_all();
   }
+  go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
@@ -50,11 +60,28 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
                             [this] { return images_inbox_.dropped() + waiting_.dropped(); });
 }
 
+/// The map as the process before this one had it, if it has left one.
+void MapperService::go_on_from_checkpoint() {
+  const auto keyframes = lasting_.restore(mapper_);
+  if (!keyframes) {
+    spdlog::warn("the map of the checkpoint is not used: {}", keyframes.error());
+    return mapper_.reset(mapper_.map_epoch());
+  }
+  for (const Integrated& keyframe : *keyframes) {
+    integrated_by_stamp_[keyframe.stamp_ns] = keyframe;
+    last_keyframe_id_ = keyframe.id;
+    last_stamp_ns_ = keyframe.stamp_ns;
+  }
+  if (keyframes->empty()) return;
+  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.keyframes(), mapper_.map_epoch());
+  publish_all();
+}
+
 void MapperService::subscribe_to_keyframes() {
   subscriptions_.push_back(context_.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
       "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(context_.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-      "rds/boxes", bus::kStream, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
+      "rds/boxes", bus::kBoxes, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }
 
 void MapperService::run(const std::stop_token& stop) {
@@ -71,6 +98,7 @@ void MapperService::run(const std::stop_token& stop) {
     if (paused_) continue;
     guarded("rds/keyframe/poses", [this] { correct(); });
     integrate_ready();
+    lasting_.save(mapper_);
   }
 }
 
@@ -133,8 +161,9 @@ void MapperService::integrate(const Images& images) {
   } catch (const std::invalid_argument& e) {
     return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, e.what());
   }
-  integrated_by_stamp_.insert_or_assign(input->stamp_ns,
-                                        Integrated{input->id, camera_from_map, input->camera});
+  const Integrated integrated{input->id, input->stamp_ns, camera_from_map, input->camera};
+  integrated_by_stamp_.insert_or_assign(input->stamp_ns, integrated);
+  lasting_.add(integrated);
   report_losses();
   last_keyframe_id_ = input->id;
   last_stamp_ns_ = input->stamp_ns;

@@ -18,6 +18,7 @@
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/lasting_map.hpp"
 #include "services/mapper/loop_knowledge.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/mapper_service_config.hpp"
@@ -31,6 +32,8 @@ class MapperService : public service::Service {
  public:
   MapperService(service::ServiceContext& context, const MapperServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  /// Hands over what is to last.
+  void close() override { lasting_.save(mapper_, true); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
@@ -40,13 +43,6 @@ class MapperService : public service::Service {
   using Images = WaitingKeyframes::Images;
   using Boxes = WaitingBoxes::Boxes;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
-
-  /// What late boxes of a keyframe need.
-  struct Integrated {
-    std::uint64_t id;
-    geometry::Pose camera_from_map;  // when the keyframe was made
-    geometry::CameraModel camera;
-  };
 
   [[nodiscard]] bool something_arrived() const;
   void take_arrivals();
@@ -75,6 +71,7 @@ class MapperService : public service::Service {
   void load(const service::PendingCommand& command);
   service::CommandOutcome take_over(const tl::expected<void, std::string>& started,
                                     const std::filesystem::path& from);
+  void go_on_from_checkpoint();
   void wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes);
 
   MapperServiceConfig config_;
@@ -84,6 +81,7 @@ class MapperService : public service::Service {
   std::uint64_t tracker_instance_ = 0;            // that is followed
   std::deque<std::uint64_t> earlier_epochs_;      // of that tracker
   LoopKnowledge loops_;                           // contained in poses_
+  LastingMap lasting_;  // before mapper_, whose records it keeps
   SemanticMapper mapper_;
   MapOutputs outputs_;
   WaitingKeyframes waiting_;

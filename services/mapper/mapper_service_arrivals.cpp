@@ -95,7 +95,7 @@ void MapperService::take(const Boxes& boxes) {
   if (integrated == integrated_by_stamp_.end() || waiting_.contains(stamp)) {
     waiting_boxes_.add(stamp, boxes);
   } else {
-    const auto& [id, camera_from_map, camera] = integrated->second;
+    const auto& [id, made, camera_from_map, camera] = integrated->second;
     if (const auto labelled = labelled_boxes(boxes, camera_from_map, camera))
       mapper_.set_boxes(id, *labelled);
   }

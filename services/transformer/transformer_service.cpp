@@ -21,7 +21,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
       detections_inbox_(mailbox_, kMaxWaiting),
       poses_inbox_(mailbox_, kMaxWaiting),
       camera_inbox_(mailbox_, 1),
-      boxes_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kStream)) {
+      boxes_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kBoxes)) {
   subscriptions_.push_back(context.bus.subscribe<vision_msgs::msg::Detection2DArray>(
       "rds/detections", bus::kStream, [this](Detections m) { detections_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(

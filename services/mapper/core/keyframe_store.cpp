@@ -1,43 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/keyframe_store.hpp"
 
+#include <algorithm>
+
+#include "common/map_file/checksum.hpp"
 #include "services/mapper/core/keyframe_bytes.hpp"
 
 namespace rds::mapper {
 namespace {
 
-/// FNV-1a, 64 bit.
-std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {
-  std::uint64_t sum = 0xCBF29CE484222325U;
-  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001B3U;
-  return sum;
+using map_file::checksum_of;
+
+std::optional<KeyframeRecord> unpacked(std::span<const std::uint8_t> bytes) {
+  auto record = record_from_bytes(bytes);
+  return record ? std::optional(std::move(*record)) : std::nullopt;
 }
 
 }  // namespace
 
 void KeyframeStore::put(const KeyframeRecord& record) {
-  erase(record.id);
-  auto bytes = to_bytes(record);
+  if (stored_.erase(record.id) > 0) outdated_.insert(record.id);
+  auto& bytes = in_memory_[record.id];
+  bytes_in_memory_ -= bytes.size();
+  bytes = to_bytes(record);
   bytes_in_memory_ += bytes.size();
-  in_memory_.emplace(record.id, std::move(bytes));
-}
-
-std::optional<map_file::Bytes> KeyframeStore::read(const Place& place) const {
-  map_file::Bytes bytes(place.size);
-  if (!storage_->read(place.offset, bytes) || checksum_of(bytes) != place.checksum) return std::nullopt;
-  return bytes;
 }
 
 std::optional<KeyframeRecord> KeyframeStore::get(std::uint64_t id) const {
-  const auto unpacked = [](std::span<const std::uint8_t> bytes) -> std::optional<KeyframeRecord> {
-    auto record = record_from_bytes(bytes);
-    return record ? std::optional(std::move(*record)) : std::nullopt;
-  };
   if (const auto here = in_memory_.find(id); here != in_memory_.end()) return unpacked(here->second);
-  const auto away = spilled_.find(id);
-  if (away == spilled_.end()) return std::nullopt;
-  const auto bytes = read(away->second);
-  return bytes ? unpacked(*bytes) : std::nullopt;
+  const auto away = stored_.find(id);
+  if (away == stored_.end()) return std::nullopt;
+  const auto bytes = storage_->get(id);
+  return bytes && checksum_of(*bytes) == away->second ? unpacked(*bytes) : std::nullopt;
 }
 
 void KeyframeStore::erase(std::uint64_t id) {
@@ -45,26 +39,53 @@ void KeyframeStore::erase(std::uint64_t id) {
     bytes_in_memory_ -= here->second.size();
     in_memory_.erase(here);
   }
-  spilled_.erase(id);
+  if (stored_.erase(id) + outdated_.erase(id) > 0) storage_->erase(id);
+}
+
+bool KeyframeStore::leave(std::uint64_t id) {
+  const auto here = in_memory_.find(id);
+  const bool kept = here == in_memory_.end() ? stored_.contains(id) : store(id, here->second);
+  if (kept) stored_.erase(id);
+  erase(id);
+  return kept;
 }
 
 void KeyframeStore::clear() {
   in_memory_.clear();
-  spilled_.clear();
+  stored_.clear();
+  outdated_.clear();
   bytes_in_memory_ = 0;
   if (storage_) storage_->clear();
 }
 
+bool KeyframeStore::store(std::uint64_t id, std::span<const std::uint8_t> bytes) {
+  if (stored_.contains(id)) return true;
+  if (!storage_ || !storage_->put(id, bytes)) return false;
+  stored_[id] = checksum_of(bytes);
+  outdated_.erase(id);
+  return true;
+}
+
 bool KeyframeStore::spill_oldest() {
-  if (!storage_) return false;
   const auto oldest = in_memory_.begin();
-  const auto& bytes = oldest->second;
-  const auto offset = storage_->append(bytes);
-  if (!offset) return false;
-  spilled_[oldest->first] = {*offset, bytes.size(), checksum_of(bytes)};
-  bytes_in_memory_ -= bytes.size();
+  if (!store(oldest->first, oldest->second)) return false;
+  bytes_in_memory_ -= oldest->second.size();
   in_memory_.erase(oldest);
   return true;
+}
+
+bool KeyframeStore::save() {
+  return std::ranges::all_of(in_memory_, [this](const auto& entry) { return store(entry.first, entry.second); });
+}
+
+std::optional<KeyframeRecord> KeyframeStore::adopt(std::uint64_t id) {
+  auto bytes = storage_ ? storage_->get(id) : std::nullopt;
+  auto record = bytes ? unpacked(*bytes) : std::nullopt;
+  if (!record || record->id != id) return std::nullopt;
+  stored_[id] = checksum_of(*bytes);
+  bytes_in_memory_ += bytes->size();
+  in_memory_[id] = std::move(*bytes);
+  return record;
 }
 
 }  // namespace rds::mapper

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "services/mapper/core/tree_bytes.hpp"
@@ -20,6 +21,12 @@ constexpr std::size_t kObjectBytes = 8 + 8 + 4 + 16 + 1 + 48 + 24;
 constexpr std::uint64_t kLastKey = 0xFFFF'FFFF'FFFF;
 constexpr double kSameResolution = 1e-9;  // m
 
+std::string other_resolution(double saved_m, double expected_m) {
+  return fmt::format("voxels of {} m, expected {} m", saved_m, expected_m);
+}
+
+}  // namespace
+
 void put(ByteWriter& writer, const LabelTable& labels) {
   writer.put_count(labels.names().size() - 1);
   for (std::size_t i = 1; i < labels.names().size(); ++i) writer.put_text(labels.names()[i]);
@@ -32,12 +39,6 @@ LabelTable get_labels(ByteReader& reader) {
     if (labels.index_of(reader.get_text()) != i) reader.refuse("a label twice, or too many");
   return labels;
 }
-
-std::string other_resolution(double saved_m, double expected_m) {
-  return fmt::format("voxels of {} m, expected {} m", saved_m, expected_m);
-}
-
-}  // namespace
 
 void VoxelMemory::put(ByteWriter& writer) const {
   for (const float channel : mean_rgb_) writer.put(channel);
@@ -150,7 +151,8 @@ map_file::Bytes SemanticMapper::to_bytes() const {
 
 tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
-  Start start{std::make_shared<Map>(empty_map()), get_labels(reader), map_file::get_vector(reader)};
+  Start start{std::make_shared<Map>(empty_map()), get_labels(reader), map_file::get_vector(reader),
+              map_file::checksum_of(bytes)};
   if (reader.ok() && std::abs(start.up->norm() - 1) > 1e-6)
     reader.refuse("an upward direction that is no unit vector");
   start.map->octree.get(reader, start.labels.names().size());
@@ -177,7 +179,7 @@ tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::ui
 tl::expected<void, std::string> SemanticMapper::start_from(octomap::ColorOcTree&& tree) {
   if (std::abs(tree.getResolution() - config_.octree.resolution_m) > kSameResolution)
     return tl::unexpected(other_resolution(tree.getResolution(), config_.octree.resolution_m));
-  Start start{std::make_shared<Map>(empty_map()), {}, {}};
+  Start start{std::make_shared<Map>(empty_map()), {}, {}, map_file::checksum_of(mapper::to_bytes(tree))};
   start.map->octree.start_from(std::move(tree));
   go_on_from(std::move(start));
   return {};

@@ -20,26 +20,36 @@ constexpr double kBytesPerMb = 1e6;
 SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
                                std::unique_ptr<SpillStorage> storage)
     : config_(std::move(config)), map_epoch_(map_epoch), records_(std::move(storage)) {
-  reset(map_epoch);
+  begin(map_epoch);
 }
 
 void SemanticMapper::reset(std::uint64_t map_epoch) {
+  records_.clear();
+  begin(map_epoch);
+}
+
+void SemanticMapper::begin(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   revision_ = start_.map ? 1 : 0;  // 0 is the empty map, which a reader needs not be told
   labels_ = start_.labels;
   keyframes_.clear();
-  records_.clear();
   clock_ = final_clock_ = {};
   base_ = start_.map;
   map_ = std::make_unique<Map>(base_ ? *base_ : empty_map());
   final_keyframes_ = 0;
+  unsaved_final_.clear();
+  has_checkpoint_ = false;
   boxes_waiting_ = false;
 }
 
-void SemanticMapper::go_on_from(Start start) {
-  const auto& tree = start.map->octree.tree();
+void SemanticMapper::know_surfaces(Map& map) const {
+  const auto& tree = map.octree.tree();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) start.map->history.surfaces.know(leaf.getKey());
+    if (tree.isNodeOccupied(*leaf)) map.history.surfaces.know(leaf.getKey());
+}
+
+void SemanticMapper::go_on_from(Start start) {
+  know_surfaces(*start.map);
   const std::uint64_t revision = revision_;
   start_ = std::move(start);
   reset(map_epoch_);
@@ -130,8 +140,12 @@ void SemanticMapper::make_final(std::uint64_t id) {
   base_->objects.integrate(*record, labels_);
   integrate_into(*base_, *record, map_->history, unused);
   if (id == keyframes_.begin()->first) final_clock_.go_to(record->stamp_ns);
-  keyframes_.erase(id);
-  records_.erase(id);
+  const auto keyframe = keyframes_.extract(id);
+  has_checkpoint_ = has_checkpoint_ && records_.leave(id);
+  if (has_checkpoint_)
+    unsaved_final_[id] = keyframe.mapped();  // until a checkpoint has the final map with it
+  else
+    records_.erase(id);
   ++final_keyframes_;
 }
 

@@ -13,6 +13,14 @@
 
 namespace rds::mapper {
 
+/// The parts of a checkpoint, apart because they change at different times.
+struct MapCheckpoint {
+  map_file::Bytes state;                              // epoch, labels, what the epoch began with
+  std::map<std::uint64_t, map_file::Bytes> keyframes;  // stamps and poses, kIdsPerBlock ids in a block
+  std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
+  static constexpr std::uint64_t kIdsPerBlock = 64;
+};
+
 /// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
 ///
 /// Every keyframe is kept (strided, packed), so that the map can be made again when poses or boxes change:
@@ -54,6 +62,15 @@ class SemanticMapper {
   /// The map as it stands, with all that further keyframes need of it; not the keyframes.
   [[nodiscard]] map_file::Bytes to_bytes() const;
 
+  /// What, beside the records in the storage, makes this map again in another process. The storage then has
+  /// every record as it is now.
+  /// @return nullopt if it could not take one: the checkpoint before still holds.
+  [[nodiscard]] std::optional<MapCheckpoint> checkpoint();
+  /// Makes the map of a checkpoint again, from the storage's records, with the poses they had. Records that
+  /// are not there any more are counted (corrections_lost()).
+  /// @return or why not: nothing has changed then. It was damaged, or had begun with another saved map.
+  tl::expected<void, std::string> restore(const MapCheckpoint& checkpoint);
+
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return map_->octree.tree(); }
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return map_->octree.label(key); }
   [[nodiscard]] std::vector<MapObject> objects() const;
@@ -83,6 +100,7 @@ class SemanticMapper {
     std::shared_ptr<Map> map;
     LabelTable labels;
     std::optional<Eigen::Vector3d> up;  // in the map, if it is known
+    std::uint64_t checksum = 0;         // of what it was read from
   };
   struct Keyframe {
     std::int64_t stamp_ns;
@@ -94,6 +112,7 @@ class SemanticMapper {
   std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(const geometry::CameraModel& camera) const;
   /// The record of a keyframe with its newest pose; nullopt if the storage failed.
   [[nodiscard]] std::optional<KeyframeRecord> record_of(std::uint64_t id) const;
+  void begin(std::uint64_t map_epoch);
   void take_poses(std::span<const KeyframePose> poses);
   [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
@@ -103,6 +122,9 @@ class SemanticMapper {
   void set_times();
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
+  [[nodiscard]] map_file::Bytes final_map_bytes() const;
+  void know_surfaces(Map& map) const;
+  void take_over_records();
   void keep_within_limits();
   void go_on_from(Start start);
   [[nodiscard]] Map empty_map() const {
@@ -124,12 +146,18 @@ class SemanticMapper {
   std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
   std::unique_ptr<Map> map_;
   std::size_t final_keyframes_ = 0;
+  std::map<std::uint64_t, Keyframe> unsaved_final_;  // that the last checkpoint has as others
+  bool has_checkpoint_ = false;                       // since the last reset
   std::size_t corrections_lost_ = 0;
   bool boxes_waiting_ = false;
   Scan scan_;  // scratch
   mutable geometry::CameraModel ray_camera_;
   mutable std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
 };
+
+/// Labels without the first, which is always "".
+void put(map_file::ByteWriter& writer, const LabelTable& labels);
+LabelTable get_labels(map_file::ByteReader& reader);
 
 /// What SemanticMapper::to_bytes() gave, as far as one looks into a map with it: of any resolution.
 struct SavedTree {

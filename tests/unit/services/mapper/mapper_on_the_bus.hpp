@@ -93,6 +93,7 @@ class MapperOnTheBus : public ::testing::Test {
     MapperServiceConfig config;
     config.maps.maps_dir = maps.path().string();
     config.expect_boxes = false;
+    config.maps.checkpoint = false;
     return config;
   }
   void start(const MapperServiceConfig& config) {
@@ -120,7 +121,7 @@ class MapperOnTheBus : public ::testing::Test {
   bus::Publisher<Images> images = bus->advertise<Images>("rds/keyframe/images", bus::kKeyframeImages);
   bus::Publisher<Poses> poses = bus->advertise<Poses>("rds/keyframe/poses", bus::kLatched);
   bus::Publisher<vision_msgs::msg::Detection3DArray> boxes =
-      bus->advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kStream);
+      bus->advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kBoxes);
   std::mutex mutex;
   std::shared_ptr<const rds_msgs::msg::MapInfo> info;
   bus::Subscription infos =

@@ -123,5 +123,26 @@ TEST_F(MapperOnTheBus, PublishesBinaryMapAndPointsToWhoReadsThem) {
   EXPECT_THAT(names, testing::ElementsAre("x", "y", "z", "rgb", "label"));
 }
 
+TEST_F(MapperOnTheBus, GoesOnInItsMapAfterARestart) {
+  const rds::test::TemporaryFolder maps;
+  auto lasting = config();
+  lasting.maps = {.maps_dir = maps.path().string(), .checkpoint = true, .checkpoint_s = 0.1};
+  start(lasting);
+  for (std::uint64_t id = 0; id < 30; ++id) send(id);  // more than the bus keeps
+  ASSERT_TRUE(wait_for([&] {
+    const std::lock_guard lock(mutex);
+    return info && info->keyframes_integrated() == 30;
+  }));
+  mapper->command("finish");
+  const auto before = saved_tree();
+  start(lasting);
+  EXPECT_TRUE(saved_tree() == before);
+  send(30);
+  ASSERT_TRUE(wait_for([&] {
+    const std::lock_guard lock(mutex);
+    return info->keyframes_integrated() == 31;
+  }));
+}
+
 }  // namespace
 }  // namespace rds::mapper

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/keyframe_store.hpp"
 
-#include <fstream>
+#include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -19,22 +20,29 @@ using test::SyntheticKeyframe;
 class FakeStorage : public SpillStorage {
  public:
   struct State {
-    map_file::Bytes bytes;
+    std::map<std::uint64_t, map_file::Bytes> rows;
     std::size_t room = SIZE_MAX;
+    int puts = 0;
+
+    [[nodiscard]] std::size_t bytes() const {
+      std::size_t sum = 0;
+      for (const auto& [id, row] : rows) sum += row.size();
+      return sum;
+    }
   };
   explicit FakeStorage(State& state) : state_(state) {}
-  std::optional<std::uint64_t> append(std::span<const std::uint8_t> bytes) override {
-    if (state_.bytes.size() + bytes.size() > state_.room) return std::nullopt;
-    const std::uint64_t begin = state_.bytes.size();
-    state_.bytes.insert(state_.bytes.end(), bytes.begin(), bytes.end());
-    return begin;
-  }
-  bool read(std::uint64_t offset, std::span<std::uint8_t> bytes) override {
-    if (offset + bytes.size() > state_.bytes.size()) return false;
-    std::copy_n(state_.bytes.begin() + static_cast<std::ptrdiff_t>(offset), bytes.size(), bytes.begin());
+  bool put(std::uint64_t id, std::span<const std::uint8_t> bytes) override {
+    if (state_.bytes() + bytes.size() > state_.room) return false;
+    state_.rows[id] = {bytes.begin(), bytes.end()};
+    ++state_.puts;
     return true;
   }
-  void clear() override { state_.bytes.clear(); }
+  std::optional<map_file::Bytes> get(std::uint64_t id) override {
+    const auto row = state_.rows.find(id);
+    return row == state_.rows.end() ? std::nullopt : std::optional(row->second);
+  }
+  void erase(std::uint64_t id) override { state_.rows.erase(id); }
+  void clear() override { state_.rows.clear(); }
 
  private:
   State& state_;
@@ -130,27 +138,66 @@ TEST(KeyframeStore, ATornFileCostsItsKeyframesOnly) {
   FakeStorage::State disk;
   SemanticMapper mapper(with_little_memory(), 0, std::make_unique<FakeStorage>(disk));
   show_all(mapper);
-  ASSERT_GT(disk.bytes.size(), 10'000U);
-  disk.bytes[5'000] ^= 1;                        // the first keyframe
-  disk.bytes.resize(disk.bytes.size() - 1'000);  // the last one
+  ASSERT_GT(disk.rows.size(), 2U);
+  disk.rows.begin()->second[5'000] ^= 1;
+  disk.rows.rbegin()->second.pop_back();
   mapper.apply_poses(corrected(kKeyframes));
   EXPECT_EQ(mapper.corrections_lost(), 2U);
   EXPECT_EQ(mapper.keyframe_poses().size(), kKeyframes - 2);
   EXPECT_EQ(mapper.keyframes(), kKeyframes);
 }
 
+TEST(KeyframeStore, SavesOnceWhatHasNotChanged) {
+  FakeStorage::State disk;
+  KeyframeStore records(std::make_unique<FakeStorage>(disk));
+  const auto record = [](std::uint64_t id) { return make_record(keyframe(id), {}, sample_rays(keyframe(id).camera, 2)); };
+  for (std::uint64_t id = 0; id < 3; ++id) records.put(record(id));
+  EXPECT_TRUE(records.save());
+  EXPECT_TRUE(records.save());
+  EXPECT_TRUE(records.spill_oldest());
+  EXPECT_EQ(disk.puts, 3);
+  records.put(record(1));
+  EXPECT_TRUE(records.save());
+  EXPECT_EQ(disk.puts, 4);
+  records.erase(1);
+  EXPECT_EQ(disk.rows.size(), 2U);
+}
+
 TEST(SpillFile, GivesBackWhatItTookAndRefusesAFolderThatIsNone) {
   SpillFile file{std::filesystem::path()};
   const map_file::Bytes bytes{1, 2, 3};
-  file.append(map_file::Bytes(100, 7));
-  const auto at = file.append(bytes);
-  ASSERT_TRUE(at);
-  map_file::Bytes back(3);
-  EXPECT_TRUE(file.read(*at, back));
-  EXPECT_EQ(back, bytes);
-  EXPECT_FALSE(file.read(*at + 1, back));
+  EXPECT_TRUE(file.put(4, map_file::Bytes(100, 7)));
+  EXPECT_TRUE(file.put(5, bytes));
+  EXPECT_EQ(file.get(5), bytes);
+  EXPECT_EQ(file.get(6), std::nullopt);
+  file.erase(5);
+  EXPECT_EQ(file.get(5), std::nullopt);
   SpillFile nowhere("/nonexistent/folder");
-  EXPECT_FALSE(nowhere.append(bytes));
+  EXPECT_FALSE(nowhere.put(1, bytes));
+}
+
+/// The temporary files without a name that this process has open, together.
+std::uintmax_t bytes_of_nameless_files() {
+  std::uintmax_t sum = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    const auto target = std::filesystem::read_symlink(entry.path(), gone).string();
+    if (target.ends_with("(deleted)")) sum += std::filesystem::file_size(entry.path(), gone);
+  }
+  return sum;
+}
+
+TEST(SpillFile, UsesAgainWhatWasErased) {
+  SpillFile file{std::filesystem::path()};
+  for (std::uint64_t id = 0; id < 10; ++id) ASSERT_TRUE(file.put(id, map_file::Bytes(300'000, 1)));
+  const auto ten = bytes_of_nameless_files();
+  for (std::uint64_t id = 10; id < 60; ++id) {
+    file.erase(id - 10);
+    ASSERT_TRUE(file.put(id, map_file::Bytes(300'000, 1)));
+    ASSERT_TRUE(file.put(id, map_file::Bytes(300'000, 2)));  // late boxes
+  }
+  EXPECT_GT(ten, 3'000'000U);
+  EXPECT_LT(bytes_of_nameless_files(), ten + 700'000);
 }
 
 }  // namespace

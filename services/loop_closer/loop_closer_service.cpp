@@ -6,15 +6,19 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/service/checkpoints.hpp"
 #include "services/loop_closer/feature_message.hpp"
 
 namespace rds::loop_closer {
 namespace {
-constexpr std::size_t kMaxWaiting = 200;
+// As many as the bus keeps: one that starts late, or again, meets them all at once.
+constexpr std::size_t kMaxWaiting = bus::kKeyframeFeatures.max_samples;
+constexpr std::chrono::milliseconds kLook{500};  // at what is to be kept, while nothing arrives
 constexpr int kRepeats = 32;
 constexpr std::uint8_t kLoop = 1;
 }  // namespace
@@ -23,14 +27,18 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       tracker_(context.bus),
       loop_closer_(config.loop_closer),
+      lasting_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
+               config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
   if (!config.map_file.empty()) read_start(config);
+  go_on_from_checkpoint();
   if (!config.localize_only)
     subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
         "rds/keyframe/features", bus::kKeyframeFeatures,
         [this](Features m) { features_.push(std::move(m)); }));
+  context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
 }
@@ -44,28 +52,54 @@ void LoopCloserService::read_start(const LoopCloserServiceConfig& config) {
     throw std::runtime_error(started.error());
 }
 
+/// With the keyframes that the process before this one knew; nothing of it is published.
+void LoopCloserService::go_on_from_checkpoint() {
+  const auto last = lasting_.restore(start_checksum_, loop_closer_);
+  if (!last) {
+    spdlog::warn("the keyframes of the checkpoint are not used: {}", last.error());
+    loop_closer_.reset();
+    return lasting_.clear(start_checksum_);
+  }
+  known_ = *last;
+  keyframes_ = loop_closer_.keyframes();
+  if (!known_) return;
+  corrected_.map_epoch(known_->map_epoch);
+  spdlog::info("goes on with {} keyframes, epoch {:016x}", loop_closer_.keyframes(), known_->map_epoch);
+}
+
 void LoopCloserService::run(const std::stop_token& stop) {
-  while (wait(stop, [this] {
-    return !features_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
-  })) {
+  while (!stop.stop_requested()) {
+    beat();
+    mailbox_.wait_for(stop, kLook, [this] {
+      return !features_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
+    });
     handle_commands();
     map_commands_.settle();
     if (const auto features = features_.try_pop())
       guarded("rds/keyframe/features", [&] { take(*features); });
+    lasting_.save();
   }
+}
+
+/// A keyframe that the bus still has, and the checkpoint had.
+bool LoopCloserService::is_known(const Features& features) const {
+  return known_ && features->map_epoch() == known_->map_epoch && features->keyframe_id() <= known_->id;
 }
 
 void LoopCloserService::take(const Features& features) {
   if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
     return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kForeign,
                                        "another tracker");
-  if (paused_) return answer(features, {});
+  if (is_known(features) && features->keyframe_id() < known_->id) return;
+  if (paused_ || is_known(features)) return answer(features, {});  // the last one's answer may be waited for
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe)
     return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid,
                                        keyframe.error());
   const LoopAnswer found = loop_closer_.add(*keyframe);
+  if (found.refused.empty()) lasting_.add(*keyframe);
+  keyframes_ = loop_closer_.keyframes();
   if (!found.refused.empty())
     context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid, found.refused);
   answer(features, found);
@@ -100,11 +134,18 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
   poses_.write(corrected_);
 }
 
+void LoopCloserService::forget() {
+  corrected_ = {};
+  known_.reset();
+  lasting_.clear(start_checksum_);
+  keyframes_ = loop_closer_.keyframes();
+}
+
 service::CommandOutcome LoopCloserService::execute(const std::string& verb,
                                                    const std::string& /*argument*/) {
   if (verb == "reset") {
     loop_closer_.reset();
-    corrected_ = {};
+    forget();
     return {true, "forgot all keyframes since the start"};
   }
   if (verb == "pause" || verb == "resume") {
@@ -128,6 +169,7 @@ tl::expected<void, std::string> LoopCloserService::start_from(const map_file::Se
   if (!poses) return refuse(poses.error());
   if (const auto started = loop_closer_.start_from(own->second, *poses); !started)
     return refuse(started.error());
+  start_checksum_ = map_file::checksum_of(own->second);
   corrected_ = {};
   return {};
 }
@@ -152,6 +194,7 @@ bool LoopCloserService::begin(const service::PendingCommand& command) {
     const auto read = std::make_shared<map_file::Sections>(std::move(*sections));
     return [this, read, from = map.path()]() -> service::CommandOutcome {
       if (const auto started = start_from(*read, from); !started) return {false, started.error()};
+      forget();
       return {true, "keyframes of " + from.filename().string()};
     };
   });

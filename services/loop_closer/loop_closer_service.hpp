@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -13,6 +15,7 @@
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/loop_closer/core/loop_closer.hpp"
+#include "services/loop_closer/lasting_keyframes.hpp"
 #include "services/loop_closer/loop_closer_service_config.hpp"
 
 namespace rds::loop_closer {
@@ -22,6 +25,8 @@ class LoopCloserService : public service::Service {
  public:
   LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  /// Hands over what is to last.
+  void close() override { lasting_.save(true); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
@@ -30,6 +35,9 @@ class LoopCloserService : public service::Service {
  private:
   using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+  void go_on_from_checkpoint();
+  [[nodiscard]] bool is_known(const Features& features) const;
+  void forget();
   void take(const Features& features);
   void read_start(const LoopCloserServiceConfig& config);
   tl::expected<void, std::string> start_from(const map_file::Sections& saved,
@@ -38,6 +46,10 @@ class LoopCloserService : public service::Service {
 
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
+  std::uint64_t start_checksum_ = 0;             // of the saved map's part
+  LastingKeyframes lasting_;
+  std::optional<LastingKeyframes::Last> known_;  // the last keyframe that the checkpoint had
+  std::atomic<std::size_t> keyframes_ = 0;       // read by diagnostics
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
   rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop

@@ -12,7 +12,7 @@ struct LoopCloserServiceConfig {
   bool lockstep = false;       // no keyframe is ever dropped
   std::string map_file;        // saved map whose keyframes it starts from; empty: none
   bool localize_only = false;  // keyframes are not listened to
-  store::MapsConfig maps;
+  store::MapsConfig maps;      // where the keyframes last
   LoopCloserConfig loop_closer;
 
   bool operator==(const LoopCloserServiceConfig&) const = default;

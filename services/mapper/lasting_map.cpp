@@ -15,15 +15,19 @@ constexpr std::size_t kMaxWaitingBytes = 64'000'000;  // while the disk is full
 
 store::Bytes to_bytes(const Integrated& keyframe) {
   map_file::ByteWriter writer;
-  writer.put(keyframe.stamp_ns);
   map_file::put(writer, keyframe.camera_from_map);
   map_file::put(writer, keyframe.camera);
+  writer.put(keyframe.stamp_ns);
   return writer.take();
 }
 
 tl::expected<Integrated, std::string> integrated_from(std::uint64_t id, std::span<const std::uint8_t> bytes) {
   map_file::ByteReader reader(bytes);
-  Integrated keyframe{id, reader.get<std::int64_t>(), map_file::get_pose(reader), map_file::get_camera(reader)};
+  Integrated keyframe;
+  keyframe.id = id;
+  keyframe.camera_from_map = map_file::get_pose(reader);
+  keyframe.camera = map_file::get_camera(reader);
+  keyframe.stamp_ns = reader.get<std::int64_t>();
   if (auto read = reader.finish(); !read) return tl::unexpected(read.error());
   return keyframe;
 }

@@ -18,7 +18,7 @@ struct MapperServiceConfig {
   int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to
-  store::MapsConfig maps;
+  store::MapsConfig maps;           // where the map lasts
   MapperConfig mapper;
 
   bool operator==(const MapperServiceConfig&) const = default;

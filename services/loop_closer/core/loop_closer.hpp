@@ -44,6 +44,9 @@ class LoopCloser {
   /// ignored.
   void update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local);
 
+  /// What is known stays, corrections count from 0 again: those so far are not to be told again.
+  void count_anew() { revision_ = 0; }
+
   /// Forgets what came since the start, or since start_from().
   void reset();
 
@@ -56,6 +59,8 @@ class LoopCloser {
   tl::expected<void, std::string> start_from(std::span<const std::uint8_t> bytes,
                                              std::span<const KeyframePose> poses);
 
+  /// Keyframes that are known, those of a saved map too.
+  [[nodiscard]] std::size_t keyframes() const { return graph_.size(); }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   /// Of all keyframes but those that it started from.
   [[nodiscard]] std::vector<KeyframePose> poses() const { return graph_.poses(); }

@@ -64,7 +64,10 @@ bool wait_for(Condition condition) {
 class RunningMapper {
  public:
   explicit RunningMapper(const MapperServiceConfig& config)
-      : service_(context_, config), worker_([this](const std::stop_token& stop) { service_.run(stop); }) {}
+      : service_(context_, config), worker_([this](const std::stop_token& stop) {
+          service_.run(stop);
+          service_.close();
+        }) {}
 
   service::CommandOutcome command(const std::string& verb, const std::string& argument = "") {
     std::promise<service::CommandOutcome> outcome;

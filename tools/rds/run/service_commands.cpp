@@ -65,7 +65,8 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
     node["map_file"] = fs::absolute(options.map).string();
   if (keeps_map) node["localize_only"] = options.localize_only;
   if (keeps_map) node["maps_dir"] = (folder / kMapsFolder).string();
-  if (keeps_map) node["backup_s"] = 0;  // for a process that starts again, not for a disk that errs
+  if (process == kMapper || process == kLoopCloser)
+    node["backup_s"] = 0;  // for a process that starts again, not for a disk that errs
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
   if (!options.model_dir.empty()) node["model_dir"] = fs::absolute(options.model_dir).string();

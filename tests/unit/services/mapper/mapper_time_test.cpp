@@ -13,10 +13,10 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 class MapperTimeOnTheBus : public MapperOnTheBus {
  protected:
   static MapperServiceConfig waiting_for_boxes(double timeout_s) {
-    MapperServiceConfig config;
-    config.expect_boxes = true;
-    config.boxes_timeout_s = timeout_s;
-    return config;
+    MapperServiceConfig waiting = config();
+    waiting.expect_boxes = true;
+    waiting.boxes_timeout_s = timeout_s;
+    return waiting;
   }
   void send_at(std::uint64_t id, std::int64_t stamp_ns) {
     KeyframeInput input = SyntheticKeyframe(id, 2.5 + 0.1 * static_cast<double>(id)).make();

@@ -124,9 +124,9 @@ TEST_F(MapperOnTheBus, PublishesBinaryMapAndPointsToWhoReadsThem) {
 }
 
 TEST_F(MapperOnTheBus, GoesOnInItsMapAfterARestart) {
-  const rds::test::TemporaryFolder maps;
   auto lasting = config();
-  lasting.maps = {.maps_dir = maps.path().string(), .checkpoint = true, .checkpoint_s = 0.1};
+  lasting.maps.checkpoint = true;
+  lasting.maps.checkpoint_s = 0.1;
   start(lasting);
   for (std::uint64_t id = 0; id < 30; ++id) send(id);  // more than the bus keeps
   ASSERT_TRUE(wait_for([&] {

@@ -12,7 +12,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 class MapperTimeOnTheBus : public MapperOnTheBus {
  protected:
-  static MapperServiceConfig waiting_for_boxes(double timeout_s) {
+  MapperServiceConfig waiting_for_boxes(double timeout_s) {
     MapperServiceConfig waiting = config();
     waiting.expect_boxes = true;
     waiting.boxes_timeout_s = timeout_s;

@@ -66,7 +66,7 @@ class Robot {
 
   /// The map, once all keyframes are in it. @return keys of its occupied voxels.
   std::vector<octomap::OcTreeKey> occupied() {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (keyframes_in_map() < keyframes() && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const auto tree = mapper::tree_from_bytes(map_.bytes(), resolution_m_).value();

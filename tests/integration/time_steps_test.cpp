@@ -11,7 +11,7 @@
 namespace rds::test {
 namespace {
 
-constexpr int kDomain = 28;
+constexpr int kDomain = 30;
 constexpr std::size_t kFrames = 150;
 constexpr std::int64_t kSecond = 1'000'000'000;
 

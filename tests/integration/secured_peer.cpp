@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Somebody beside the services, for secured_bus_test.cpp: hears what it can and tries to command.
 //   secured_peer VENDOR DOMAIN SECONDS VERB [FOLDER IDENTITY]
-// reads some topics for so long, sends the command VERB to the tracker twice a second, and writes one line
+// reads some topics, sends the command VERB to the tracker twice a second, until every topic that it may read
+// has brought something or so many seconds are over, and writes one line
 //   {"samples": {topic: number}, "refused": [topic, ...]}
 // to standard output; "refused" are the topics that it may not read or write. Without FOLDER it has no
 // certificate.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <iostream>
@@ -77,6 +79,10 @@ class Peer {
     commands_.write(command);
   }
 
+  [[nodiscard]] bool has_heard_all() const {
+    return std::ranges::all_of(ears_, [](const Ear& ear) { return ear.refused || ear.samples > 0; });
+  }
+
   [[nodiscard]] nlohmann::json report() const {
     nlohmann::json json{{"samples", nlohmann::json::object()}, {"refused", nlohmann::json::array()}};
     for (const Ear& ear : ears_) {
@@ -112,7 +118,7 @@ int run(const std::vector<std::string>& arguments) {
   const auto participant = Participant::create(options);
   Peer peer(*participant);
   const auto end = Clock::now() + std::chrono::seconds(std::stoi(arguments.at(2)));
-  while (Clock::now() < end) {
+  while (Clock::now() < end && !peer.has_heard_all()) {
     peer.command(arguments.at(3));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }

@@ -14,7 +14,6 @@ namespace rds::secure {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::Each;
 using ::testing::HasSubstr;
 using Clock = std::chrono::system_clock;
 

@@ -38,8 +38,10 @@ bool flush(const fs::path& path) {
 
 tl::expected<void, std::string> Store::copy_to(const fs::path& file,
                                                const std::function<bool()>& go_on) const {
+  std::error_code error;
   std::error_code ignored;
-  const fs::path folder = fs::canonical(file.parent_path(), ignored);
+  const fs::path folder = fs::canonical(file.parent_path(), error);
+  if (error) return tl::unexpected(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
   const fs::path partial = folder / (file.filename().string() + ".partial");
   const auto refuse = [&](const std::string& why) {
     fs::remove(partial, ignored);

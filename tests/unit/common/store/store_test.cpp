@@ -168,6 +168,12 @@ TEST_F(StoreFile, IsCopiedWithAllRows) {
   EXPECT_EQ(copy->get("keyframe", 19).value(), bytes(50'000, 19));
 }
 
+TEST_F(StoreFile, ACopyInAFolderThatIsGoneIsMadeNowhere) {
+  const Store store = opened();
+  EXPECT_FALSE(store.copy_to(place_ / "gone" / "copy.db"));
+  EXPECT_FALSE(std::filesystem::exists("copy.db"));
+}
+
 TEST_F(StoreFile, ACopyThatIsGivenUpLeavesTheOneBefore) {
   Store store = opened();
   ASSERT_TRUE(store.apply(batch_of(0, 2)));

@@ -46,6 +46,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       images_inbox_(mailbox_, max_waiting(config)),
       boxes_inbox_(mailbox_, kMaxMessages),
       poses_inbox_(mailbox_, kMaxMessages) {
+  mapper_.report_progress_to([this] { beat(); });
   if (!config.map_file.empty()) {
     read_start();
     publish_all();

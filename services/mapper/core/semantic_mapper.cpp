@@ -216,6 +216,7 @@ MapDelta SemanticMapper::rebuild() {
     if (const auto record = record_of(id)) {
       fresh->history.see(*record, config_);
       fresh->objects.integrate(*record, labels_);
+      progress_();
     } else {
       lost.push_back(id);
     }
@@ -224,6 +225,7 @@ MapDelta SemanticMapper::rebuild() {
     MapDelta unused;
     if (const auto record = record_of(id)) integrate_into(*fresh, *record, fresh->history, unused);
     keyframe.integrated_pose = keyframe.pose;
+    progress_();
   }
   MapDelta delta = new_delta();
   map_->octree.difference(fresh->octree, delta);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -49,6 +50,9 @@ class SemanticMapper {
 
   /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
   MapDelta settle(std::span<const KeyframePose> poses);
+
+  /// Is called between the keyframes of whatever takes long; it must not use the mapper.
+  void report_progress_to(std::function<void()> progress) { progress_ = std::move(progress); }
 
   /// Starts an epoch: with the saved map if there is one, else empty.
   void reset(std::uint64_t map_epoch);
@@ -135,6 +139,7 @@ class SemanticMapper {
   [[nodiscard]] MapDelta new_delta() const;
 
   MapperConfig config_;
+  std::function<void()> progress_ = [] {};
   std::uint64_t map_epoch_;
   std::uint64_t revision_ = 0;
   LabelTable labels_;

@@ -15,8 +15,8 @@ namespace rds::test {
 namespace {
 
 constexpr std::size_t kFindBackFrames = 10;
-constexpr double kMaxErrorRatio = 1.3;  // to the undisturbed run, unless the error is below
-constexpr double kSmallErrorM = 0.010;
+constexpr double kMaxErrorRatio = 1.3;   // to the undisturbed run
+constexpr double kSmallErrorM = 0.010;  // … or, in a rendered room, where that has an error of some millimetres
 constexpr FrameRange kDark{.first = 120, .count = 30};
 constexpr std::size_t kLookedAtFrames = 220;
 
@@ -62,7 +62,8 @@ void expect_no_invented_pose(const RunFigures& figures) {
 }
 
 void expect_as_exact(const RunFigures& disturbed, const RunFigures& whole) {
-  EXPECT_LE(disturbed.ate_final_m, std::max(kMaxErrorRatio * whole.ate_final_m, kSmallErrorM));
+  const double small_m = why_not_shared("data").empty() ? 0 : kSmallErrorM;
+  EXPECT_LE(disturbed.ate_final_m, std::max(kMaxErrorRatio * whole.ate_final_m, small_m));
 }
 
 class DisturbedRun : public testing::Test {

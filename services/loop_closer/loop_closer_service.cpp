@@ -18,7 +18,6 @@ namespace rds::loop_closer {
 namespace {
 // As many as the bus keeps: one that starts late, or again, meets them all at once.
 constexpr std::size_t kMaxWaiting = bus::kKeyframeFeatures.max_samples;
-constexpr std::chrono::milliseconds kLook{500};  // at what is to be kept, while nothing arrives
 constexpr int kRepeats = 32;
 constexpr std::uint8_t kLoop = 1;
 }  // namespace
@@ -68,11 +67,9 @@ void LoopCloserService::go_on_from_checkpoint() {
 }
 
 void LoopCloserService::run(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    beat();
-    mailbox_.wait_for(stop, kLook, [this] {
-      return !features_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
-    });
+  while (wait(stop, [this] {
+    return !features_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
+  })) {
     handle_commands();
     map_commands_.settle();
     if (const auto features = features_.try_pop())

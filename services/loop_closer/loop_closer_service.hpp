@@ -30,6 +30,7 @@ class LoopCloserService : public service::Service {
 
  protected:
   bool begin(const service::PendingCommand& command) override;
+  void idle() override { lasting_.save(); }
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:

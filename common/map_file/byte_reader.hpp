@@ -48,6 +48,7 @@ class ByteReader {
   /// Notes a fault ("keyframe 7 twice"), unless there is one already.
   void refuse(const std::string& fault);
   [[nodiscard]] bool ok() const { return fault_.empty(); }
+  [[nodiscard]] bool at_end() const { return left() == 0; }
   /// @return the first fault and its place, or that bytes are left over.
   [[nodiscard]] tl::expected<void, std::string> finish();
 

@@ -30,7 +30,8 @@ bool CheckpointWriter::write(Batch& batch) {
   bool fits = false;
   {
     const std::lock_guard lock(mutex_);
-    fits = waiting_.bytes() + under_way_.bytes() + batch.bytes() <= limits_.max_waiting_bytes;
+    const std::size_t waiting = waiting_.bytes() + under_way_.bytes();
+    fits = waiting == 0 || waiting + batch.bytes() <= limits_.max_waiting_bytes;
     if (fits) waiting_.add(std::exchange(batch, {}));
     asked_ = true;
   }

@@ -40,7 +40,8 @@ class CheckpointWriter {
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-  /// Takes changes over; the batch is empty then. @return false if too much waits: then it is as it was.
+  /// Takes changes over; the batch is empty then. One batch is always taken where none waits.
+  /// @return false if too much waits: then it is as it was.
   [[nodiscard]] bool write(Batch& batch);
   /// Tries to write what could not be written.
   void try_again();

@@ -21,13 +21,9 @@ fs::path path_of(const char* variable) {
 
 }  // namespace
 
-void read_folder(config::ConfigReader& reader, MapsConfig& config) {
+void read(config::ConfigReader& reader, MapsConfig& config) {
   reader.value("maps_dir", config.maps_dir);
   reader.value("max_map_mb", config.max_map_mb, std::uint64_t{1}, std::uint64_t{1'000'000}, "MB");
-}
-
-void read(config::ConfigReader& reader, MapsConfig& config) {
-  read_folder(reader, config);
   reader.value("checkpoint", config.checkpoint);
   reader.value("checkpoint_s", config.checkpoint_s, 0.1, 3600.0, "s");
   reader.value("backup_s", config.backup_s, 0.0, 1e6, "s");

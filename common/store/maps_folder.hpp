@@ -23,8 +23,6 @@ struct MapsConfig {
 };
 
 void read(config::ConfigReader& reader, MapsConfig& config);
-/// The folder and the largest file alone: of a service that keeps no checkpoint.
-void read_folder(config::ConfigReader& reader, MapsConfig& config);
 
 /// The folder of maps, absolute; it need not exist.
 /// @return or one sentence, where neither setting nor environment names one.

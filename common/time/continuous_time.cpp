@@ -8,18 +8,16 @@
 namespace rds::time {
 
 ContinuousTime::Moment ContinuousTime::at(std::int64_t stamp_ns) const {
-  if (!newest_ns_) return {stamp_ns, false};
-  if (step_between(*newest_ns_, stamp_ns) == StampStep::kBack) return {newest_time_ns_ + kUnknownNs, true};
-  return {newest_time_ns_ + std::min(stamp_ns - *newest_ns_, kLongestNs), false};
+  if (!newest_) return {stamp_ns, false};
+  const auto [newest_ns, newest_time_ns] = *newest_;
+  if (step_between(newest_ns, stamp_ns) == StampStep::kBack) return {newest_time_ns + kUnknownNs, true};
+  return {newest_time_ns + std::min(stamp_ns - newest_ns, kLongestNs), false};
 }
 
 ContinuousTime::Moment ContinuousTime::go_to(std::int64_t stamp_ns) {
   const Moment moment = at(stamp_ns);
-  const bool is_newest = !newest_ns_ || stamp_ns > *newest_ns_ || moment.went_back;
-  if (is_newest) {
-    newest_ns_ = stamp_ns;
-    newest_time_ns_ = moment.time_ns;
-  }
+  const bool is_newest = !newest_ || stamp_ns > newest_->stamp_ns || moment.went_back;
+  if (is_newest) newest_ = {stamp_ns, moment.time_ns};
   return moment;
 }
 

@@ -21,14 +21,25 @@ class ContinuousTime {
     bool went_back = false;  // the stamp did
   };
 
+  /// A stamp and its time.
+  struct Mark {
+    std::int64_t stamp_ns = 0;
+    std::int64_t time_ns = 0;
+  };
+
+  ContinuousTime() = default;
+  /// Goes on from where another one was.
+  explicit ContinuousTime(std::optional<Mark> newest) : newest_(newest) {}
+
   /// The moment of a stamp if it came next; that of the newest stamp stays what it was.
   [[nodiscard]] Moment at(std::int64_t stamp_ns) const;
   /// The stamp has come.
   Moment go_to(std::int64_t stamp_ns);
+  /// The newest stamp since they last went back; nullopt before the first.
+  [[nodiscard]] const std::optional<Mark>& newest() const { return newest_; }
 
  private:
-  std::optional<std::int64_t> newest_ns_;  // stamp, since they last went back
-  std::int64_t newest_time_ns_ = 0;
+  std::optional<Mark> newest_;
 };
 
 }  // namespace rds::time

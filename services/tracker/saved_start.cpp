@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/map_commands/map_commands.hpp"
+#include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 
 namespace rds::tracker {
@@ -22,13 +23,13 @@ tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections,
   return map;
 }
 
-SavedMap read_start_or_throw(const TrackerServiceConfig& config) {
+Start read_start_or_throw(const TrackerServiceConfig& config) {
   const auto sections =
       map_file::read_saved_map(config.map_file, kNeededSections, map_commands::limits_of(config.maps));
   if (!sections) throw std::runtime_error(sections.error());
   auto start = to_start(*sections, config.tracker, config.map_file);
   if (!start) throw std::runtime_error(start.error());
-  return std::move(*start);
+  return {std::move(*start), map_file::checksum_of(sections->at(map_file::kTracker))};
 }
 
 }  // namespace rds::tracker

@@ -20,7 +20,13 @@ inline const std::vector<std::string> kNeededSections{map_file::kTracker, map_fi
 tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections,
                                              const TrackerConfig& config, const std::filesystem::path& from);
 
-/// The map of the setting map_file. @throws std::runtime_error with one sentence.
-SavedMap read_start_or_throw(const TrackerServiceConfig& config);
+/// The map of the setting map_file, and the checksum of the tracker's part.
+struct Start {
+  SavedMap map;
+  std::uint64_t checksum = 0;
+};
+
+/// @throws std::runtime_error with one sentence.
+Start read_start_or_throw(const TrackerServiceConfig& config);
 
 }  // namespace rds::tracker

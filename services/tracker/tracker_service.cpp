@@ -12,6 +12,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/service/checkpoints.hpp"
 #include "common/service/random_id.hpp"
 #include "services/tracker/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
@@ -31,6 +32,11 @@ std::uint32_t microseconds_since(Clock::time_point start) {
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
 }
 
+/// Where nothing enters the map, or poses are given, there is none to find oneself in.
+bool keeps_checkpoint(const TrackerServiceConfig& config) {
+  return !config.tracker.localize_only && config.poses_file.empty();
+}
+
 }  // namespace
 
 TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
@@ -40,6 +46,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       loop_closer_(context.bus),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
                [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
+      lasting_(keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
+               config.maps.checkpoint_s),
+      resume_(config.resume_s),
       objects_(config.prediction),
       outputs_(context, map_epoch_),
       input_(context, mailbox_, config.camera,
@@ -57,9 +66,12 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
             if (m->source() == kLoop) poses_inbox_.push(std::move(m));
           })) {
   if (!config.map_file.empty()) {
-    start_ = read_start_or_throw(config);
+    auto [map, checksum] = read_start_or_throw(config);
+    start_ = std::move(map);
+    start_checksum_ = checksum;
     start_map();
   }
+  go_on_from_checkpoint();
   spdlog::info("map epoch {:016x}", map_epoch_);
 }
 
@@ -76,6 +88,7 @@ void TrackerService::run(const std::stop_token& stop) {
     sort_in_arrivals();
     if (holds_frames()) continue;
     if (const auto frame = input_.frames().try_pop()) guarded("frame", [&] { take(*frame); });
+    if (lasting_.is_due()) save_checkpoint();
   }
 }
 
@@ -136,7 +149,20 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
-  if (tracker_.has_lost_young_map(frame.stamp_ns)) reset();
+  give_up_where_lost(frame, result);
+}
+
+/// A map is given up that is too young to be missed, or that an earlier process has left and that is not of
+/// this place.
+void TrackerService::give_up_where_lost(const image::RgbdFrame& frame, const FrameResult& result) {
+  const auto enough = static_cast<unsigned>(config_.tracker.quality.min_features_to_start);
+  const bool is_usable = result.features >= enough + result.dynamic_features;
+  if (resume_.take(frame.stamp_ns, has_pose(result.state), is_usable)) {
+    spdlog::warn("not found in the map of the checkpoint within {} s of usable pictures", config_.resume_s);
+    reset();
+  } else if (tracker_.has_lost_young_map(frame.stamp_ns)) {
+    reset();
+  }
 }
 
 void TrackerService::sort_in_arrivals() {
@@ -213,6 +239,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   loops_ = {poses->instance(), poses->revision(), poses->loops_closed()};
   spdlog::info("loop {} closed, keyframe poses corrected", loops_.loops_closed);
   publish_poses();
+  lasting_.hurry();  // a map that does not know this loop would not fit the mapper's
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {
@@ -299,6 +326,8 @@ service::CommandOutcome TrackerService::finish() {
 
 void TrackerService::reset() {
   map_epoch_ = service::random_id();
+  lasting_.clear();
+  resume_.end();
   tracker_.reset();
   start_map();
   objects_.reset();

@@ -18,7 +18,9 @@
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/delayed_values.hpp"
 #include "services/tracker/frame_input.hpp"
+#include "services/tracker/lasting_tracker.hpp"
 #include "services/tracker/mapping_worker.hpp"
+#include "services/tracker/resume_watch.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
@@ -30,6 +32,8 @@ class TrackerService : public service::Service {
  public:
   TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  /// Hands over what is to last.
+  void close() override { save_checkpoint(); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
@@ -63,6 +67,9 @@ class TrackerService : public service::Service {
   void publish_poses();
   void reset();
   void start_map();
+  void go_on_from_checkpoint();
+  void save_checkpoint();
+  void give_up_where_lost(const image::RgbdFrame& frame, const FrameResult& result);
   [[nodiscard]] map_file::MapPart map_part() const;
   void load(const service::PendingCommand& command);
   service::CommandOutcome finish();
@@ -74,6 +81,9 @@ class TrackerService : public service::Service {
   concurrency::HelperThread helper_;  // of the worker
   Tracker tracker_;
   std::optional<SavedMap> start_;  // the saved map that every map epoch begins with
+  std::uint64_t start_checksum_ = 0;  // of the one that the settings name
+  LastingTracker lasting_;
+  ResumeWatch resume_;
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;

@@ -38,7 +38,8 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   if (!config.poses_file.empty() && !config.map_file.empty())
     reader.violation("poses_file", config.poses_file,
                      "expected no map_file beside it, given poses know no saved map");
-  read_folder(reader, config.maps);
+  read(reader, config.maps);
+  reader.value("resume_s", config.resume_s, 0.0, 1e6, "s");
   read(reader, config.tracker);
   if (config.tracker.localize_only && config.map_file.empty())
     reader.violation("localize_only", "true", "expected a map_file to localise in");

@@ -30,6 +30,24 @@ void TrackerService::start_map() {
                tracker_.map().points());
 }
 
+/// Goes on in the map, and the epoch, of the process before this one, if it has left a checkpoint.
+void TrackerService::go_on_from_checkpoint() {
+  const auto epoch = lasting_.restore(start_checksum_, tracker_);
+  if (!epoch) spdlog::warn("the map of the checkpoint is not used: {}", epoch.error());
+  if (!epoch || !*epoch) return lasting_.clear();
+  map_epoch_ = (*epoch)->map_epoch;
+  loops_ = (*epoch)->loops;
+  outputs_.set_epoch(map_epoch_);
+  resume_.begin();
+  spdlog::info("goes on in a map of {} keyframes and {} points", tracker_.map().keyframes(),
+               tracker_.map().points());
+  publish_poses();
+}
+
+void TrackerService::save_checkpoint() {
+  lasting_.save(tracker_, {map_epoch_, start_checksum_, loops_});
+}
+
 map_file::MapPart TrackerService::map_part() const {
   const SlamMap& map = tracker_.map();
   return {map_file::kTracker,

@@ -24,6 +24,7 @@ struct MappingKeyframe {
 struct LocalMappingJob {
   KeyframeId keyframe = kNoId;             // the centre
   KeyframeId next_keyframe = kNoId;        // those from here on are made after the snapshot
+  PointId next_point = kNoId;              // likewise
   std::uint64_t revision = 0;              // of the map's geometry
   std::vector<MappingKeyframe> keyframes;  // by ascending id
   std::vector<MapPoint> points;            // by ascending id
@@ -58,6 +59,7 @@ struct LocalMappingResult {
 
   KeyframeId keyframe = kNoId;
   KeyframeId next_keyframe = kNoId;
+  PointId next_point = kNoId;
   std::uint64_t revision = 0;
   ImagingEstimate imaging;
   std::vector<MovedKeyframe> keyframes;

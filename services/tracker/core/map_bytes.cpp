@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/map_bytes.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/geometry_bytes.hpp"
+#include "services/tracker/core/feature_bytes.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -12,69 +15,53 @@ namespace {
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
-constexpr std::size_t kFeatureBytes = 24 + 2 + sizeof(Descriptor);
 constexpr std::size_t kKeyframeBytes = 8 + 88 + 8;
 constexpr std::size_t kPointBytes = 24 + 8;
 constexpr std::size_t kObservationBytes = 8 + 4;
-
-enum Flag : std::uint8_t { kMovable = 1, kMatchable = 2, kMovableAfterLateBoxes = 4, kAllFlags = 7 };
-
-void put(ByteWriter& writer, const Feature& feature, bool movable_now) {
-  for (const float value : {feature.px.x(), feature.px.y(), feature.image_px.x(), feature.image_px.y(),
-                            feature.angle_rad, feature.depth_m})
-    writer.put(value);
-  writer.put(feature.level);
-  writer.put(static_cast<std::uint8_t>((feature.movable ? kMovable : 0) |
-                                       (feature.matchable ? kMatchable : 0) |
-                                       (movable_now ? kMovableAfterLateBoxes : 0)));
-  writer.put_bytes(feature.descriptor);
-}
-
-Feature get_feature(ByteReader& reader, int levels, std::uint8_t& flags) {
-  Feature feature;
-  for (float* value : {&feature.px.x(), &feature.px.y(), &feature.image_px.x(), &feature.image_px.y(),
-                       &feature.angle_rad, &feature.depth_m})
-    *value = reader.get<float>();
-  feature.level = reader.get<std::uint8_t>();
-  flags = reader.get<std::uint8_t>();
-  feature.movable = (flags & kMovable) != 0;
-  feature.matchable = (flags & kMatchable) != 0;
-  std::ranges::copy(reader.get_bytes(sizeof(Descriptor)), feature.descriptor.begin());
-  if (feature.level >= levels || feature.depth_m < 0 || flags > kAllFlags)
-    reader.refuse("a feature with impossible values");
-  return feature;
-}
 
 void put(ByteWriter& writer, const Keyframe& keyframe) {
   writer.put(keyframe.id);
   map_file::put(writer, keyframe.features->camera());
   writer.put_count(keyframe.features->size());
   for (std::size_t i = 0; i < keyframe.features->size(); ++i)
-    put(writer, (*keyframe.features)[i], keyframe.movable[i]);
+    tracker::put(writer, (*keyframe.features)[i], keyframe.movable[i]);
 }
 
-/// Keyframes up to this id that have a pose but were culled.
-void add_culled(std::span<const KeyframePose> poses, KeyframeId end, SlamMap& map) {
-  while (map.next_keyframe_id() < end) {
-    const KeyframePose& culled = poses[map.next_keyframe_id()];
-    map.add_pose_only(culled.stamp_ns, culled.map_from_camera, 0);
+/// By ascending id, none twice, and none that so many keyframes cannot have been made for.
+bool are_in_order(std::span<const KeyframePose> poses) {
+  const auto not_less = std::ranges::adjacent_find(poses, std::ranges::greater_equal{}, &KeyframePose::id);
+  return not_less == poses.end() && (poses.empty() || poses.back().id < kMaxKeyframes);
+}
+
+/// Takes the poses of culled keyframes below this id from the front of the list.
+void add_culled(std::span<const KeyframePose>& poses, KeyframeId end, SlamMap& map) {
+  for (; !poses.empty() && poses.front().id < end; poses = poses.subspan(1)) {
+    map.skip_keyframe_ids(poses.front().id);
+    map.add_pose_only(poses.front().stamp_ns, poses.front().map_from_camera, 0);
   }
+  map.skip_keyframe_ids(end);
 }
 
-void get_keyframe(ByteReader& reader, std::span<const KeyframePose> poses, int levels, SlamMap& map) {
+/// @param poses  by id; those up to this keyframe's are taken from the front.
+void get_keyframe(ByteReader& reader, std::span<const KeyframePose>& poses, int levels, SlamMap& map) {
   const auto id = reader.get<KeyframeId>();
   const auto camera = map_file::get_camera(reader);
   std::vector<Feature> features(reader.get_count(kFeatureBytes));
-  std::vector<std::uint8_t> flags(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) features[i] = get_feature(reader, levels, flags[i]);
-  const bool in_order = id >= map.next_keyframe_id() && id < poses.size() && (id == 0 || map.knows(0));
+  std::vector<bool> movable(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    bool movable_now = false;
+    features[i] = get_feature(reader, levels, movable_now);
+    movable[i] = movable_now;
+  }
+  const bool is_known = std::ranges::binary_search(poses, id, {}, &KeyframePose::id);
+  const bool in_order = is_known && id >= map.next_keyframe_id() && (id == 0 || map.knows(0));
   if (!in_order) reader.refuse(fmt::format("keyframe {} where {} was expected", id, map.next_keyframe_id()));
   if (!reader.ok()) return;
   add_culled(poses, id, map);
-  Keyframe& keyframe = map.add_keyframe(poses[id].stamp_ns, poses[id].map_from_camera,
+  Keyframe& keyframe = map.add_keyframe(poses.front().stamp_ns, poses.front().map_from_camera,
                                         std::make_shared<const FeatureSet>(camera, std::move(features)));
-  for (std::size_t i = 0; i < flags.size(); ++i)
-    keyframe.movable[i] = (flags[i] & kMovableAfterLateBoxes) != 0;
+  poses = poses.subspan(1);
+  keyframe.movable = std::move(movable);
 }
 
 void put(ByteWriter& writer, const MapPoint& point) {
@@ -134,17 +121,17 @@ tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t>
   camera.given_fx = reader.get<double>();
   camera.focal_scale = reader.get<double>();
   SlamMap map(config.map, ScalePyramid(config.extraction.levels, config.extraction.scale_factor));
-  if (!poses.empty() && poses.back().id != poses.size() - 1) reader.refuse("keyframe poses with gaps");
+  if (!are_in_order(poses)) reader.refuse("keyframe poses out of order");
   const std::size_t keyframes = reader.get_count(kKeyframeBytes);
   for (std::size_t i = 0; i < keyframes && reader.ok(); ++i) get_keyframe(reader, poses, levels, map);
-  if (map.keyframes() > 0)
-    add_culled(poses, poses.size(), map);
+  if (map.keyframes() > 0 && !poses.empty())
+    add_culled(poses, poses.back().id + 1, map);
   else if (!poses.empty())
     reader.refuse("poses of keyframes that are not there");
   const std::size_t points = reader.get_count(kPointBytes);
   for (std::size_t i = 0; i < points && reader.ok(); ++i) get_point(reader, map);
   if (const auto read = reader.finish(); !read) return tl::unexpected(read.error());
-  for (KeyframeId id = 0; id < map.next_keyframe_id(); ++id) map.update_covisibility(id);
+  map.update_all_covisibility();
   map.hold_keyframes();
   return SavedMap{std::move(map), camera};
 }

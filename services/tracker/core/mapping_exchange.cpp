@@ -46,6 +46,7 @@ LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId id, const LocalM
   LocalMappingJob job;
   job.keyframe = id;
   job.next_keyframe = map.next_keyframe_id();
+  job.next_point = map.next_point_id();
   const Keyframe* centre = map.keyframe(id);
   if (centre == nullptr) return job;
   std::set<KeyframeId> free{id};
@@ -77,11 +78,10 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
   for (const auto& moved : result.points)
     if (MapPoint* p = map.point(moved.id)) p->position = moved.position;
   const Pose moved_from_before = map.pose_of(result.keyframe) * centre_before.inverse();
-  map.all_keyframes().for_each([&](Keyframe& k) {
-    if (k.id >= result.next_keyframe && !k.pose_is_given)
-      k.map_from_camera = moved_from_before * k.map_from_camera;
+  map.all_keyframes().for_each_from(result.next_keyframe, [&](Keyframe& k) {
+    if (!k.pose_is_given) k.map_from_camera = moved_from_before * k.map_from_camera;
   });
-  map.all_points().for_each([&](MapPoint& p) {
+  map.all_points().for_each_from(result.next_point, [&](MapPoint& p) {
     if (p.created_by >= result.next_keyframe) p.position = moved_from_before * p.position;
   });
   std::vector<PointId> seen_otherwise;

@@ -104,6 +104,7 @@ LocalMappingResult run_local_mapping(const LocalMappingJob& job, const LocalMapp
   LocalMappingResult result;
   result.keyframe = job.keyframe;
   result.next_keyframe = job.next_keyframe;
+  result.next_point = job.next_point;
   result.revision = job.revision;
   MappingScene scene(job);
   search_and_fuse(scene, config, result);

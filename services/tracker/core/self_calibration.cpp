@@ -101,38 +101,39 @@ ImagingEstimate ImagingEstimator::estimate(const Imaging& at) const {
   return {at - solver.solve(gradient), information};
 }
 
-SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config)
-    : config_(config), value_(config.readout_s, 1) {
-  information_ = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
-                     .array()
-                     .square()
-                     .inverse()
-                     .matrix()
-                     .asDiagonal();
+SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config) : config_(config) {
+  belief_.value = Imaging(config.readout_s, 1);
+  belief_.information = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
+                            .array()
+                            .square()
+                            .inverse()
+                            .matrix()
+                            .asDiagonal();
 }
 
 void SelfCalibration::begin_with_focal_scale(double scale) {
   const bool possible = scale >= 1 / kLargestFocalError && scale <= kLargestFocalError;
   if (!config_.focal_length || !possible) return;
-  value_(1) = scale;
-  focal_is_wrong_ = std::abs(scale - 1) > config_.tolerated_focal_error;
+  belief_.value(1) = scale;
+  belief_.focal_is_wrong = std::abs(scale - 1) > config_.tolerated_focal_error;
 }
 
 void SelfCalibration::update(const ImagingEstimate& estimate) {
   if (!estimate.value.allFinite() || !estimate.information.allFinite()) return;
   const bool believed = is_believable_focal(estimate);
   const ImagingEstimate found = believed ? estimate : of_readout_only(estimate);
-  focal_bundles_ += believed ? 1 : 0;
-  const Eigen::Matrix2d old = config_.memory * information_;
-  information_ = old + found.information;
-  value_ = information_.llt().solve(old * value_ + found.information * found.value);
-  value_(0) = std::clamp(value_(0), -kLongestReadout, kLongestReadout);
-  value_(1) = std::clamp(value_(1), 1 / kLargestFocalError, kLargestFocalError);
-  const Imaging error = (value_ - Imaging(config_.readout_s, 1)).cwiseAbs();
-  const Imaging doubt = kSignificant * information_.inverse().diagonal().cwiseSqrt();
-  readout_is_wrong_ |= config_.readout && error(0) > config_.tolerated_readout_error_s + doubt(0);
-  focal_is_wrong_ |= config_.focal_length && focal_bundles_ >= kFewestBundles &&
-                     error(1) > config_.tolerated_focal_error + doubt(1);
+  auto& [value, information, readout_is_wrong, focal_is_wrong, focal_bundles] = belief_;
+  focal_bundles += believed ? 1 : 0;
+  const Eigen::Matrix2d old = config_.memory * information;
+  information = old + found.information;
+  value = information.llt().solve(old * value + found.information * found.value);
+  value(0) = std::clamp(value(0), -kLongestReadout, kLongestReadout);
+  value(1) = std::clamp(value(1), 1 / kLargestFocalError, kLargestFocalError);
+  const Imaging error = (value - Imaging(config_.readout_s, 1)).cwiseAbs();
+  const Imaging doubt = kSignificant * information.inverse().diagonal().cwiseSqrt();
+  readout_is_wrong |= config_.readout && error(0) > config_.tolerated_readout_error_s + doubt(0);
+  focal_is_wrong |= config_.focal_length && focal_bundles >= kFewestBundles &&
+                    error(1) > config_.tolerated_focal_error + doubt(1);
 }
 
 }  // namespace rds::tracker

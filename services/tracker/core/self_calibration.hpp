@@ -54,6 +54,15 @@ struct KnownCamera {
   double focal_scale = 1;
 };
 
+/// What was found out about the imaging so far.
+struct ImagingBelief {
+  Imaging value = Imaging(0, 1);
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  bool readout_is_wrong = false;  // as it was given
+  bool focal_is_wrong = false;
+  int focal_bundles = 0;  // that told the focal length
+};
+
 /// What is known of the camera's imaging: the mean of what bundles found, weighted with how much they could
 /// tell and with older ones slowly forgotten.
 class SelfCalibration {
@@ -61,21 +70,22 @@ class SelfCalibration {
   explicit SelfCalibration(const SelfCalibrationConfig& config);
 
   /// The given readout time until it is known to be wrong.
-  [[nodiscard]] double readout_s() const { return readout_is_wrong_ ? value_(0) : config_.readout_s; }
+  [[nodiscard]] double readout_s() const {
+    return belief_.readout_is_wrong ? belief_.value(0) : config_.readout_s;
+  }
   /// Factor on the given focal length: 1 until that is known to be wrong.
-  [[nodiscard]] double focal_scale() const { return focal_is_wrong_ ? value_(1) : 1; }
+  [[nodiscard]] double focal_scale() const { return belief_.focal_is_wrong ? belief_.value(1) : 1; }
   /// Goes on from what was known when a map was saved; ignored if no camera can be off by that much.
   void begin_with_focal_scale(double scale);
+  /// Goes on from what another one believed.
+  void begin_with(const ImagingBelief& belief) { belief_ = belief; }
+  [[nodiscard]] const ImagingBelief& belief() const { return belief_; }
   /// A bundle that knows the focal length badly, or claims an impossible one, tells the readout time only.
   void update(const ImagingEstimate& estimate);
 
  private:
   SelfCalibrationConfig config_;
-  Imaging value_;
-  Eigen::Matrix2d information_;
-  bool readout_is_wrong_ = false;
-  bool focal_is_wrong_ = false;
-  int focal_bundles_ = 0;  // that told the focal length
+  ImagingBelief belief_;
 };
 
 }  // namespace rds::tracker

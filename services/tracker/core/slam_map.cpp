@@ -6,6 +6,9 @@
 #include <map>
 #include <span>
 #include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace rds::tracker {
 namespace {
@@ -36,6 +39,53 @@ const Descriptor& most_typical(std::span<const Descriptor* const> descriptors) {
 
 }  // namespace
 
+tl::expected<SlamMap, std::string> SlamMap::of(MapContents&& contents, const MapConfig& config,
+                                               const ScalePyramid& pyramid) {
+  SlamMap map(config, pyramid);
+  map.keyframes_ = std::move(contents.keyframes);
+  map.points_ = std::move(contents.points);
+  map.records_ = std::move(contents.records);
+  map.held_ = contents.held;
+  const KeyframeId next = std::max(map.keyframes_.next_id(), map.records_.next_id());
+  map.skip_keyframe_ids(next);
+  std::string fault;
+  const auto note = [&fault](std::string what) {
+    if (fault.empty()) fault = std::move(what);
+  };
+  map.keyframes_.for_each([&](Keyframe& k) {
+    k.points.assign(k.features->size(), kNoId);
+    if (!map.knows(k.id)) note(fmt::format("keyframe {} without a record", k.id));
+  });
+  std::as_const(map.records_).for_each([&](const KeyframeRecord& r) { note(map.fault_of(r)); });
+  map.points_.for_each([&](MapPoint& p) { note(map.connect(p)); });
+  if (!fault.empty()) return tl::unexpected(fault);
+  map.update_all_covisibility();
+  return map;
+}
+
+/// Why a record's pose is none, or nothing.
+std::string SlamMap::fault_of(const KeyframeRecord& record) const {
+  const KeyframeRecord* r = &record;
+  std::size_t steps = 0;
+  while (r != nullptr && r->anchor != kNoId && ++steps <= records_.size()) r = records_.find(r->anchor);
+  const bool is_hung = r != nullptr && r->anchor == kNoId && keyframes_.find(r->id) != nullptr;
+  return is_hung ? "" : fmt::format("the pose of keyframe {} hangs on none that is there", record.id);
+}
+
+/// Lets the features see a point that knows which ones do. @return why that cannot be, or nothing.
+std::string SlamMap::connect(MapPoint& point) {
+  if (point.observations.empty()) return fmt::format("point {} that no keyframe sees", point.id);
+  for (const Observation& o : point.observations) {
+    Keyframe* k = keyframes_.find(o.keyframe);
+    const bool is_free = k != nullptr && o.feature < k->points.size() && !k->movable[o.feature] &&
+                         k->points[o.feature] == kNoId;
+    if (!is_free) return fmt::format("point {} in keyframe {}, where it cannot be", point.id, o.keyframe);
+    k->points[o.feature] = point.id;
+  }
+  refresh(point);
+  return {};
+}
+
 Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
                                 std::shared_ptr<const FeatureSet> features) {
   Keyframe keyframe;
@@ -46,13 +96,19 @@ Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_came
   keyframe.movable.resize(features->size());
   for (std::size_t i = 0; i < features->size(); ++i) keyframe.movable[i] = (*features)[i].movable;
   keyframe.features = std::move(features);
-  records_.push_back({stamp_ns, kNoId, Pose::Identity()});
+  records_.emplace({keyframe.id, stamp_ns, kNoId, Pose::Identity()});
   return keyframes_.emplace(std::move(keyframe));
 }
 
 KeyframeId SlamMap::add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor) {
-  records_.push_back({stamp_ns, anchor, pose_of(anchor).inverse() * map_from_camera});
-  return keyframes_.skip_id();
+  const KeyframeId id = keyframes_.skip_id();
+  records_.emplace({id, stamp_ns, anchor, pose_of(anchor).inverse() * map_from_camera});
+  return id;
+}
+
+void SlamMap::skip_keyframe_ids(KeyframeId next) {
+  keyframes_.skip_to(next);
+  records_.skip_to(next);
 }
 
 MapPoint& SlamMap::add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature) {
@@ -170,6 +226,10 @@ void SlamMap::update_covisibility(KeyframeId id) {
   }
 }
 
+void SlamMap::update_all_covisibility() {
+  std::as_const(keyframes_).for_each([this](const Keyframe& k) { update_covisibility(k.id); });
+}
+
 void SlamMap::cull_keyframe(KeyframeId id) {
   Keyframe* keyframe = keyframes_.find(id);
   if (keyframe == nullptr || keyframes_.size() < 2) return;
@@ -177,12 +237,13 @@ void SlamMap::cull_keyframe(KeyframeId id) {
   if (!keyframe->covisible.empty()) {
     anchor = keyframe->covisible.front().id;
   } else {
-    keyframes_.for_each([&](const Keyframe& other) {
+    std::as_const(keyframes_).for_each([&](const Keyframe& other) {
       if (other.id != id && (anchor == kNoId || other.id < id)) anchor = other.id;
     });
   }
-  records_[id].anchor = anchor;
-  records_[id].anchor_from_camera = pose_of(anchor).inverse() * keyframe->map_from_camera;
+  KeyframeRecord& record = *records_.find(id);
+  record.anchor = anchor;
+  record.anchor_from_camera = pose_of(anchor).inverse() * keyframe->map_from_camera;
   for (const PointId p : std::vector(keyframe->points)) {
     forget(p, id);
     if (MapPoint* point = points_.find(p)) refresh(*point);
@@ -192,28 +253,33 @@ void SlamMap::cull_keyframe(KeyframeId id) {
   keyframes_.erase(id);
 }
 
+const KeyframeRecord& SlamMap::record(KeyframeId id) const {
+  const KeyframeRecord* record = records_.find(id);
+  if (record == nullptr) throw std::out_of_range("SlamMap: no such keyframe");
+  return *record;
+}
+
 Pose SlamMap::pose_of(KeyframeId id) const {
-  if (id >= records_.size()) throw std::out_of_range("SlamMap::pose_of: no such keyframe");
   Pose keyframe_from_camera = Pose::Identity();
-  while (records_[id].anchor != kNoId) {
-    keyframe_from_camera = records_[id].anchor_from_camera * keyframe_from_camera;
-    id = records_[id].anchor;
-  }
-  return keyframes_.find(id)->map_from_camera * keyframe_from_camera;
+  const KeyframeRecord* r = &record(id);
+  for (; r->anchor != kNoId; r = &record(r->anchor))
+    keyframe_from_camera = r->anchor_from_camera * keyframe_from_camera;
+  return keyframes_.find(r->id)->map_from_camera * keyframe_from_camera;
 }
 
 void SlamMap::set_pose(KeyframeId id, const Pose& map_from_camera) {
   if (Keyframe* k = keyframes_.find(id)) {
     k->map_from_camera = map_from_camera;
-  } else if (id < records_.size()) {
-    records_[id].anchor_from_camera = pose_of(records_[id].anchor).inverse() * map_from_camera;
+  } else if (KeyframeRecord* r = records_.find(id)) {
+    r->anchor_from_camera = pose_of(r->anchor).inverse() * map_from_camera;
   }
 }
 
 std::vector<KeyframePose> SlamMap::keyframe_poses(KeyframeId first) const {
   std::vector<KeyframePose> poses;
-  for (KeyframeId id = first; id < records_.size(); ++id)
-    poses.push_back({id, records_[id].stamp_ns, pose_of(id)});
+  records_.for_each_from(first, [&](const KeyframeRecord& r) {
+    poses.push_back({r.id, r.stamp_ns, pose_of(r.id)});
+  });
   return poses;
 }
 

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
+#include <tl/expected.hpp>
 
 #include "common/geometry/keyframe_pose.hpp"
 #include "common/geometry/pose.hpp"
@@ -23,6 +25,9 @@ using geometry::Pose;
 using KeyframeId = std::uint64_t;
 using PointId = std::uint64_t;
 inline constexpr std::uint64_t kNoId = std::numeric_limits<std::uint64_t>::max();
+/// Ids from here on are no keyframe's or point's: files that name them are wrong.
+inline constexpr KeyframeId kMaxKeyframes = 100'000'000;
+inline constexpr PointId kMaxPoints = 2'000'000'000;
 
 /// A feature of a keyframe that sees a map point.
 struct Observation {
@@ -68,12 +73,32 @@ struct Keyframe {
 /// Identity and pose of a keyframe; what outlives its culling.
 using geometry::KeyframePose;
 
+/// What stays of every keyframe.
+struct KeyframeRecord {
+  KeyframeId id = kNoId;
+  std::int64_t stamp_ns = 0;
+  KeyframeId anchor = kNoId;  // kNoId while the keyframe itself is there
+  Pose anchor_from_camera = Pose::Identity();
+};
+
+/// What a map consists of. Everything else is computed from it.
+struct MapContents {
+  IdTable<Keyframe> keyframes;  // without `points` and `covisible`
+  IdTable<MapPoint> points;     // without `normal`, `level_0_distance`, `descriptor`
+  IdTable<KeyframeRecord> records;
+  KeyframeId held = 0;  // keyframes below this id are the gauge
+};
+
 /// Keyframes, map points and who sees what. Owned by one thread.
 ///
 /// Invariant: keyframe k's feature f sees point p exactly if p's observations contain (k, f).
 class SlamMap {
  public:
   SlamMap(const MapConfig& config, const ScalePyramid& pyramid) : config_(config), pyramid_(pyramid) {}
+  /// The map of these contents. @return or what does not fit together: a point that nobody or an unknown
+  /// keyframe sees, a feature with two points, a pose that hangs on nothing.
+  static tl::expected<SlamMap, std::string> of(MapContents&& contents, const MapConfig& config,
+                                               const ScalePyramid& pyramid);
 
   [[nodiscard]] Keyframe* keyframe(KeyframeId id) { return keyframes_.find(id); }
   [[nodiscard]] const Keyframe* keyframe(KeyframeId id) const { return keyframes_.find(id); }
@@ -87,6 +112,9 @@ class SlamMap {
   [[nodiscard]] const IdTable<MapPoint>& all_points() const { return points_; }
   IdTable<Keyframe>& all_keyframes() { return keyframes_; }
   [[nodiscard]] const IdTable<Keyframe>& all_keyframes() const { return keyframes_; }
+  /// Of every keyframe that ever was; a block is touched when a pose or an anchor in it changes.
+  IdTable<KeyframeRecord>& all_records() { return records_; }
+  [[nodiscard]] const IdTable<KeyframeRecord>& all_records() const { return records_; }
 
   Keyframe& add_keyframe(std::int64_t stamp_ns, const Pose& map_from_camera,
                          std::shared_ptr<const FeatureSet> features);
@@ -94,10 +122,12 @@ class SlamMap {
   /// @return the id. @throws std::out_of_range for an unknown anchor.
   KeyframeId add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
   /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
-  void hold_keyframes() { held_ = records_.size(); }
+  void hold_keyframes() { held_ = records_.next_id(); }
   /// The id of the first keyframe that hold_keyframes() did not find, and of the one that is made next.
   [[nodiscard]] KeyframeId first_free_keyframe() const { return held_; }
-  [[nodiscard]] KeyframeId next_keyframe_id() const { return records_.size(); }
+  [[nodiscard]] KeyframeId next_keyframe_id() const { return records_.next_id(); }
+  /// Uses up the ids below this one: somebody may know them.
+  void skip_keyframe_ids(KeyframeId next);
   [[nodiscard]] bool is_held(KeyframeId id) const { return id < held_; }
   /// A new point seen by this feature. @throws std::out_of_range for an unknown keyframe.
   MapPoint& add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature);
@@ -117,28 +147,25 @@ class SlamMap {
 
   /// Computes a keyframe's covisibility edges from its points, at both ends.
   void update_covisibility(KeyframeId keyframe);
+  void update_all_covisibility();
 
   /// Removes a keyframe; its pose lives on relative to the covisible keyframe that shares most points.
   void cull_keyframe(KeyframeId keyframe);
   /// True once a keyframe with this id was there, culled or not.
-  [[nodiscard]] bool knows(KeyframeId id) const { return id < keyframes_.next_id(); }
+  [[nodiscard]] bool knows(KeyframeId id) const { return records_.find(id) != nullptr; }
   /// map_from_camera, also of culled keyframes. @throws std::out_of_range for an unknown id.
   [[nodiscard]] Pose pose_of(KeyframeId id) const;
   /// Stamp, also of culled keyframes. @throws std::out_of_range for an unknown id.
-  [[nodiscard]] std::int64_t keyframe_stamp_ns(KeyframeId id) const { return records_.at(id).stamp_ns; }
+  [[nodiscard]] std::int64_t keyframe_stamp_ns(KeyframeId id) const { return record(id).stamp_ns; }
   /// Sets the pose, also of a culled keyframe. Points stay.
   void set_pose(KeyframeId id, const Pose& map_from_camera);
   /// Every keyframe that ever was, from this one on, by id; also those of which only the pose was kept.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses(KeyframeId first = 0) const;
 
  private:
-  /// What stays of every keyframe.
-  struct Record {
-    std::int64_t stamp_ns = 0;
-    KeyframeId anchor = kNoId;  // kNoId while the keyframe itself is there
-    Pose anchor_from_camera = Pose::Identity();
-  };
-
+  [[nodiscard]] const KeyframeRecord& record(KeyframeId id) const;
+  [[nodiscard]] std::string fault_of(const KeyframeRecord& record) const;
+  [[nodiscard]] std::string connect(MapPoint& point);
   void refresh_descriptor(MapPoint& point) const;
   void set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const;
 
@@ -146,7 +173,7 @@ class SlamMap {
   ScalePyramid pyramid_;
   IdTable<Keyframe> keyframes_;
   IdTable<MapPoint> points_;
-  std::vector<Record> records_;  // by keyframe id
+  IdTable<KeyframeRecord> records_;
   KeyframeId held_ = 0;
 };
 

@@ -62,10 +62,8 @@ void Tracker::start_from(SavedMap&& saved) {
   if (map_.keyframes() == 0) return;
   given_fx_ = saved.camera.given_fx;
   calibration_.begin_with_focal_scale(saved.camera.focal_scale);
-  map_.all_keyframes().for_each([&](Keyframe& k) {
-    places_.add(k.id, static_descriptors(*k.features));
-    k.time_ns = clock_.go_to(k.stamp_ns).time_ns;
-  });
+  map_.all_keyframes().for_each([&](Keyframe& k) { k.time_ns = clock_.go_to(k.stamp_ns).time_ns; });
+  index_all_keyframes();
   state_ = State::kLost;
 }
 

@@ -6,7 +6,10 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
+
+#include <tl/expected.hpp>
 
 #include "common/image/rgbd_frame.hpp"
 #include "common/time/continuous_time.hpp"
@@ -15,6 +18,7 @@
 #include "services/tracker/core/keyframe_policy.hpp"
 #include "services/tracker/core/local_map.hpp"
 #include "services/tracker/core/local_mapping.hpp"
+#include "services/tracker/core/map_checkpoint.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
 #include "services/tracker/core/point_following.hpp"
 #include "services/tracker/core/removal/movable_cut.hpp"
@@ -77,6 +81,14 @@ class Tracker {
 
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
   void start_from(SavedMap&& saved);
+
+  /// What may have changed since the last call, as rows of a checkpoint; all of it the first time, and after
+  /// another map has begun. Best called when the frame's result is on its way.
+  std::vector<CheckpointRow> checkpoint();
+  /// Goes on where the rows end that checkpoint() has told: with the same map and what is known of the camera,
+  /// lost until it has found itself there. Ids that were given since are not given again.
+  /// @return or why not; then everything is as before.
+  tl::expected<void, std::string> resume(const ReadRows& read);
 
   /// Every keyframe since the last reset, by id, also those that are culled or never were in the map; without
   /// those of a map that it started from.
@@ -195,6 +207,7 @@ class Tracker {
   void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void make_keyframe(TrackedFrame& frame, FrameResult& result);
   void index_newest_keyframe();
+  void index_all_keyframes();
   void show_keyframe(const TrackedFrame& frame, FrameResult& result);
   [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
   void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
@@ -207,6 +220,7 @@ class Tracker {
   OrbExtractor extractor_;
   MovableCut cut_;
   SlamMap map_;
+  MapCheckpoint map_checkpoint_;
   SelfCalibration calibration_;
   double given_fx_ = 0;                 // px, of the newest picture; another one is another camera
   KeyframeId calibrated_with_ = kNoId;  // the newest that calibration has learned from

@@ -172,6 +172,11 @@ void Tracker::index_newest_keyframe() {
     places_.add(keyframe->id, static_descriptors(*keyframe->features));
 }
 
+void Tracker::index_all_keyframes() {
+  std::as_const(map_).all_keyframes().for_each(
+      [this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+}
+
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   index_newest_keyframe();
   const KeyframeId centre = std::exchange(mapping_centre_, kNoId);

@@ -98,17 +98,16 @@ std::vector<StampedPose> live_trajectory(const Recording& recording) {
 
 std::vector<StampedPose> optimized_trajectory(const Recording& recording) {
   std::vector<StampedPose> poses;
-  // Keyframes of a saved map come before those of the run. They do not move, so a pose relative to one is
-  // final. So is a pose of an earlier epoch: its keyframes have gone with their tracker.
-  const std::uint64_t first = recording.keyframes.empty() ? std::numeric_limits<std::uint64_t>::max()
-                                                          : recording.keyframes.begin()->first;
+  // Without its keyframe a pose is final: of a saved map, whose keyframes do not move; of an earlier epoch; of a
+  // tracker that was killed before its last checkpoint had them.
   for (const auto& [stamp, frame] : recording.frames) {
     if (!frame.has_pose) continue;
     const auto reference = recording.keyframes.find(frame.reference_keyframe_id);
-    if (frame.map_epoch != recording.map_epoch || frame.reference_keyframe_id < first)
-      poses.push_back({stamp, frame.map_from_camera, {}});
-    else if (reference != recording.keyframes.end())
-      poses.push_back({stamp, reference->second.map_from_camera * frame.reference_from_camera, {}});
+    const bool has_moved = frame.map_epoch == recording.map_epoch && reference != recording.keyframes.end();
+    poses.push_back({stamp,
+                     has_moved ? reference->second.map_from_camera * frame.reference_from_camera
+                               : frame.map_from_camera,
+                     {}});
   }
   return poses;
 }

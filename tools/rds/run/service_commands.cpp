@@ -65,7 +65,7 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
     node["map_file"] = fs::absolute(options.map).string();
   if (keeps_map) node["localize_only"] = options.localize_only;
   if (keeps_map) node["maps_dir"] = (folder / kMapsFolder).string();
-  if (process == kMapper || process == kLoopCloser)
+  if (keeps_map)
     node["backup_s"] = 0;  // for a process that starts again, not for a disk that errs
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of Tracker that tells its map as a checkpoint, and goes on from one.
+#include <fmt/format.h>
+
+#include "common/map_file/byte_reader.hpp"
+#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/tracker.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using map_file::ByteReader;
+using map_file::ByteWriter;
+
+constexpr const char* kCamera = "camera";
+
+/// What is known of the camera, and of its time.
+struct CameraState {
+  double given_fx = 0;
+  ImagingBelief belief;
+  std::optional<time::ContinuousTime::Mark> clock;
+};
+
+void put(ByteWriter& writer, const CameraState& state) {
+  writer.put(state.given_fx);
+  for (const double v : state.belief.value) writer.put(v);
+  for (const double v : state.belief.information.reshaped()) writer.put(v);
+  writer.put(static_cast<std::uint8_t>(state.belief.readout_is_wrong));
+  writer.put(static_cast<std::uint8_t>(state.belief.focal_is_wrong));
+  writer.put(state.belief.focal_bundles);
+  writer.put(static_cast<std::uint8_t>(state.clock.has_value()));
+  writer.put(state.clock ? state.clock->stamp_ns : 0);
+  writer.put(state.clock ? state.clock->time_ns : 0);
+}
+
+CameraState get_camera_state(ByteReader& reader) {
+  CameraState state;
+  state.given_fx = reader.get<double>();
+  for (double& v : state.belief.value) v = reader.get<double>();
+  for (double& v : state.belief.information.reshaped()) v = reader.get<double>();
+  state.belief.readout_is_wrong = reader.get<std::uint8_t>() != 0;
+  state.belief.focal_is_wrong = reader.get<std::uint8_t>() != 0;
+  state.belief.focal_bundles = reader.get<int>();
+  const bool has_clock = reader.get<std::uint8_t>() != 0;
+  time::ContinuousTime::Mark mark;
+  mark.stamp_ns = reader.get<std::int64_t>();
+  mark.time_ns = reader.get<std::int64_t>();
+  if (has_clock) state.clock = mark;
+  return state;
+}
+
+}  // namespace
+
+std::vector<CheckpointRow> Tracker::checkpoint() {
+  std::vector<CheckpointRow> rows;
+  map_checkpoint_.append_changes(map_, rows);
+  ByteWriter writer;
+  writer.put(config_.extraction.levels);
+  writer.put(config_.extraction.scale_factor);
+  put(writer, {given_fx_, calibration_.belief(), clock_.newest()});
+  rows.push_back({kCamera, 0, writer.take()});
+  return rows;
+}
+
+tl::expected<void, std::string> Tracker::resume(const ReadRows& read) {
+  CameraState camera;
+  std::string fault = "no camera";
+  const auto done = read(kCamera, [&](std::uint64_t, std::span<const std::uint8_t> bytes) {
+    ByteReader reader(bytes);
+    const auto levels = reader.get<int>();
+    const auto factor = reader.get<double>();
+    if (levels != config_.extraction.levels || factor != config_.extraction.scale_factor)
+      reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
+                                factor, config_.extraction.levels, config_.extraction.scale_factor));
+    camera = get_camera_state(reader);
+    const auto whole = reader.finish();
+    fault = whole ? "" : whole.error();
+  });
+  if (!done) return tl::unexpected(done.error());
+  if (!fault.empty()) return tl::unexpected(fault);
+  auto map = map_from_rows(read, config_.map, pyramid_);
+  if (!map) return tl::unexpected(map.error());
+  reset();
+  map_ = std::move(*map);
+  map_checkpoint_.has_told(map_);
+  given_fx_ = camera.given_fx;
+  calibration_.begin_with(camera.belief);
+  clock_ = time::ContinuousTime(camera.clock);
+  index_all_keyframes();
+  if (map_.keyframes() > 0) state_ = State::kLost;
+  return {};
+}
+
+}  // namespace rds::tracker

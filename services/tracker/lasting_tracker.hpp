@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -33,7 +34,11 @@ class LastingTracker {
   /// @return its epoch; nullopt where there is none to go on in. Or why it cannot be used.
   tl::expected<std::optional<Epoch>, std::string> restore(std::uint64_t start, Tracker& tracker);
 
-  [[nodiscard]] bool is_due() const { return writer_ && Clock::now() - saved_ >= period_; }
+  /// A new keyframe shows what a camera that comes back will look for: with one a save is due after a second.
+  void note_keyframe() { has_keyframe_ = true; }
+  [[nodiscard]] bool is_due() const {
+    return writer_ && Clock::now() - saved_ >= (has_keyframe_ ? std::min(period_, kShortest) : period_);
+  }
   /// The next save is due at once.
   void hurry() { saved_ = {}; }
   /// Hands over what has changed since. Costs what the camera saw since, or the map if all of it moved.
@@ -43,11 +48,13 @@ class LastingTracker {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::duration<double> kShortest{1};  // between two saves
 
   std::unique_ptr<store::CheckpointWriter> writer_;
   store::Batch changes_;  // not handed over yet
   std::chrono::duration<double> period_;
   Clock::time_point saved_ = Clock::now();
+  bool has_keyframe_ = false;  // since then
 };
 
 }  // namespace rds::tracker

@@ -146,6 +146,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
+  if (result.keyframe) lasting_.note_keyframe();
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "services/tracker/core/feature_bytes.hpp"
 
@@ -66,9 +67,6 @@ void put(ByteWriter& writer, const MapPoint& point) {
   writer.put(point.id);
   map_file::put(writer, point.position);
   writer.put(point.created_by);
-  writer.put(point.visible);
-  writer.put(point.found);
-  writer.put(point.last_found_ns);
   writer.put_count(point.observations.size());
   for (const Observation& o : point.observations) {
     writer.put(o.keyframe);
@@ -76,10 +74,23 @@ void put(ByteWriter& writer, const MapPoint& point) {
   }
 }
 
-std::optional<Bytes> points_of(const SlamMap& map, std::size_t block) {
+/// What lasts of the points of a block.
+ByteWriter points_of(const SlamMap& map, std::size_t block) {
+  std::size_t count = 0;
+  map.all_points().for_each_in(block, [&](const MapPoint&) { ++count; });
   ByteWriter writer;
+  writer.put_count(count);
   map.all_points().for_each_in(block, [&](const MapPoint& point) { put(writer, point); });
-  return writer.bytes().empty() ? std::nullopt : std::optional(writer.take());
+  return writer;
+}
+
+/// What changes with every frame.
+void put_counters(ByteWriter& writer, const SlamMap& map, std::size_t block) {
+  map.all_points().for_each_in(block, [&](const MapPoint& point) {
+    writer.put(point.visible);
+    writer.put(point.found);
+    writer.put(point.last_found_ns);
+  });
 }
 
 Bytes common_to_all(const SlamMap& map) {
@@ -95,7 +106,8 @@ Bytes common_to_all(const SlamMap& map) {
 void MapCheckpoint::has_told(SlamMap& map) {
   map.all_keyframes().take_touched();
   map.all_records().take_touched();
-  map.all_points().take_touched();
+  for (const std::size_t block : map.all_points().take_touched())
+    points_[block] = map_file::checksum_of(points_of(map, block).bytes());
   std::as_const(map).all_keyframes().for_each([this](const Keyframe& k) { with_features_.insert(k.id); });
 }
 
@@ -113,6 +125,15 @@ void MapCheckpoint::append_features(const SlamMap& map, std::size_t block, std::
   });
 }
 
+void MapCheckpoint::append_points(const SlamMap& map, std::size_t block, std::vector<CheckpointRow>& rows) {
+  ByteWriter points = points_of(map, block);
+  const std::uint64_t checksum = map_file::checksum_of(points.bytes());
+  const auto [told, is_new] = points_.try_emplace(block, checksum);
+  if (!is_new && std::exchange(told->second, checksum) == checksum) return;
+  put_counters(points, map, block);
+  rows.push_back({kPoints, block, points.take()});
+}
+
 void MapCheckpoint::append_changes(SlamMap& map, std::vector<CheckpointRow>& rows) {
   const SlamMap& seen = map;
   std::set<std::size_t> keyframes;
@@ -122,8 +143,7 @@ void MapCheckpoint::append_changes(SlamMap& map, std::vector<CheckpointRow>& row
     append_features(seen, block, rows);
     rows.push_back({kKeyframes, block, keyframes_of(seen, block)});
   }
-  for (const std::size_t block : map.all_points().take_touched())
-    rows.push_back({kPoints, block, points_of(seen, block)});
+  for (const std::size_t block : map.all_points().take_touched()) append_points(seen, block, rows);
   rows.push_back({kMap, 0, common_to_all(seen)});
 }
 

@@ -15,6 +15,7 @@ namespace {
 using map_file::ByteReader;
 
 constexpr std::size_t kObservationBytes = 8 + 4;
+constexpr std::size_t kPointBytes = 8 + 24 + 8 + 8 + 16;
 
 /// What a picture showed, by keyframe.
 using Pictures = std::map<KeyframeId, Keyframe>;
@@ -79,22 +80,29 @@ void get_keyframes(ByteReader& reader, Pictures& pictures, MapContents& contents
   }
 }
 
+MapPoint get_point(ByteReader& reader) {
+  MapPoint point;
+  point.id = reader.get<PointId>();
+  point.position = map_file::get_vector(reader);
+  point.created_by = reader.get<KeyframeId>();
+  point.observations.resize(reader.get_count(kObservationBytes));
+  for (Observation& o : point.observations) {
+    o.keyframe = reader.get<KeyframeId>();
+    o.feature = reader.get<std::uint32_t>();
+  }
+  return point;
+}
+
 void get_points(ByteReader& reader, MapContents& contents) {
-  while (has_more(reader)) {
-    MapPoint point;
-    point.id = reader.get<PointId>();
-    point.position = map_file::get_vector(reader);
-    point.created_by = reader.get<KeyframeId>();
+  std::vector<MapPoint> points(reader.get_count(kPointBytes));
+  for (MapPoint& point : points) point = get_point(reader);
+  for (MapPoint& point : points) {
     point.visible = reader.get<std::uint32_t>();
     point.found = reader.get<std::uint32_t>();
     point.last_found_ns = reader.get<std::int64_t>();
-    point.observations.resize(reader.get_count(kObservationBytes));
-    for (Observation& o : point.observations) {
-      o.keyframe = reader.get<KeyframeId>();
-      o.feature = reader.get<std::uint32_t>();
-    }
     if (point.id < contents.points.next_id() || point.id >= kMaxPoints)
-      return reader.refuse(fmt::format("point {} out of order", point.id));
+      reader.refuse(fmt::format("point {} out of order", point.id));
+    if (!reader.ok()) return;
     contents.points.skip_to(point.id);
     contents.points.emplace(std::move(point));
   }

@@ -93,13 +93,15 @@ class Service {
   virtual void idle() {}
 
   /// One step of the worker with one message: an exception is counted as a failure of that topic, and the
-  /// worker goes on.
+  /// worker goes on. @return whether there was none.
   template <class Step>
-  void guarded(const std::string& topic, Step step) {
+  bool guarded(const std::string& topic, Step step) {
     try {
       step();
+      return true;
     } catch (const std::exception& e) {
       context_.diagnostics.reject(topic, Rejection::kFailed, e.what());
+      return false;
     }
   }
 

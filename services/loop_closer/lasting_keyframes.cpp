@@ -46,6 +46,7 @@ void LastingKeyframes::add(const KeyframeFeatures& keyframe) {
   if (!writer_) return;
   if (map_epoch_ != keyframe.map_epoch) clear(start_);
   map_epoch_ = keyframe.map_epoch;
+  schedule_.note_keyframe();
   if (changes_.bytes() < kMaxWaitingBytes) changes_.put(kKeyframe, keyframe.id, to_bytes(keyframe));
 }
 
@@ -57,8 +58,8 @@ void LastingKeyframes::clear(std::uint64_t start) {
 }
 
 void LastingKeyframes::save(bool now) {
-  if (!writer_ || changes_.empty() || (!now && Clock::now() - saved_ < period_)) return;
-  saved_ = Clock::now();
+  if (!writer_ || changes_.empty() || (!now && !schedule_.is_due())) return;
+  schedule_.restart();
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time
 }
 

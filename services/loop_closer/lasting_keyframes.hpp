@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <memory>
 
+#include "common/store/checkpoint_schedule.hpp"
 #include "common/store/checkpoint_writer.hpp"
 #include "services/loop_closer/core/loop_closer.hpp"
 
@@ -15,7 +15,7 @@ class LastingKeyframes {
  public:
   /// @param writer  nullptr: nothing lasts.
   LastingKeyframes(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
-      : writer_(std::move(writer)), period_(period_s) {}
+      : writer_(std::move(writer)), schedule_(period_s) {}
 
   /// Shows all keyframes to a loop closer again, in order. What began with another saved map goes.
   /// @param start  checksum of the saved map's part, 0 without one.
@@ -33,14 +33,11 @@ class LastingKeyframes {
   void save(bool now = false);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::unique_ptr<store::CheckpointWriter> writer_;
   store::Batch changes_;
   std::optional<std::uint64_t> map_epoch_;
   std::uint64_t start_ = 0;
-  std::chrono::duration<double> period_;
-  Clock::time_point saved_ = Clock::now();
+  store::CheckpointSchedule schedule_;
 };
 
 }  // namespace rds::loop_closer

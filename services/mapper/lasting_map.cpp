@@ -62,19 +62,20 @@ class CheckpointedRecords : public SpillStorage {
 };
 
 LastingMap::LastingMap(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
-    : writer_(std::move(writer)), period_(period_s) {}
+    : writer_(std::move(writer)), schedule_(period_s) {}
 
 std::unique_ptr<SpillStorage> LastingMap::storage() {
   return writer_ ? std::make_unique<CheckpointedRecords>(*this) : nullptr;
 }
 
 void LastingMap::add(const Integrated& keyframe) {
+  schedule_.note_keyframe();
   if (writer_) changes_.put(kArrival, keyframe.id, to_bytes(keyframe));
 }
 
 void LastingMap::save(SemanticMapper& mapper, bool now) {
-  if (!writer_ || (!now && Clock::now() - saved_ < period_)) return;
-  saved_ = Clock::now();
+  if (!writer_ || (!now && !schedule_.is_due())) return;
+  schedule_.restart();
   const auto checkpoint = mapper.checkpoint();
   if (!checkpoint) return writer_->try_again();
   std::set<std::uint64_t> blocks;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <set>
 #include <vector>
 
+#include "common/store/checkpoint_schedule.hpp"
 #include "common/store/checkpoint_writer.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 
@@ -39,13 +39,10 @@ class LastingMap {
 
  private:
   friend class CheckpointedRecords;
-  using Clock = std::chrono::steady_clock;
-
   std::unique_ptr<store::CheckpointWriter> writer_;
   store::Batch changes_;  // not handed over yet
   std::set<std::uint64_t> blocks_;
-  std::chrono::duration<double> period_;
-  Clock::time_point saved_ = Clock::now();
+  store::CheckpointSchedule schedule_;
 };
 
 }  // namespace rds::mapper

@@ -50,8 +50,7 @@ tl::expected<std::optional<LastingTracker::Epoch>, std::string> LastingTracker::
 
 void LastingTracker::save(Tracker& tracker, const Epoch& epoch) {
   if (!writer_) return;
-  saved_ = Clock::now();
-  has_keyframe_ = false;
+  schedule_.restart();
   if (changes_.bytes() < kMaxWaitingBytes) {
     for (CheckpointRow& row : tracker.checkpoint()) {
       if (row.bytes)

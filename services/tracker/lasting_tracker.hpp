@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +8,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/store/checkpoint_schedule.hpp"
 #include "common/store/checkpoint_writer.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/tracker_outputs.hpp"
@@ -28,33 +27,23 @@ class LastingTracker {
 
   /// @param writer  nullptr: nothing lasts.
   LastingTracker(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
-      : writer_(std::move(writer)), period_(period_s) {}
+      : writer_(std::move(writer)), schedule_(period_s) {}
 
   /// Makes the tracker go on where the checkpoint ends, if that began with the same saved map.
   /// @return its epoch; nullopt where there is none to go on in. Or why it cannot be used.
   tl::expected<std::optional<Epoch>, std::string> restore(std::uint64_t start, Tracker& tracker);
 
-  /// A new keyframe shows what a camera that comes back will look for: with one a save is due after a second.
-  void note_keyframe() { has_keyframe_ = true; }
-  [[nodiscard]] bool is_due() const {
-    return writer_ && Clock::now() - saved_ >= (has_keyframe_ ? std::min(period_, kShortest) : period_);
-  }
-  /// The next save is due at once.
-  void hurry() { saved_ = {}; }
+  store::CheckpointSchedule& schedule() { return schedule_; }
+  [[nodiscard]] bool is_due() const { return writer_ && schedule_.is_due(); }
   /// Hands over what has changed since. Costs what the camera saw since, or the map if all of it moved.
   void save(Tracker& tracker, const Epoch& epoch);
   /// Another map begins; the rows of this one become the previous checkpoint.
   void clear();
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::duration<double> kShortest{1};  // between two saves
-
   std::unique_ptr<store::CheckpointWriter> writer_;
   store::Batch changes_;  // not handed over yet
-  std::chrono::duration<double> period_;
-  Clock::time_point saved_ = Clock::now();
-  bool has_keyframe_ = false;  // since then
+  store::CheckpointSchedule schedule_;
 };
 
 }  // namespace rds::tracker

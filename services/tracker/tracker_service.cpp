@@ -87,7 +87,8 @@ void TrackerService::run(const std::stop_token& stop) {
     map_commands_.settle();
     sort_in_arrivals();
     if (holds_frames()) continue;
-    if (const auto frame = input_.frames().try_pop()) guarded("frame", [&] { take(*frame); });
+    if (const auto frame = input_.frames().try_pop())
+      if (!guarded("frame", [&] { take(*frame); })) guarded("frame", [&] { acknowledge(*frame); });
     if (lasting_.is_due()) save_checkpoint();
   }
 }
@@ -107,9 +108,14 @@ void TrackerService::take(const image::RgbdFrame& frame) {
   in_time ? process(frame) : drop(frame);
 }
 
-/// Of another time than the frames before: acknowledged without a pose.
+/// Of another time than the frames before.
 void TrackerService::drop(const image::RgbdFrame& frame) {
   ++context_.diagnostics.counter("frames out of time");
+  acknowledge(frame);
+}
+
+/// A frame that is not tracked: acknowledged without a pose.
+void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes() > 0) result.state = State::kLost;
   outputs_.publish({frame, result, {}, frame_index_, 0, 0, input_.dropped(), box_sets_used_});
@@ -130,6 +136,10 @@ void TrackerService::begin_after_break() {
 }
 
 void TrackerService::process(const image::RgbdFrame& frame) {
+  if (resume_.is_looking() && frame.camera.is_valid() && frame.camera.fx != tracker_.known_camera().given_fx) {
+    spdlog::warn("the map of the checkpoint was made with another camera");
+    reset();
+  }
   if (config_.lockstep.enabled) await_answers();
   const auto started = Clock::now();
   apply_answers();
@@ -146,7 +156,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
-  if (result.keyframe) lasting_.note_keyframe();
+  if (result.keyframe) lasting_.schedule().note_keyframe();
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
@@ -240,7 +250,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   loops_ = {poses->instance(), poses->revision(), poses->loops_closed()};
   spdlog::info("loop {} closed, keyframe poses corrected", loops_.loops_closed);
   publish_poses();
-  lasting_.hurry();  // a map that does not know this loop would not fit the mapper's
+  lasting_.schedule().hurry();  // a map that does not know this loop would not fit the mapper's
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {

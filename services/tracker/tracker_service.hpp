@@ -54,6 +54,7 @@ class TrackerService : public service::Service {
 
   void take(const image::RgbdFrame& frame);
   void drop(const image::RgbdFrame& frame);
+  void acknowledge(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
   void sort_in_arrivals();

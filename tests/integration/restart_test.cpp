@@ -17,7 +17,7 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/TrackingState.h"
-#include "tests/integration/run_support.hpp"
+#include "tests/integration/fleet.hpp"
 #include "tests/support/shared_data.hpp"
 
 namespace rds::test {
@@ -27,49 +27,6 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kDomain = 171;
-constexpr auto kServices = {"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper", "rds-loop-closer"};
-
-std::vector<std::string> command(const std::string& program, const std::string& vendor) {
-  return {std::string(RDS_BIN_DIR) + "/" + program, "--domain", std::to_string(kDomain), "--loopback", "--bus", vendor};
-}
-
-std::vector<std::string> camera(const std::filesystem::path& recording, const std::string& vendor) {
-  return {rds(), "play", recording.string(), "--loop", "--rate", "0.5", "--domain", std::to_string(kDomain),
-          "--loopback", "--bus", vendor};
-}
-
-/// Five processes that share a folder of maps.
-class Fleet {
- public:
-  explicit Fleet(std::string vendor) : vendor_(std::move(vendor)) { start(); }
-
-  void start() {
-    for (const char* service : kServices)
-      services_.push_back(std::make_unique<Process>(
-          command(service, vendor_), Process::Environment{{"RDS_MAPS_DIR", maps_.path().string()}}));
-  }
-  /// @return whether all were there to be killed.
-  bool kill() {
-    const bool all = std::ranges::all_of(services_, [](const auto& service) { return service->running(); });
-    for (const auto& service : services_) service->kill();
-    for (const auto& service : services_) service->wait(10s);
-    last_log_ = log();
-    services_.clear();
-    return all;
-  }
-  std::string log() const {
-    std::string all;
-    for (const auto& service : services_) all += service->standard_error() + service->standard_output();
-    return all;
-  }
-  const std::string& last_log() const { return last_log_; }
-
- private:
-  std::string vendor_;
-  TemporaryFolder maps_;
-  std::vector<std::unique_ptr<Process>> services_;
-  std::string last_log_;
-};
 
 /// What the services tell.
 class Watch {
@@ -185,9 +142,9 @@ class Restart : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Restart, AllFiveGoOnInTheSameMap) {
   const TestRecording room = recording_of_a_room();
-  Fleet fleet(GetParam());
+  Fleet fleet(kDomain, GetParam());
   Watch watch(GetParam());
-  Process player(camera(room.folder, GetParam()));
+  Process player(fleet.player(room.folder, "0.5"));
   ASSERT_TRUE(watch.wait(60s, [](const auto& seen, const auto& map) { return seen.first_pose && map.nodes > 0; })) << fleet.log();
   std::this_thread::sleep_for(7s);  // a checkpoint is made every five seconds
   std::mt19937 random(7);

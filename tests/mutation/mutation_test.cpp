@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spoiled copies of every message that the services read, written beside a camera that goes on. RDS_MUTATIONS says
+// how many per topic.
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "rds_msgs/msg/Command.h"
+#include "rds_msgs/msg/KeyFrameFeatures.h"
+#include "rds_msgs/msg/KeyFrameImages.h"
+#include "rds_msgs/msg/KeyFramePoses.h"
+#include "rds_msgs/msg/ServiceStatus.h"
+#include "rds_msgs/message_fields.hpp"
+#include "sensor_msgs/msg/CameraInfo.h"
+#include "sensor_msgs/msg/Image.h"
+#include "tests/integration/fleet.hpp"
+#include "tests/mutation/stranger.hpp"
+#include "tests/soak/process_sample.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/small_dataset.hpp"
+#include "tools/rds/run/commander.hpp"
+#include "vision_msgs/message_fields.hpp"
+#include "vision_msgs/msg/Detection2DArray.h"
+#include "vision_msgs/msg/Detection3DArray.h"
+
+namespace rds::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kDomain = 173;
+constexpr std::uint64_t kMemoryGrowth = 5'000'000;  // bytes
+
+std::uint64_t mutations() {
+  const char* given = std::getenv("RDS_MUTATIONS");
+  return given == nullptr ? 300 : std::stoull(given);
+}
+
+/// How many messages the services have refused, by what their diagnostics say.
+class RefusalWatch {
+ public:
+  explicit RefusalWatch(bus::Participant& bus)
+      : subscription_(bus.subscribe<diagnostic_msgs::msg::DiagnosticArray>(
+            "diagnostics", bus::kStream, [this](const auto& m) {
+              const std::lock_guard lock(mutex_);
+              for (const auto& status : m->status())
+                for (const auto& figure : status.values())
+                  if (figure.key().starts_with("rejected ") && status.name().starts_with("rds-"))
+                    refused_[status.name() + " " + figure.key()] = std::stoull(figure.value());
+            })) {}
+  std::map<std::string, std::uint64_t> refused() {
+    const std::lock_guard lock(mutex_);
+    return refused_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::uint64_t> refused_;
+  bus::Subscription subscription_;
+};
+
+std::vector<std::unique_ptr<Stranger>> strangers(bus::Participant& bus) {
+  std::vector<std::unique_ptr<Stranger>> all;
+  const auto add = [&]<class Message>(std::type_identity<Message>, const std::string& topic, const bus::Qos& qos) {
+    all.push_back(std::make_unique<StrangerOf<Message>>(bus, topic, qos, all.size() + 1));
+  };
+  add(std::type_identity<rds_msgs::msg::KeyFramePoses>{}, "rds/keyframe/poses", bus::kPoses);
+  add(std::type_identity<rds_msgs::msg::KeyFrameFeatures>{}, "rds/keyframe/features", {.transient_local = true, .depth = 20});
+  add(std::type_identity<rds_msgs::msg::KeyFrameImages>{}, "rds/keyframe/images", bus::kKeyframeImages);
+  add(std::type_identity<vision_msgs::msg::Detection2DArray>{}, "rds/detections", bus::kStream);
+  add(std::type_identity<vision_msgs::msg::Detection3DArray>{}, "rds/boxes", bus::kBoxes);
+  add(std::type_identity<rds_msgs::msg::Command>{}, "rds/command", bus::kCommand);
+  add(std::type_identity<rds_msgs::msg::ServiceStatus>{}, "rds/services", bus::kLatched);
+  add(std::type_identity<sensor_msgs::msg::CameraInfo>{}, "camera/color/camera_info", bus::kSensor);
+  add(std::type_identity<sensor_msgs::msg::Image>{}, "camera/color/image_raw", bus::kSensor);
+  add(std::type_identity<sensor_msgs::msg::Image>{}, "camera/aligned_depth_to_color/image_raw", bus::kSensor);
+  return all;
+}
+
+class Mutations : public ::testing::TestWithParam<const char*> {
+ protected:
+  Mutations() { make_excerpt(recording_of_a_room().folder, place_ / "room", 150); }
+
+  std::vector<std::uint64_t> memory() const {
+    std::vector<std::uint64_t> all;
+    for (const auto& service : fleet_.services()) all.push_back(memory_of(service->pid()));
+    return all;
+  }
+  void expect_well(const std::string& after) {
+    ASSERT_TRUE(fleet_.all_run()) << "after " << after << "\n" << fleet_.log();
+    const auto answers = commander_.ask_status(Fleet::kServices.size(), {}, 10s);
+    ASSERT_EQ(answers.size(), Fleet::kServices.size()) << "after " << after;
+  }
+
+  TemporaryFolder place_;
+  Fleet fleet_{kDomain, GetParam()};
+  std::unique_ptr<bus::Participant> bus_ = bus::Participant::create(
+      {.vendor = bus::vendor_from_name(GetParam()), .domain = kDomain, .node_name = "stranger", .loopback_only = true});
+  run::Commander commander_{*bus_};
+  RefusalWatch watch_{*bus_};
+};
+
+TEST_P(Mutations, EndNothingAndFillNothing) {
+  Process player(fleet_.player(place_ / "room", "0.3"));
+  const auto all = strangers(*bus_);
+  const auto deadline = std::chrono::steady_clock::now() + 60s;
+  while (!std::ranges::all_of(all, [](const auto& stranger) { return stranger->is_ready(); })) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "somebody is silent\n" << fleet_.log();
+    (void)commander_.ask_status(Fleet::kServices.size(), {}, 300ms);  // commands to spoil
+  }
+  for (const auto& stranger : all) {
+    const auto warm_up = std::min<std::uint64_t>(100, mutations() / 3);
+    std::vector<std::uint64_t> before;
+    for (std::uint64_t i = 0; i < mutations(); ++i) {
+      if (i == warm_up) before = memory();
+      stranger->write();
+      if (i % 16 == 0) std::this_thread::sleep_for(5ms);
+    }
+    std::this_thread::sleep_for(1s);
+    expect_well(stranger->topic());
+    const auto after = memory();
+    for (std::size_t s = 0; s < after.size(); ++s) {
+      const auto* name = *(Fleet::kServices.begin() + s);
+      const auto grown = static_cast<double>(after[s]) - static_cast<double>(before[s]);
+      fmt::print("{:45} {:16} {:+.1f} MB\n", stranger->topic(), name, grown / 1e6);
+      EXPECT_LE(grown, static_cast<double>(kMemoryGrowth)) << name << " after " << stranger->topic();
+    }
+  }
+  std::this_thread::sleep_for(2s);
+  for (const auto& [what, count] : watch_.refused()) fmt::print("{}: {}\n", what, count);
+  for (const std::string topic : {"rds/keyframe/poses", "rds/keyframe/features", "rds/keyframe/images", "rds/detections", "rds/boxes"})
+    EXPECT_TRUE(std::ranges::any_of(watch_.refused(), [&](const auto& entry) { return entry.first.find(topic) != std::string::npos; })) << topic;
+}
+
+INSTANTIATE_TEST_SUITE_P(OnBoth, Mutations, ::testing::Values("fastdds", "cyclonedds"));
+
+}  // namespace
+}  // namespace rds::test

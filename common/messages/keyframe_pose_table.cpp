@@ -2,6 +2,7 @@
 #include "common/messages/keyframe_pose_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rds::messages {
 namespace {
@@ -11,19 +12,28 @@ using geometry::KeyframePose;
 constexpr std::size_t kMinChanges = 64;       // messages with changes between two with all poses
 constexpr std::size_t kPosesPerChange = 16;   // … and one more for so many keyframes: 1.4 kB a message
 
-bool is_same(const KeyframePose& a, const KeyframePose& b) {
-  return a.id == b.id && a.stamp_ns == b.stamp_ns &&
-         a.map_from_camera.matrix() == b.map_from_camera.matrix();
+constexpr double kMoved_m = 1e-3;
+constexpr double kTurned_rad = 3.5e-4;
+
+bool is_nearly(const KeyframePose& a, const KeyframePose& b) {
+  const Eigen::Matrix4d change = a.map_from_camera.matrix() - b.map_from_camera.matrix();
+  return a.stamp_ns == b.stamp_ns && change.topRightCorner<3, 1>().norm() <= kMoved_m &&
+         change.topLeftCorner<3, 3>().norm() <= std::sqrt(2.0) * kTurned_rad;
 }
 
-/// Poses that are not in `told`, or are there with another value; both by id.
-std::vector<KeyframePose> changes_of(std::span<const KeyframePose> poses, std::span<const KeyframePose> told) {
+/// Poses that are not in `told`, or are there with another value; both by id. `told` is what it is after them.
+std::vector<KeyframePose> changes_of(std::span<const KeyframePose> poses, std::vector<KeyframePose>& told) {
   std::vector<KeyframePose> changed;
+  std::vector<KeyframePose> told_now(poses.begin(), poses.end());
   auto before = told.begin();
-  for (const KeyframePose& pose : poses) {
+  for (KeyframePose& pose : told_now) {
     while (before != told.end() && before->id < pose.id) ++before;
-    if (before == told.end() || !is_same(*before, pose)) changed.push_back(pose);
+    if (before != told.end() && before->id == pose.id && is_nearly(*before, pose))
+      pose = *before;
+    else
+      changed.push_back(pose);
   }
+  told = std::move(told_now);
   return changed;
 }
 
@@ -53,16 +63,16 @@ std::vector<KeyframePose> KeyframePoseTable::poses() const {
   return poses;
 }
 
-std::vector<KeyframePose> KeyframePoseChanges::next(std::span<const KeyframePose> poses, bool somebody_new,
+std::vector<KeyframePose> KeyframePoseChanges::next(std::span<const KeyframePose> poses, bool all,
                                                     rds_msgs::msg::KeyFramePoses& message) {
-  const bool all = revision_ == 0 || somebody_new ||
+  all = all || revision_ == 0 ||
                    since_all_ >= std::max(kMinChanges, poses.size() / kPosesPerChange);
   message.base_revision(all ? 0 : revision_);
   message.revision(++revision_);
   since_all_ = all ? 0 : since_all_ + 1;
-  auto changed = all ? std::vector(poses.begin(), poses.end()) : changes_of(poses, told_);
+  if (!all) return changes_of(poses, told_);
   told_.assign(poses.begin(), poses.end());
-  return changed;
+  return told_;
 }
 
 }  // namespace rds::messages

@@ -32,13 +32,14 @@ class KeyframePoseTable {
 
 /// The writer's side: which poses a message has to carry.
 ///
-/// All of them first, when somebody new reads, and after so many messages that what they add to each one stays
-/// the same however many keyframes there are; else those that are new or have moved.
+/// All of them first, when that is asked for, and after so many messages that what they add to each one stays
+/// the same however many keyframes there are; else those that are new or have moved, by more than bundle adjustment
+/// moves everything all the time: 1 mm or 0.02°.
 class KeyframePoseChanges {
  public:
-  /// @param poses  all, by id. @param somebody_new  has joined: all are to be told.
+  /// @param poses  all, by id. @param all  somebody has joined, or needs the exact poses.
   /// @return those to be told; revision and base_revision of the message are set.
-  std::vector<geometry::KeyframePose> next(std::span<const geometry::KeyframePose> poses, bool somebody_new,
+  std::vector<geometry::KeyframePose> next(std::span<const geometry::KeyframePose> poses, bool all,
                                            rds_msgs::msg::KeyFramePoses& message);
   /// Of the last message; 0 before the first.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }

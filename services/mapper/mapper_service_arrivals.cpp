@@ -134,6 +134,7 @@ void MapperService::take(const Poses& message) {
   if (local) {
     if (!tracker_poses_.take(*message, *poses)) return;  // until all are told
     *poses = tracker_poses_.poses();
+    if (message->base_revision() == 0 && !config_.lockstep) mapper_.make_others_final(*poses);
   }
   if (loops_.is_older(message->loop_instance(), message->loop_revision()))
     return;  // does not know the loop yet that we have applied

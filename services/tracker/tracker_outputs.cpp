@@ -177,7 +177,7 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   state_.write(message);
 }
 
-std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops) {
+std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops, bool exact) {
   rds_msgs::msg::KeyFramePoses message;
   message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, kMap));
   message.instance(instance_);
@@ -188,7 +188,7 @@ std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses,
   message.loops_closed(loops.loops_closed);
   if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
   const bool somebody_new = has_new_reader() || std::exchange(reader_waits_, false);
-  messages::append_poses(pose_changes_.next(poses, somebody_new, message), message);
+  messages::append_poses(pose_changes_.next(poses, somebody_new || exact, message), message);
   keyframe_poses_.write(message);
   return pose_changes_.revision();
 }

@@ -327,7 +327,7 @@ service::CommandOutcome TrackerService::finish() {
   }
   frame_index_ = last_frame;
   const auto poses = tracker_.keyframe_poses();
-  const std::uint64_t revision = outputs_.publish_poses(poses, loops_);
+  const std::uint64_t revision = outputs_.publish_poses(poses, loops_, true);
   const std::size_t in_map = config_.tracker.localize_only ? 0 : poses.size();
   return {true, nlohmann::json{{"poses_revision", revision},
                                {"keyframes", in_map},

@@ -149,6 +149,14 @@ void SemanticMapper::make_final(std::uint64_t id) {
   ++final_keyframes_;
 }
 
+void SemanticMapper::make_others_final(std::span<const KeyframePose> told) {
+  std::vector<std::uint64_t> others;
+  for (const auto& [id, keyframe] : keyframes_)
+    if (!told.empty() && id < told.back().id && !std::ranges::binary_search(told, id, {}, &KeyframePose::id))
+      others.push_back(id);
+  for (const auto id : others) make_final(id);
+}
+
 void SemanticMapper::lose(std::uint64_t id) {
   keyframes_.erase(id);
   records_.erase(id);

@@ -47,6 +47,8 @@ class SemanticMapper {
   /// poses that are not finite, are ignored.
   /// @return what changed, deletions included; is_noop() if nothing was done.
   MapDelta apply_poses(std::span<const KeyframePose> poses);
+  /// Keyframes that are older than the newest of these, by id, and not among them: nothing will move them any more.
+  void make_others_final(std::span<const KeyframePose> told);
 
   /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
   MapDelta settle(std::span<const KeyframePose> poses);

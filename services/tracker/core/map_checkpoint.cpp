@@ -55,6 +55,7 @@ std::optional<Bytes> keyframes_of(const SlamMap& map, std::size_t block) {
     writer.put(record.id);
     writer.put(record.stamp_ns);
     writer.put(record.anchor);
+    writer.put(static_cast<std::uint8_t>(record.pose_only));
     if (record.anchor == kNoId)
       put(writer, *map.keyframe(record.id));
     else

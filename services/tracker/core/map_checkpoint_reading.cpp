@@ -69,6 +69,7 @@ void get_keyframes(ByteReader& reader, Pictures& pictures, MapContents& contents
     record.id = reader.get<KeyframeId>();
     record.stamp_ns = reader.get<std::int64_t>();
     record.anchor = reader.get<KeyframeId>();
+    record.pose_only = reader.get<std::uint8_t>() != 0;
     if (record.id < contents.records.next_id() || record.id >= kMaxKeyframes)
       return reader.refuse(fmt::format("keyframe {} out of order", record.id));
     if (record.anchor == kNoId)

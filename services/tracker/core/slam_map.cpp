@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -56,7 +57,10 @@ tl::expected<SlamMap, std::string> SlamMap::of(MapContents&& contents, const Map
     k.points.assign(k.features->size(), kNoId);
     if (!map.knows(k.id)) note(fmt::format("keyframe {} without a record", k.id));
   });
-  std::as_const(map.records_).for_each([&](const KeyframeRecord& r) { note(map.fault_of(r)); });
+  std::as_const(map.records_).for_each([&](const KeyframeRecord& r) {
+    note(map.fault_of(r));
+    if (r.pose_only) map.passing_[r.anchor].push_back(r.id);
+  });
   map.points_.for_each([&](MapPoint& p) { note(map.connect(p)); });
   if (!fault.empty()) return tl::unexpected(fault);
   map.update_all_covisibility();
@@ -96,14 +100,32 @@ Keyframe& SlamMap::add_keyframe(std::int64_t stamp_ns, const Pose& map_from_came
   keyframe.movable.resize(features->size());
   for (std::size_t i = 0; i < features->size(); ++i) keyframe.movable[i] = (*features)[i].movable;
   keyframe.features = std::move(features);
-  records_.emplace({keyframe.id, stamp_ns, kNoId, Pose::Identity()});
+  records_.emplace({keyframe.id, stamp_ns, kNoId, Pose::Identity(), false});
   return keyframes_.emplace(std::move(keyframe));
 }
 
 KeyframeId SlamMap::add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor) {
   const KeyframeId id = keyframes_.skip_id();
-  records_.emplace({id, stamp_ns, anchor, pose_of(anchor).inverse() * map_from_camera});
+  records_.emplace({id, stamp_ns, anchor, pose_of(anchor).inverse() * map_from_camera, false});
   return id;
+}
+
+KeyframeId SlamMap::add_passing(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor) {
+  const KeyframeId id = add_pose_only(stamp_ns, map_from_camera, anchor);
+  records_.find(id)->pose_only = true;
+  passing_[anchor].push_back(id);
+  if (config_.pose_only_s > 0) forget_passing(stamp_ns, anchor);
+  return id;
+}
+
+void SlamMap::forget_passing(std::int64_t now_ns, KeyframeId anchor) {
+  std::deque<KeyframeId>& passing = passing_[anchor];
+  while (passing.size() > static_cast<std::size_t>(config_.pose_only_kept)) {
+    const auto age_s = static_cast<double>(now_ns - record(passing.front()).stamp_ns) * 1e-9;
+    if (std::abs(age_s) <= config_.pose_only_s) return;
+    records_.erase(passing.front());
+    passing.pop_front();
+  }
 }
 
 void SlamMap::skip_keyframe_ids(KeyframeId next) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -79,6 +81,7 @@ struct KeyframeRecord {
   std::int64_t stamp_ns = 0;
   KeyframeId anchor = kNoId;  // kNoId while the keyframe itself is there
   Pose anchor_from_camera = Pose::Identity();
+  bool pose_only = false;  // never was in the map: nothing hangs on it
 };
 
 /// What a map consists of. Everything else is computed from it.
@@ -121,6 +124,9 @@ class SlamMap {
   /// Takes an id for a keyframe that the map does not hold: only its pose is kept, relative to `anchor`.
   /// @return the id. @throws std::out_of_range for an unknown anchor.
   KeyframeId add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
+  /// As add_pose_only(), of a keyframe that never was in the map. Earlier ones of this anchor are forgotten, as the
+  /// configuration says: a known place is seen for ever.
+  KeyframeId add_passing(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
   /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
   void hold_keyframes() { held_ = records_.next_id(); }
   /// The id of the first keyframe that hold_keyframes() did not find, and of the one that is made next.
@@ -166,6 +172,7 @@ class SlamMap {
   [[nodiscard]] const KeyframeRecord& record(KeyframeId id) const;
   [[nodiscard]] std::string fault_of(const KeyframeRecord& record) const;
   [[nodiscard]] std::string connect(MapPoint& point);
+  void forget_passing(std::int64_t now_ns, KeyframeId anchor);
   void refresh_descriptor(MapPoint& point) const;
   void set_covisible(Keyframe& keyframe, KeyframeId other, int weight) const;
 
@@ -174,6 +181,7 @@ class SlamMap {
   IdTable<Keyframe> keyframes_;
   IdTable<MapPoint> points_;
   IdTable<KeyframeRecord> records_;
+  std::map<KeyframeId, std::deque<KeyframeId>> passing_;  // by anchor, with pose only, oldest first
   KeyframeId held_ = 0;
 };
 

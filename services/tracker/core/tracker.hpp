@@ -90,8 +90,8 @@ class Tracker {
   /// @return or why not; then everything is as before.
   tl::expected<void, std::string> resume(const ReadRows& read);
 
-  /// Every keyframe since the last reset, by id, also those that are culled or never were in the map; without
-  /// those of a map that it started from.
+  /// Every keyframe since the last reset, by id, also those that are culled, and of those that never were in the map
+  /// the newer ones; without those of a map that it started from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
   /// Keyframes that a lost camera can find itself by.
@@ -235,7 +235,8 @@ class Tracker {
   State state_ = State::kNotInitialized;
   KeyframeId reference_ = kNoId;
   KeyframeId newest_keyframe_ = kNoId;            // of those made here
-  std::vector<KeyframePose> shown_;               // keyframes that did not enter the map, by id
+  std::deque<KeyframePose> shown_;                // keyframes that did not enter the map, by id; the newest
+  std::uint64_t shown_count_ = 0;                 // all
   std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
   std::optional<std::int64_t> last_keyframe_ns_;  // time, of those shown too
   int frames_since_keyframe_ = 0;

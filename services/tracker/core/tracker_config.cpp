@@ -84,6 +84,8 @@ void read(config::ConfigReader& r, MapConfig& c) {
   r.value("min_covisible_weight", c.min_covisible_weight, 1, 1000);
   r.value("local_keyframes", c.local_keyframes, 1, 500);
   r.value("max_local_points", c.max_local_points, 100, 100000);
+  r.value("pose_only_s", c.pose_only_s, 0.0, 1e9, "s");
+  r.value("pose_only_kept", c.pose_only_kept, 1, 100000);
 }
 
 void read(config::ConfigReader& r, LocalMappingConfig& c) {

@@ -103,6 +103,9 @@ struct MapConfig {
   int min_covisible_weight = 15;  // shared points that make a covisibility edge
   int local_keyframes = 24;       // of the local map
   int max_local_points = 4000;    // of the local map
+  // Keyframes of which only the pose is kept: those of this time, and so many more per reference keyframe.
+  double pose_only_s = 60;  // 0: all
+  int pose_only_kept = 20;
   bool operator==(const MapConfig&) const = default;
 };
 

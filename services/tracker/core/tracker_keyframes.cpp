@@ -12,6 +12,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr double kWild = 4;  // jerk() of a frame that is no keyframe of the map, with few inliers
+constexpr std::size_t kShown = 1000;        // keyframes that are remembered where the map does not grow
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kWellObserved = 2;    // keyframes, of a point that the reference keyframe can rely on
 
@@ -60,7 +61,8 @@ KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
 }  // namespace
 
 std::vector<KeyframePose> Tracker::keyframe_poses() const {
-  return config_.localize_only ? shown_ : map_.keyframe_poses(map_.first_free_keyframe());
+  if (config_.localize_only) return {shown_.begin(), shown_.end()};
+  return map_.keyframe_poses(map_.first_free_keyframe());
 }
 
 /// How well the map serves the frame; left out where it cannot be made better.
@@ -136,10 +138,11 @@ void Tracker::show_keyframe(const TrackedFrame& frame, FrameResult& result) {
   shown.map_from_camera = frame.camera_from_map.inverse();
   shown.in_map = false;
   if (config_.localize_only) {
-    shown.id = map_.next_keyframe_id() + shown_.size();
+    shown.id = map_.next_keyframe_id() + shown_count_++;
     shown_.push_back({shown.id, shown.stamp_ns, shown.map_from_camera});
+    if (shown_.size() > kShown && config_.map.pose_only_s > 0) shown_.pop_front();
   } else {
-    shown.id = map_.add_pose_only(shown.stamp_ns, shown.map_from_camera, reference_);
+    shown.id = map_.add_passing(shown.stamp_ns, shown.map_from_camera, reference_);
     if (mapping_centre_ == kNoId) mapping_centre_ = reference_;  // nothing new: what is there gets better
   }
   last_keyframe_ns_ = frame.time_ns;

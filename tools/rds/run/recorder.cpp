@@ -114,7 +114,7 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
     const std::lock_guard lock(mutex_);
     if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
     if (!poses_.take(message, messages::to_keyframe_poses(message).value())) return;
-    recording_.keyframes.clear();
+    if (message.map_epoch() != recording_.map_epoch) recording_.keyframes.clear();
     for (const auto& pose : poses_.poses())
       recording_.keyframes[pose.id] = {pose.stamp_ns, pose.map_from_camera};
     recording_.keyframes_revision = message.revision();

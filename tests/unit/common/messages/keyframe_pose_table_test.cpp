@@ -19,11 +19,11 @@ KeyframePose pose(std::uint64_t id, double x_m) {
 
 class KeyframePosesOnTheWay : public ::testing::Test {
  protected:
-  Message tell(const std::vector<KeyframePose>& poses, bool somebody_new = false) {
+  Message tell(const std::vector<KeyframePose>& poses, bool all = false) {
     Message message;
     message.instance(7);
     message.map_epoch(42);
-    append_poses(changes_.next(poses, somebody_new, message), message);
+    append_poses(changes_.next(poses, all, message), message);
     return message;
   }
   bool hear(const Message& message) { return table_.take(message, to_keyframe_poses(message).value()); }
@@ -44,6 +44,13 @@ TEST_F(KeyframePosesOnTheWay, CarryWhatIsNewOrHasMoved) {
   ASSERT_TRUE(hear(second));
   EXPECT_EQ(heard(), (std::vector<double>{0, 1.5, 3}));
   EXPECT_TRUE(tell({pose(0, 0), pose(1, 1.5), pose(3, 3)}).keyframe_ids().empty());
+}
+
+TEST_F(KeyframePosesOnTheWay, WhatHardlyMovesIsToldWhenThatAddsUpOrExactly) {
+  ASSERT_TRUE(hear(tell({pose(0, 0), pose(1, 1)})));
+  EXPECT_TRUE(tell({pose(0, 0), pose(1, 1.0006)}).keyframe_ids().empty());
+  EXPECT_EQ(tell({pose(0, 0), pose(1, 1.0012)}).keyframe_ids(), (std::vector<std::uint64_t>{1}));
+  EXPECT_EQ(tell({pose(0, 0), pose(1, 1.0013)}, true).keyframe_ids().size(), 2U);
 }
 
 TEST_F(KeyframePosesOnTheWay, AMissedMessageIsNoticedUntilAllAreTold) {

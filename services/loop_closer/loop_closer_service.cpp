@@ -83,10 +83,28 @@ bool LoopCloserService::is_known(const Features& features) const {
   return known_ && features->map_epoch() == known_->map_epoch && features->keyframe_id() <= known_->id;
 }
 
+/// Where there are keyframes to lose, another epoch begins with its second one; the first is answered, and waits.
+bool LoopCloserService::is_confirmed(const Features& features) {
+  if (features->map_epoch() == corrected_.map_epoch() || loop_closer_.keyframes() == 0) return true;
+  if (!another_epoch_.confirm(features->instance(), features->map_epoch(), features->keyframe_id())) {
+    first_of_epoch_ = features;
+    poses_.write(answer_to(features));
+    return false;
+  }
+  const Features first = std::exchange(first_of_epoch_, nullptr);
+  if (first && first->map_epoch() == features->map_epoch()) {
+    corrected_ = {};
+    corrected_.map_epoch(first->map_epoch());
+    take(first);
+  }
+  return true;
+}
+
 void LoopCloserService::take(const Features& features) {
   if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
     return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kForeign,
                                        "another tracker");
+  if (!is_confirmed(features)) return;
   if (is_known(features) && features->keyframe_id() < known_->id) return;
   if (paused_ || is_known(features)) return answer(features, {});  // the last one's answer may be waited for
   const auto started = std::chrono::steady_clock::now();
@@ -121,14 +139,28 @@ void LoopCloserService::answer(const Features& features, const LoopAnswer& found
     corrected_.stamps().clear();
     corrected_.poses().clear();
   }
-  corrected_.header(features->header());
-  corrected_.instance(context_.instance);
-  corrected_.loop_instance(context_.instance);
-  corrected_.header().frame_id("map");
   corrected_.map_epoch(features->map_epoch());
-  corrected_.source(kLoop);
-  corrected_.answered_keyframe_id(features->keyframe_id());
-  poses_.write(corrected_);
+  auto message = answer_to(features);
+  message.revision(corrected_.revision());
+  message.loop_revision(corrected_.loop_revision());
+  message.loops_closed(corrected_.loops_closed());
+  message.keyframe_ids(corrected_.keyframe_ids());
+  message.stamps(corrected_.stamps());
+  message.poses(corrected_.poses());
+  poses_.write(message);
+}
+
+/// Without poses.
+rds_msgs::msg::KeyFramePoses LoopCloserService::answer_to(const Features& features) const {
+  rds_msgs::msg::KeyFramePoses message;
+  message.header(features->header());
+  message.header().frame_id("map");
+  message.instance(context_.instance);
+  message.loop_instance(context_.instance);
+  message.map_epoch(features->map_epoch());
+  message.source(kLoop);
+  message.answered_keyframe_id(features->keyframe_id());
+  return message;
 }
 
 void LoopCloserService::forget() {

@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "common/map_commands/map_commands.hpp"
+#include "common/service/epoch_confirmation.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
@@ -44,9 +45,13 @@ class LoopCloserService : public service::Service {
   tl::expected<void, std::string> start_from(const map_file::Sections& saved,
                                              const std::filesystem::path& from);
   void answer(const Features& features, const LoopAnswer& answer);
+  [[nodiscard]] rds_msgs::msg::KeyFramePoses answer_to(const Features& features) const;
+  bool is_confirmed(const Features& features);
 
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
+  service::EpochConfirmation another_epoch_;
+  Features first_of_epoch_;  // waits until it is confirmed
   std::uint64_t start_checksum_ = 0;             // of the saved map's part
   LastingKeyframes lasting_;
   std::optional<LastingKeyframes::Last> known_;  // the last keyframe that the checkpoint had

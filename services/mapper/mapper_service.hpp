@@ -14,6 +14,7 @@
 
 #include "common/map_commands/map_commands.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
+#include "common/service/epoch_confirmation.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
@@ -59,6 +60,7 @@ class MapperService : public service::Service {
   void integrate_ready();
   [[nodiscard]] bool is_ready(const Images& images) const;
   void integrate(const Images& images);
+  bool is_confirmed(const Images& images);
   void correct();
   void report_losses();
   void publish(MapDelta delta);
@@ -80,6 +82,8 @@ class MapperService : public service::Service {
   service::FollowedWriter loop_closer_;
   std::uint64_t tracker_instance_ = 0;            // that is followed
   std::deque<std::uint64_t> earlier_epochs_;      // of that tracker
+  service::EpochConfirmation another_epoch_;
+  Images first_of_epoch_;                         // waits until it is confirmed
   LoopKnowledge loops_;                           // contained in poses_
   LastingMap lasting_;  // before mapper_, whose records it keeps
   SemanticMapper mapper_;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What MapperService does with messages before any of them changes the map.
+#include <limits>
+#include <utility>
+
 #include <spdlog/spdlog.h>
 
 #include "common/messages/conversions.hpp"
@@ -13,6 +16,7 @@ namespace {
 constexpr std::size_t kMaxEarlierEpochs = 16;
 constexpr std::uint8_t kLocal = 0;
 constexpr std::size_t kMaxEarlyPoses = 100;
+constexpr std::uint64_t kPosesMark = std::numeric_limits<std::uint64_t>::max();  // no keyframe's id
 
 }  // namespace
 
@@ -68,6 +72,23 @@ void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) 
   for (const Poses& early : std::exchange(early_poses_, {})) take(early);
 }
 
+/// Where there is a map to lose, another epoch begins with its second message; the first one waits for it.
+bool MapperService::is_confirmed(const Images& images) {
+  if (mapper_.keyframes() == 0) return true;
+  if (!another_epoch_.confirm(images->instance(), images->map_epoch(), images->keyframe_id())) {
+    first_of_epoch_ = images;
+    return false;
+  }
+  const Images first = std::exchange(first_of_epoch_, nullptr);
+  if (first && first != images && first->map_epoch() == images->map_epoch()) {
+    begin_epoch(first->map_epoch(), messages::to_nanoseconds(first->header().stamp()));
+    take(first);
+    take(images);
+    return false;  // it is taken
+  }
+  return true;
+}
+
 void MapperService::forget_keyframes() {
   waiting_.clear();
   integrated_by_stamp_.clear();
@@ -81,7 +102,10 @@ void MapperService::forget_keyframes() {
 void MapperService::take(const Images& images) {
   if (!is_of_tracker(images->instance(), images->map_epoch(), "rds/keyframe/images")) return;
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
-  if (images->map_epoch() != mapper_.map_epoch()) begin_epoch(images->map_epoch(), stamp);
+  if (images->map_epoch() != mapper_.map_epoch()) {
+    if (!is_confirmed(images)) return;
+    begin_epoch(images->map_epoch(), stamp);
+  }
   const auto integrated = integrated_by_stamp_.find(stamp);
   const bool is_integrated =
       integrated != integrated_by_stamp_.end() && integrated->second.id >= images->keyframe_id();
@@ -124,6 +148,9 @@ void MapperService::take(const Poses& message) {
     if (!config_.localize_only) {
       if (early_poses_.size() >= kMaxEarlyPoses) early_poses_.clear();  // the next ones with all poses will do
       early_poses_.push_back(message);  // all of them: the first tells all poses, the next ones what changed
+      const bool confirmed = local && another_epoch_.confirm(message->instance(), message->map_epoch(), kPosesMark);
+      if (confirmed && first_of_epoch_ && first_of_epoch_->map_epoch() == message->map_epoch())
+        take(Images(first_of_epoch_));
       return;
     }
     begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));

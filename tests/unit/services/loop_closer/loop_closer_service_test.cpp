@@ -123,6 +123,17 @@ TEST_F(LoopCloserOnTheBus, KeyframesThatTheBusStillHasAreNotTakenTwice) {
   EXPECT_EQ(again.figure("rejected rds/keyframe/features: invalid"), "");
 }
 
+TEST_F(LoopCloserOnTheBus, OneMessageAloneBeginsNoOtherEpoch) {
+  const RunningLoopCloser closer(forgetful());
+  send(0, 50);
+  ASSERT_TRUE(closer.comes_to_know(50));
+  send(7, 8, 43);  // spoiled
+  send(50, 60);
+  EXPECT_TRUE(closer.comes_to_know(60)) << closer.figure("keyframes");
+  send(0, 2, 44);
+  EXPECT_TRUE(closer.comes_to_know(2)) << "both of the other epoch, " << closer.figure("keyframes");
+}
+
 TEST_F(LoopCloserOnTheBus, AnotherEpochClearsTheCheckpoint) {
   send(0, 50);
   {

@@ -9,7 +9,18 @@ TEST_F(MapperOnTheBus, BadInputIsDroppedAndCounted) {
   start(config());
   images.write(to_message(SyntheticKeyframe(0).make(), kEpoch - 1));
   ASSERT_TRUE(has_revision(1));
-  send(1);  // another epoch
+  send(1);  // another epoch, said by one message alone
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(info->map_epoch(), kEpoch - 1) << "it may be spoiled";
+  }
+  Poses same_epoch;
+  same_epoch.map_epoch(kEpoch);
+  same_epoch.keyframe_ids({1});
+  same_epoch.stamps({0});
+  same_epoch.poses({0, 0, 0, 0, 0, 0, 1});
+  poses.write(same_epoch);
   ASSERT_TRUE(wait_for([&] {
     const std::lock_guard lock(mutex);
     return info->map_epoch() == kEpoch && info->revision() == 1;

@@ -19,6 +19,9 @@ class EpochConfirmation {
     return is_confirmed_;
   }
 
+  /// The epoch that is known goes on: what was said of another was wrong.
+  void deny() { *this = {}; }
+
   EpochConfirmation() = default;
 
  private:

@@ -85,6 +85,7 @@ bool LoopCloserService::is_known(const Features& features) const {
 
 /// Where there are keyframes to lose, another epoch begins with its second one; the first is answered, and waits.
 bool LoopCloserService::is_confirmed(const Features& features) {
+  if (features->map_epoch() == corrected_.map_epoch()) another_epoch_.deny();
   if (features->map_epoch() == corrected_.map_epoch() || loop_closer_.keyframes() == 0) return true;
   if (!another_epoch_.confirm(features->instance(), features->map_epoch(), features->keyframe_id())) {
     first_of_epoch_ = features;

@@ -61,6 +61,7 @@ class MapperService : public service::Service {
   [[nodiscard]] bool is_ready(const Images& images) const;
   void integrate(const Images& images);
   bool is_confirmed(const Images& images);
+  bool is_over(std::uint64_t map_epoch);
   void correct();
   void report_losses();
   void publish(MapDelta delta);
@@ -82,6 +83,7 @@ class MapperService : public service::Service {
   service::FollowedWriter loop_closer_;
   std::uint64_t tracker_instance_ = 0;            // that is followed
   std::deque<std::uint64_t> earlier_epochs_;      // of that tracker
+  std::chrono::steady_clock::time_point heard_of_epoch_;  // that the map is of
   service::EpochConfirmation another_epoch_;
   Images first_of_epoch_;                         // waits until it is confirmed
   LoopKnowledge loops_;                           // contained in poses_

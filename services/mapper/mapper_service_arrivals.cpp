@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kMaxEarlierEpochs = 16;
 constexpr std::uint8_t kLocal = 0;
 constexpr std::size_t kMaxEarlyPoses = 100;
+constexpr std::chrono::seconds kSilent{3};
 constexpr std::uint64_t kPosesMark = std::numeric_limits<std::uint64_t>::max();  // no keyframe's id
 
 }  // namespace
@@ -43,8 +44,21 @@ bool MapperService::is_of_tracker(std::uint64_t instance, std::uint64_t map_epoc
     loops_ = {};
   }
   tracker_instance_ = instance;
-  if (same_map || std::ranges::count(earlier_epochs_, map_epoch) == 0) return true;
+  if (same_map) {
+    another_epoch_.deny();
+    heard_of_epoch_ = std::chrono::steady_clock::now();
+  }
+  if (same_map || !is_over(map_epoch)) return true;
   context_.diagnostics.reject(topic, service::Rejection::kOutdated, "an earlier map epoch");
+  return false;
+}
+
+/// Messages of an epoch that is over may still be on their way; but who is followed decides: an epoch that goes on
+/// while the one that followed it is silent is not over.
+bool MapperService::is_over(std::uint64_t map_epoch) {
+  if (std::ranges::count(earlier_epochs_, map_epoch) == 0) return false;
+  if (std::chrono::steady_clock::now() - heard_of_epoch_ < kSilent) return true;
+  std::erase(earlier_epochs_, map_epoch);
   return false;
 }
 
@@ -64,6 +78,7 @@ void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) 
   earlier_epochs_.push_back(mapper_.map_epoch());
   if (earlier_epochs_.size() > kMaxEarlierEpochs) earlier_epochs_.pop_front();
   spdlog::info("map epoch {:016x}", map_epoch);
+  heard_of_epoch_ = std::chrono::steady_clock::now();
   mapper_.reset(map_epoch);
   outputs_.begin_map();
   forget_keyframes();

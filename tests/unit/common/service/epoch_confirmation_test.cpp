@@ -17,5 +17,12 @@ TEST(EpochConfirmation, TakesTwoMessagesOfOneWriter) {
   EXPECT_FALSE(another.confirm(7, 43, 4)) << "and another epoch begins anew";
 }
 
+TEST(EpochConfirmation, BeginsAnewWhereTheKnownEpochGoesOn) {
+  EpochConfirmation another;
+  EXPECT_FALSE(another.confirm(7, 0, 1));
+  another.deny();
+  EXPECT_FALSE(another.confirm(7, 0, 2));
+}
+
 }  // namespace
 }  // namespace rds::service

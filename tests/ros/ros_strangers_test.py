@@ -2,6 +2,7 @@
 """ROS 2 programs come, go and die beside ours: ros_strangers_test.py PATH_OF_bus_peer
 
 Needs .venv-jazzy and .venv-kilted in the project's root (tools/setup.sh --ros); skips without.
+RDS_STRANGERS_MINUTES  for how long programs of each distribution come and go; without it, once.
 """
 
 import contextlib
@@ -9,6 +10,7 @@ import os
 import pathlib
 import signal
 import sys
+import time
 import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -17,6 +19,7 @@ sys.path.insert(0, str(FOLDER.parent / "integration"))
 from peer_process import VENDORS, Peer  # noqa: E402
 
 BUS_PEER = sys.argv.pop(1)
+SOAK_S = 60 * float(os.environ.get("RDS_STRANGERS_MINUTES", "0"))
 
 
 class RosStrangers(unittest.TestCase):
@@ -45,6 +48,13 @@ class RosStrangers(unittest.TestCase):
             self.assertTrue(all(peer.lives() for peer in ours), "one of ours has ended")
 
         all_hear(readers.values(), VENDORS)
+        end = time.monotonic() + SOAK_S
+        self.come_and_go(distribution, domain, readers, all_hear)
+        while time.monotonic() < end:
+            self.come_and_go(distribution, domain, readers, all_hear)
+
+    def come_and_go(self, distribution, domain, readers, all_hear):
+        """Four come; two are killed, one leaves; two more come, and those still there are killed."""
         first = self.start_strangers(distribution, ("first", "second", "third", "fourth"), domain)
         all_hear([*readers.values(), *first.values()], [*VENDORS, *first])
         first["first"].send(signal.SIGKILL)
@@ -53,6 +63,9 @@ class RosStrangers(unittest.TestCase):
         first["third"].process.wait(60)
         later = self.start_strangers(distribution, ("fifth", "sixth"), domain)
         all_hear([*readers.values(), *later.values()], [*VENDORS, "fourth", *later])
+        for stranger in (first["fourth"], *later.values()):
+            stranger.send(signal.SIGKILL)
+        all_hear(readers.values(), VENDORS)
 
     def test_jazzy(self):
         self.meet("jazzy", 10 + os.getpid() % 45)

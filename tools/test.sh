@@ -23,7 +23,11 @@ case $preset in release | dev | asan | tsan) ;; *) fail "--preset $preset: expec
 export RDS_SHARED RDS_PYTHON=$root/.venv/bin/python
 
 tests=$preset
-case " $* " in *" -L soak "*) tests=soak ;; esac
+case " $* " in *" -L soak "*)
+  [ "$preset" = release ] || fail "-L soak: expected the preset release"
+  tests=soak
+  ;;
+esac
 
 "$root/tools/setup.sh"
 build "$preset"

@@ -159,6 +159,9 @@ void MapperService::take(const Poses& message) {
   const bool local = message->source() == kLocal;
   if (local && !is_of_tracker(message->instance(), message->map_epoch(), "rds/keyframe/poses")) return;
   if (!local && !is_of_loop_closer(message)) return;
+  auto poses = messages::to_keyframe_poses(*message);
+  if (!poses)
+    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
   if (message->map_epoch() != mapper_.map_epoch()) {
     if (!config_.localize_only) {
       if (early_poses_.size() >= kMaxEarlyPoses) early_poses_.clear();  // the next ones with all poses will do
@@ -170,9 +173,6 @@ void MapperService::take(const Poses& message) {
     }
     begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));
   }
-  auto poses = messages::to_keyframe_poses(*message);
-  if (!poses)
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
   if (local) {
     if (!tracker_poses_.take(*message, *poses)) return;  // until all are told
     *poses = tracker_poses_.poses();

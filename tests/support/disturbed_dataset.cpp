@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/disturbed_dataset.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
@@ -95,6 +96,24 @@ void make_jump(const std::filesystem::path& dataset, const std::filesystem::path
     for (const Entry& e : entries)
       if (e.stamp_s >= start_s + again_from_s && e.stamp_s < start_s + again_to_s)
         changed.push_back({e.stamp_s + until_s - again_from_s, e.rest});
+    return changed;
+  });
+}
+
+void make_to_and_fro(const std::filesystem::path& dataset, const std::filesystem::path& destination,
+                     double turn_s, double length_s) {
+  const double start_s = read_list(dataset / "rgb.txt").front().stamp_s;
+  const double period_s = turn_s + kHalfFrameS;  // so that no stamp comes twice
+  rewrite(dataset, destination, [&](const std::string&, Entries entries) {
+    std::erase_if(entries, [&](const Entry& e) { return e.stamp_s < start_s || e.stamp_s > start_s + turn_s; });
+    Entries changed;
+    for (int pass = 0; pass * period_s < length_s; ++pass) {
+      for (const Entry& e : entries) {
+        const double since_turn_s = pass % 2 == 0 ? e.stamp_s - start_s : start_s + turn_s - e.stamp_s;
+        changed.push_back({start_s + pass * period_s + since_turn_s, e.rest});
+      }
+      std::ranges::reverse(entries);
+    }
     return changed;
   });
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace rds::test {
+
+/// A recording, and the same without people.
+struct RecordingPair {
+  std::filesystem::path dataset;
+  std::filesystem::path background;
+};
+
+/// The first 8 s of a recording, to and fro for 30 s: what a camera misses it sees again.
+/// @param name  "rpy" (tum_fr1_rpy, nobody walks) or "walkers" (kitchen_walkers); rendered rooms where RDS_SHARED is
+/// not set. @param place  where its lists and links are made.
+/// @throws std::runtime_error
+RecordingPair to_and_fro(const std::string& name, const std::filesystem::path& place);
+
+}  // namespace rds::test

@@ -49,6 +49,15 @@ void expect_no_other_ends(const Row& row, const Trial::Report& report) {
   EXPECT_THAT(report.faults, IsEmpty());
 }
 
+/// In parentheses what the undisturbed run has.
+void print(const Row& row, const Trial::Report& report, const Figures& figures, const Figures& expected) {
+  fmt::print("{}: ATE live {:.4f} ({:.4f}) final {:.4f} ({:.4f}) m, recall {:.3f} ({:.3f}), ", row.label(),
+             figures.ate_live_m, expected.ate_live_m, figures.ate_final_m, expected.ate_final_m, figures.recall,
+             expected.recall);
+  fmt::print("{} of {} frames localised, {} of {} keyframes mapped\n", report.localized, report.frames,
+             report.integrated, report.keyframes);
+}
+
 class Undisturbed : public testing::TestWithParam<Row> {};
 
 TEST_P(Undisturbed, IsWhatOthersAreComparedWith) {
@@ -62,8 +71,7 @@ TEST_P(Undisturbed, IsWhatOthersAreComparedWith) {
   expect_no_other_ends(row, report);
   EXPECT_GE(static_cast<double>(report.localized), kMinLocalized * static_cast<double>(report.frames));
   const Figures figures = figures_of(recording, out, out);
-  fmt::print("{}: ATE live {:.4f} final {:.4f} m, recall {:.3f}, {} of {} frames\n", row.label(),
-             figures.ate_live_m, figures.ate_final_m, figures.recall, report.localized, report.frames);
+  print(row, report, figures, figures);
   fs::remove_all(out / "maps");
 }
 
@@ -79,9 +87,7 @@ TEST_P(FaultTable, IsSurvived) {
   expect_no_other_ends(row, report);
   const Figures expected = figures_of(recording, undisturbed, undisturbed);
   const Figures figures = figures_of(recording, place / "out", undisturbed);
-  fmt::print("{}: ATE live {:.4f} ({:.4f}) final {:.4f} ({:.4f}) m, recall {:.3f} ({:.3f}), {} of {} frames\n",
-             row.label(), figures.ate_live_m, expected.ate_live_m, figures.ate_final_m, expected.ate_final_m,
-             figures.recall, expected.recall, report.localized, report.frames);
+  print(row, report, figures, expected);
   const double small_m = why_not_shared("data").empty() ? 0 : kSmallErrorM;
   EXPECT_LE(figures.ate_final_m, std::max(kMaxErrorRatio * expected.ate_final_m, small_m));
   EXPECT_GE(figures.recall, kMinRecallRatio * expected.recall);

@@ -9,27 +9,33 @@
 namespace rds::test {
 namespace {
 
-constexpr double kTurnS = 8;
+constexpr double kTurnS = 4;
 constexpr double kLengthS = 30;
 
-RecordingPair whole(const std::string& name) {
+/// A recording, and where the part begins in which people, if any, come and go [s].
+struct Source {
+  RecordingPair whole;
+  double from_s;
+};
+
+Source source_of(const std::string& name) {
   if (name == "walkers") {
     const TestRecording people = recording_with_people();
-    return {people.folder,
-            people.rendered ? rendered_recording("room_empty") : shared() / "data/7scenes_kitchen"};
+    if (people.rendered) return {{people.folder, rendered_recording("room_empty")}, 0};
+    return {{people.folder, shared() / "data/7scenes_kitchen"}, 6};
   }
   if (name != "rpy") throw std::runtime_error(name + ": no such recording");
   const auto folder =
       why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy" : rendered_recording("room_empty");
-  return {folder, folder};
+  return {{folder, folder}, 0};
 }
 
 }  // namespace
 
 RecordingPair to_and_fro(const std::string& name, const std::filesystem::path& place) {
-  const auto [dataset, background] = whole(name);
-  make_to_and_fro(dataset, place / name, kTurnS, kLengthS);
-  make_to_and_fro(background, place / (name + "_background"), kTurnS, kLengthS);
+  const auto [whole, from_s] = source_of(name);
+  make_to_and_fro(whole.dataset, place / name, from_s, kTurnS, kLengthS);
+  make_to_and_fro(whole.background, place / (name + "_background"), from_s, kTurnS, kLengthS);
   return {place / name, place / (name + "_background")};
 }
 

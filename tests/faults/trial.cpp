@@ -45,6 +45,12 @@ std::vector<run::Endpoint> endpoints_of(const bus::Participant& bus) {
   return endpoints;
 }
 
+/// A number of a command's answer; 0 if there is none.
+std::uint64_t number_in(const std::string& answer, const char* key) {
+  const auto json = nlohmann::json::parse(answer, nullptr, false);
+  return json.is_object() ? json.value(key, std::uint64_t{0}) : 0;
+}
+
 }  // namespace
 
 Trial::Trial(const fs::path& recording, const Row& row, const Timing& timing, const fs::path& out, int patience)
@@ -136,10 +142,9 @@ void Trial::expect_living_workers() {
 void Trial::drain() {
   recorder_.wait_acknowledged(camera_.last_stamp_ns(), {}, patient(kAcknowledgeLimit));
   const std::string final_poses = ask(run::kTracker, "finish", "");
-  const auto json = nlohmann::json::parse(final_poses, nullptr, false);
-  if (json.is_object())
-    recorder_.wait_poses(json.value("poses_revision", std::uint64_t{0}), {}, patient(kAcknowledgeLimit));
-  ask(run::kMapper, "finish", final_poses);
+  recorder_.wait_poses(number_in(final_poses, "poses_revision"), {}, patient(kAcknowledgeLimit));
+  report_.keyframes = number_in(final_poses, "keyframes");
+  report_.integrated = number_in(ask(run::kMapper, "finish", final_poses), "keyframes");
   save_map();
 }
 

@@ -26,6 +26,8 @@ class Trial {
     std::vector<std::string> faults;               // sentences
     std::size_t frames = 0;                        // sent
     std::size_t localized = 0;                     // with a pose
+    std::size_t keyframes = 0;                     // of the map at the end
+    std::size_t integrated = 0;                    // into the octree
   };
 
   /// @param out  a new folder: trajectories, map.ot, logs. @param patience  times the usual limits, for

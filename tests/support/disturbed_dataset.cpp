@@ -101,8 +101,8 @@ void make_jump(const std::filesystem::path& dataset, const std::filesystem::path
 }
 
 void make_to_and_fro(const std::filesystem::path& dataset, const std::filesystem::path& destination,
-                     double turn_s, double length_s) {
-  const double start_s = read_list(dataset / "rgb.txt").front().stamp_s;
+                     double from_s, double turn_s, double length_s) {
+  const double start_s = read_list(dataset / "rgb.txt").front().stamp_s + from_s;
   const double period_s = turn_s + kHalfFrameS;  // so that no stamp comes twice
   rewrite(dataset, destination, [&](const std::string&, Entries entries) {
     std::erase_if(entries, [&](const Entry& e) { return e.stamp_s < start_s || e.stamp_s > start_s + turn_s; });

@@ -29,9 +29,9 @@ void make_cut(const std::filesystem::path& dataset, const std::filesystem::path&
 void make_jump(const std::filesystem::path& dataset, const std::filesystem::path& destination, double until_s,
                double again_from_s, double again_to_s);
 
-/// What it shows in its first `turn_s`, forwards and backwards in turn, time going on, for `length_s`.
+/// What it shows in `turn_s` from `from_s` on, forwards and backwards in turn, time going on, for `length_s`.
 /// @throws std::runtime_error
 void make_to_and_fro(const std::filesystem::path& dataset, const std::filesystem::path& destination,
-                     double turn_s, double length_s);
+                     double from_s, double turn_s, double length_s);
 
 }  // namespace rds::test

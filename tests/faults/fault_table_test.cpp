@@ -96,7 +96,6 @@ TEST_P(FaultTable, IsSurvived) {
 
 INSTANTIATE_TEST_SUITE_P(Before, Undisturbed, testing::ValuesIn(undisturbed_rows()), name_of);
 INSTANTIATE_TEST_SUITE_P(Each, FaultTable, testing::ValuesIn(fault_table()), name_of);
-INSTANTIATE_TEST_SUITE_P(Telling, FaultTable, testing::ValuesIn(rows_named({"kill_mapper_begin"})), name_of);
 
 }  // namespace
 }  // namespace rds::test

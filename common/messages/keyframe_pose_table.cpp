@@ -9,8 +9,8 @@ namespace {
 
 using geometry::KeyframePose;
 
-constexpr std::size_t kMinChanges = 64;       // messages with changes between two with all poses
-constexpr std::size_t kPosesPerChange = 16;   // … and one more for so many keyframes: 1.4 kB a message
+constexpr std::size_t kMinChanges = 64;      // messages with changes between two with all poses
+constexpr std::size_t kPosesPerChange = 16;  // … and one more for so many keyframes: 1.4 kB a message
 
 constexpr double kMoved_m = 1e-3;
 constexpr double kTurned_rad = 3.5e-4;
@@ -21,7 +21,8 @@ bool is_nearly(const KeyframePose& a, const KeyframePose& b) {
          change.topLeftCorner<3, 3>().norm() <= std::sqrt(2.0) * kTurned_rad;
 }
 
-/// Poses that are not in `told`, or are there with another value; both by id. `told` is what it is after them.
+/// Poses that are not in `told`, or are there with another value; both by id. `told` is what it is after
+/// them.
 std::vector<KeyframePose> changes_of(std::span<const KeyframePose> poses, std::vector<KeyframePose>& told) {
   std::vector<KeyframePose> changed;
   std::vector<KeyframePose> told_now(poses.begin(), poses.end());
@@ -65,8 +66,7 @@ std::vector<KeyframePose> KeyframePoseTable::poses() const {
 
 std::vector<KeyframePose> KeyframePoseChanges::next(std::span<const KeyframePose> poses, bool all,
                                                     rds_msgs::msg::KeyFramePoses& message) {
-  all = all || revision_ == 0 ||
-                   since_all_ >= std::max(kMinChanges, poses.size() / kPosesPerChange);
+  all = all || revision_ == 0 || since_all_ >= std::max(kMinChanges, poses.size() / kPosesPerChange);
   message.base_revision(all ? 0 : revision_);
   message.revision(++revision_);
   since_all_ = all ? 0 : since_all_ + 1;

@@ -33,8 +33,8 @@ class KeyframePoseTable {
 /// The writer's side: which poses a message has to carry.
 ///
 /// All of them first, when that is asked for, and after so many messages that what they add to each one stays
-/// the same however many keyframes there are; else those that are new or have moved, by more than bundle adjustment
-/// moves everything all the time: 1 mm or 0.02°.
+/// the same however many keyframes there are; else those that are new or have moved, by more than bundle
+/// adjustment moves everything all the time: 1 mm or 0.02°.
 class KeyframePoseChanges {
  public:
   /// @param poses  all, by id. @param all  somebody has joined, or needs the exact poses.

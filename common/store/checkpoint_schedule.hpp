@@ -6,8 +6,8 @@
 
 namespace rds::store {
 
-/// When a service hands its next checkpoint over: after its period, or sooner with a new keyframe, whose place
-/// nobody else remembers. Used by one thread.
+/// When a service hands its next checkpoint over: after its period, or sooner with a new keyframe, whose
+/// place nobody else remembers. Used by one thread.
 class CheckpointSchedule {
  public:
   explicit CheckpointSchedule(double period_s) : period_(period_s) {}

@@ -26,8 +26,9 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       tracker_(context.bus),
       loop_closer_(config.loop_closer),
-      lasting_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
-               config.maps.checkpoint_s),
+      lasting_(
+          config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
+          config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
@@ -72,8 +73,7 @@ void LoopCloserService::run(const std::stop_token& stop) {
   })) {
     handle_commands();
     map_commands_.settle();
-    if (const auto features = features_.try_pop())
-      guarded("rds/keyframe/features", [&] { take(*features); });
+    if (const auto features = features_.try_pop()) guarded("rds/keyframe/features", [&] { take(*features); });
     lasting_.save();
   }
 }
@@ -83,7 +83,8 @@ bool LoopCloserService::is_known(const Features& features) const {
   return known_ && features->map_epoch() == known_->map_epoch && features->keyframe_id() <= known_->id;
 }
 
-/// Where there are keyframes to lose, another epoch begins with its second one; the first is answered, and waits.
+/// Where there are keyframes to lose, another epoch begins with its second one; the first is answered, and
+/// waits.
 bool LoopCloserService::is_confirmed(const Features& features) {
   if (features->map_epoch() == corrected_.map_epoch()) another_epoch_.deny();
   if (features->map_epoch() == corrected_.map_epoch() || loop_closer_.keyframes() == 0) return true;
@@ -123,8 +124,8 @@ void LoopCloserService::take(const Features& features) {
   context_.diagnostics.latency("keyframe").add_ms(took.count());
 }
 
-/// Every keyframe is answered: in lockstep the tracker waits for that. A correction is repeated in the answers
-/// to the next keyframes, in case one is missed; then answers carry its revision alone.
+/// Every keyframe is answered: in lockstep the tracker waits for that. A correction is repeated in the
+/// answers to the next keyframes, in case one is missed; then answers carry its revision alone.
 void LoopCloserService::answer(const Features& features, const LoopAnswer& found) {
   if (features->map_epoch() != corrected_.map_epoch()) corrected_ = {};
   if (!found.poses.empty()) {
@@ -171,8 +172,7 @@ void LoopCloserService::forget() {
   keyframes_ = loop_closer_.keyframes();
 }
 
-service::CommandOutcome LoopCloserService::execute(const std::string& verb,
-                                                   const std::string& /*argument*/) {
+service::CommandOutcome LoopCloserService::execute(const std::string& verb, const std::string& /*argument*/) {
   if (verb == "reset") {
     loop_closer_.reset();
     forget();
@@ -217,17 +217,19 @@ bool LoopCloserService::begin(const service::PendingCommand& command) {
   }
   if (command.verb != "load") return false;
   using map_commands::MapCommands;
-  map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
-                                  -> tl::expected<MapCommands::TakeOver, std::string> {
-    auto sections = map_file::read_saved_map(map, {map_file::kKeyframePoses}, limits);
-    if (!sections) return tl::unexpected(sections.error());
-    const auto read = std::make_shared<map_file::Sections>(std::move(*sections));
-    return [this, read, from = map.path()]() -> service::CommandOutcome {
-      if (const auto started = start_from(*read, from); !started) return {false, started.error()};
-      forget();
-      return {true, "keyframes of " + from.filename().string()};
-    };
-  });
+  map_commands_.load(
+      command,
+      [this](const map_file::Folder& map,
+             const map_file::FileLimits& limits) -> tl::expected<MapCommands::TakeOver, std::string> {
+        auto sections = map_file::read_saved_map(map, {map_file::kKeyframePoses}, limits);
+        if (!sections) return tl::unexpected(sections.error());
+        const auto read = std::make_shared<map_file::Sections>(std::move(*sections));
+        return [this, read, from = map.path()]() -> service::CommandOutcome {
+          if (const auto started = start_from(*read, from); !started) return {false, started.error()};
+          forget();
+          return {true, "keyframes of " + from.filename().string()};
+        };
+      });
   return true;
 }
 

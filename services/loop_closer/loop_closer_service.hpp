@@ -51,8 +51,8 @@ class LoopCloserService : public service::Service {
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
   service::EpochConfirmation another_epoch_;
-  Features first_of_epoch_;  // waits until it is confirmed
-  std::uint64_t start_checksum_ = 0;             // of the saved map's part
+  Features first_of_epoch_;           // waits until it is confirmed
+  std::uint64_t start_checksum_ = 0;  // of the saved map's part
   LastingKeyframes lasting_;
   std::optional<LastingKeyframes::Last> known_;  // the last keyframe that the checkpoint had
   std::atomic<std::size_t> keyframes_ = 0;       // read by diagnostics

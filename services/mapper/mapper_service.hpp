@@ -81,13 +81,13 @@ class MapperService : public service::Service {
   std::stop_token stop_;
   service::FollowedWriter tracker_;
   service::FollowedWriter loop_closer_;
-  std::uint64_t tracker_instance_ = 0;            // that is followed
-  std::deque<std::uint64_t> earlier_epochs_;      // of that tracker
+  std::uint64_t tracker_instance_ = 0;                    // that is followed
+  std::deque<std::uint64_t> earlier_epochs_;              // of that tracker
   std::chrono::steady_clock::time_point heard_of_epoch_;  // that the map is of
   service::EpochConfirmation another_epoch_;
-  Images first_of_epoch_;                         // waits until it is confirmed
-  LoopKnowledge loops_;                           // contained in poses_
-  LastingMap lasting_;  // before mapper_, whose records it keeps
+  Images first_of_epoch_;  // waits until it is confirmed
+  LoopKnowledge loops_;    // contained in poses_
+  LastingMap lasting_;     // before mapper_, whose records it keeps
   SemanticMapper mapper_;
   MapOutputs outputs_;
   WaitingKeyframes waiting_;

@@ -53,8 +53,8 @@ bool MapperService::is_of_tracker(std::uint64_t instance, std::uint64_t map_epoc
   return false;
 }
 
-/// Messages of an epoch that is over may still be on their way; but who is followed decides: an epoch that goes on
-/// while the one that followed it is silent is not over.
+/// Messages of an epoch that is over may still be on their way; but who is followed decides: an epoch that
+/// goes on while the one that followed it is silent is not over.
 bool MapperService::is_over(std::uint64_t map_epoch) {
   if (std::ranges::count(earlier_epochs_, map_epoch) == 0) return false;
   if (std::chrono::steady_clock::now() - heard_of_epoch_ < kSilent) return true;
@@ -66,7 +66,8 @@ bool MapperService::is_of_loop_closer(const Poses& poses) {
   const bool known = poses->map_epoch() == mapper_.map_epoch();
   const bool accepted = known && loop_closer_.accept(poses->instance(), false);
   if (!known)
-    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated, "loops of another map epoch");
+    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated,
+                                "loops of another map epoch");
   else if (!accepted)
     context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
   return accepted;
@@ -164,9 +165,11 @@ void MapperService::take(const Poses& message) {
     return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
   if (message->map_epoch() != mapper_.map_epoch()) {
     if (!config_.localize_only) {
-      if (early_poses_.size() >= kMaxEarlyPoses) early_poses_.clear();  // the next ones with all poses will do
+      if (early_poses_.size() >= kMaxEarlyPoses)
+        early_poses_.clear();           // the next ones with all poses will do
       early_poses_.push_back(message);  // all of them: the first tells all poses, the next ones what changed
-      const bool confirmed = local && another_epoch_.confirm(message->instance(), message->map_epoch(), kPosesMark);
+      const bool confirmed =
+          local && another_epoch_.confirm(message->instance(), message->map_epoch(), kPosesMark);
       if (confirmed && first_of_epoch_ && first_of_epoch_->map_epoch() == message->map_epoch())
         take(Images(first_of_epoch_));
       return;

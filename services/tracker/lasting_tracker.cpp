@@ -40,9 +40,8 @@ tl::expected<std::optional<LastingTracker::Epoch>, std::string> LastingTracker::
   const auto epoch = epoch_from(*row);
   if (!epoch) return tl::unexpected(epoch.error());
   if (epoch->start != start) return tl::unexpected(std::string("it began with another saved map"));
-  const auto resumed = tracker.resume([this](const std::string& kind, const VisitRow& visit) {
-    return writer_->for_each(kind, visit);
-  });
+  const auto resumed = tracker.resume(
+      [this](const std::string& kind, const VisitRow& visit) { return writer_->for_each(kind, visit); });
   if (!resumed) return tl::unexpected(resumed.error());
   if (tracker.map().keyframes() == 0) return std::nullopt;
   return *epoch;

@@ -26,11 +26,13 @@ class ResumeWatch {
   }
   [[nodiscard]] bool is_looking() const { return is_looking_; }
 
-  /// The next frame. @param is_usable  shows enough to be found by. @return true if the map is to be given up.
+  /// The next frame. @param is_usable  shows enough to be found by. @return true if the map is to be given
+  /// up.
   bool take(std::int64_t stamp_ns, bool has_pose, bool is_usable) {
     if (has_pose) end();
     if (!is_looking_) return false;
-    if (is_usable && last_ns_) searched_s_ += std::clamp(static_cast<double>(stamp_ns - *last_ns_) * 1e-9, 0.0, kLongest_s);
+    if (is_usable && last_ns_)
+      searched_s_ += std::clamp(static_cast<double>(stamp_ns - *last_ns_) * 1e-9, 0.0, kLongest_s);
     last_ns_ = stamp_ns;
     return patience_s_ > 0 && searched_s_ > patience_s_;
   }

@@ -11,8 +11,8 @@
 
 namespace rds::tracker {
 
-tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections,
-                                             const TrackerConfig& config, const std::filesystem::path& from) {
+tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections, const TrackerConfig& config,
+                                             const std::filesystem::path& from) {
   const auto refuse = [&](const std::string& why) {
     return tl::unexpected(fmt::format("{}: cannot be tracked in: {}", from.string(), why));
   };

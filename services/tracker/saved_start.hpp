@@ -17,8 +17,8 @@ inline const std::vector<std::string> kNeededSections{map_file::kTracker, map_fi
 
 /// The map that map epochs begin with, from a saved one. @param from  to be named in the sentence.
 /// @return or one sentence.
-tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections,
-                                             const TrackerConfig& config, const std::filesystem::path& from);
+tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections, const TrackerConfig& config,
+                                             const std::filesystem::path& from);
 
 /// The map of the setting map_file, and the checksum of the tracker's part.
 struct Start {

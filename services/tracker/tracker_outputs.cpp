@@ -177,7 +177,8 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   state_.write(message);
 }
 
-std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops, bool exact) {
+std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,
+                                            bool exact) {
   rds_msgs::msg::KeyFramePoses message;
   message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, kMap));
   message.instance(instance_);

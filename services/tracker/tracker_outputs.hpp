@@ -50,8 +50,10 @@ class TrackerOutputs {
   void publish(const FrameReport& report);
 
   /// Keyframe poses (source LOCAL), with the next revision: of all of them those that are new or have moved
-  /// since the last message; all for somebody who has joined, or if they are to be exact. @return that revision.
-  std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops, bool exact = false);
+  /// since the last message; all for somebody who has joined, or if they are to be exact. @return that
+  /// revision.
+  std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,
+                              bool exact = false);
 
   /// True once after somebody new has subscribed to the poses: he waits for all of them.
   bool has_new_reader();

@@ -46,8 +46,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       loop_closer_(context.bus),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
                [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
-      lasting_(keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
-               config.maps.checkpoint_s),
+      lasting_(
+          keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
+          config.maps.checkpoint_s),
       resume_(config.resume_s),
       objects_(config.prediction),
       outputs_(context, map_epoch_),
@@ -126,9 +127,10 @@ void TrackerService::acknowledge(const image::RgbdFrame& frame) {
 /// Where they go ahead, these are too old by themselves.
 void TrackerService::begin_after_break() {
   ++context_.diagnostics.counter("time breaks");
-  spdlog::warn("the camera's stamps go on {:+.3f} s from the last ones: a clock that was set, a recording that "
-               "begins again, or a long gap",
-               static_cast<double>(stamps_.break_ns()) * 1e-9);
+  spdlog::warn(
+      "the camera's stamps go on {:+.3f} s from the last ones: a clock that was set, a recording that "
+      "begins again, or a long gap",
+      static_cast<double>(stamps_.break_ns()) * 1e-9);
   if (stamps_.break_ns() > 0) return;
   objects_.reset();
   boxes_.clear();
@@ -136,7 +138,8 @@ void TrackerService::begin_after_break() {
 }
 
 void TrackerService::process(const image::RgbdFrame& frame) {
-  if (resume_.is_looking() && frame.camera.is_valid() && frame.camera.fx != tracker_.known_camera().given_fx) {
+  if (resume_.is_looking() && frame.camera.is_valid() &&
+      frame.camera.fx != tracker_.known_camera().given_fx) {
     spdlog::warn("the map of the checkpoint was made with another camera");
     reset();
   }
@@ -180,7 +183,8 @@ void TrackerService::sort_in_arrivals() {
   while (auto boxes = boxes_inbox_.try_pop()) {
     const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
     if (!boxes_.arrive(stamp, std::move(*boxes)))
-      context_.diagnostics.reject("rds/boxes", service::Rejection::kUnexpected, "their keyframe waits for none");
+      context_.diagnostics.reject("rds/boxes", service::Rejection::kUnexpected,
+                                  "their keyframe waits for none");
   }
   while (auto poses = poses_inbox_.try_pop()) {
     const std::uint64_t answered = (*poses)->answered_keyframe_id();
@@ -241,7 +245,9 @@ void TrackerService::apply(const PosesMessage& poses) {
   if (poses->revision() <= (same_closer ? loops_.revision : 0)) return;  // nothing new was closed
   const auto correction = messages::to_keyframe_poses(*poses);
   if (correction && correction->empty()) return;  // its poses came before
-  if (!correction) return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, correction.error());
+  if (!correction)
+    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid,
+                                       correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});
   const geometry::Pose corrected_from_map = tracker_.last_map_from_camera() * before.inverse();
@@ -256,7 +262,8 @@ void TrackerService::apply(const PosesMessage& poses) {
 void TrackerService::apply(const BoxesMessage& boxes) {
   const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
   const auto detections = messages::to_detections(*boxes);
-  if (!detections) return context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, detections.error());
+  if (!detections)
+    return context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   ++box_sets_used_;
@@ -294,8 +301,7 @@ void TrackerService::publish_poses() {
   outputs_.publish_poses(tracker_.keyframe_poses(), loops_);
 }
 
-service::CommandOutcome TrackerService::execute(const std::string& verb,
-                                                const std::string& /*argument*/) {
+service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& /*argument*/) {
   if (verb == "finish") return finish();
   if (verb == "reset") {
     reset();

@@ -81,7 +81,7 @@ class TrackerService : public service::Service {
   service::FollowedWriter loop_closer_;
   concurrency::HelperThread helper_;  // of the worker
   Tracker tracker_;
-  std::optional<SavedMap> start_;  // the saved map that every map epoch begins with
+  std::optional<SavedMap> start_;     // the saved map that every map epoch begins with
   std::uint64_t start_checksum_ = 0;  // of the one that the settings name
   LastingTracker lasting_;
   ResumeWatch resume_;

@@ -44,7 +44,8 @@ struct TrackerServiceConfig {
   double poses_max_gap_s = 0.1;  // between neighbours that a pose is interpolated from
   std::string map_file;          // saved map that it starts from; empty: none
   store::MapsConfig maps;
-  double resume_s = 10;  // of usable pictures; a camera that does not find itself in its checkpoint's map begins another
+  double resume_s =
+      10;  // of usable pictures; a camera that does not find itself in its checkpoint's map begins another
   TrackerConfig tracker;
   prediction::PredictionConfig prediction;
 

@@ -66,16 +66,17 @@ void TrackerService::load(const service::PendingCommand& command) {
     reset();
     return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
   };
-  map_commands_.load(command, [config = config_.tracker, take_over](const map_file::Folder& map,
-                                                                    const map_file::FileLimits& limits)
-                                  -> tl::expected<MapCommands::TakeOver, std::string> {
-    const auto sections = map_file::read_saved_map(map, kNeededSections, limits);
-    if (!sections) return tl::unexpected(sections.error());
-    auto start = to_start(*sections, config, map.path());
-    if (!start) return tl::unexpected(start.error());
-    const auto read = std::make_shared<SavedMap>(std::move(*start));
-    return [read, take_over] { return take_over(std::move(*read)); };
-  });
+  map_commands_.load(
+      command,
+      [config = config_.tracker, take_over](const map_file::Folder& map, const map_file::FileLimits& limits)
+          -> tl::expected<MapCommands::TakeOver, std::string> {
+        const auto sections = map_file::read_saved_map(map, kNeededSections, limits);
+        if (!sections) return tl::unexpected(sections.error());
+        auto start = to_start(*sections, config, map.path());
+        if (!start) return tl::unexpected(start.error());
+        const auto read = std::make_shared<SavedMap>(std::move(*start));
+        return [read, take_over] { return take_over(std::move(*read)); };
+      });
 }
 
 }  // namespace rds::tracker

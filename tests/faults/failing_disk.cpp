@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// To be loaded before a program (LD_PRELOAD): while the file $FAILING_DISK_ARMED exists, writes of the program
-// $FAILING_DISK_PROGRAM to files below a folder of the name $FAILING_DISK_FOLDER fail with the number in that file.
+// To be loaded before a program (LD_PRELOAD): while the file $FAILING_DISK_ARMED exists, writes of the
+// program $FAILING_DISK_PROGRAM to files below a folder of the name $FAILING_DISK_FOLDER fail with the number
+// in that file.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -36,7 +37,8 @@ bool is_below_folder(int file) {
 
 /// @return 0, or the errno with which writing to this file fails now.
 int failure_of(int file) {
-  static const bool kIsMeant = std::strcmp(program_invocation_short_name, setting("FAILING_DISK_PROGRAM")) == 0;
+  static const bool kIsMeant =
+      std::strcmp(program_invocation_short_name, setting("FAILING_DISK_PROGRAM")) == 0;
   if (!kIsMeant) return 0;
   const int armed = open(setting("FAILING_DISK_ARMED"), O_RDONLY | O_CLOEXEC);
   if (armed < 0) return 0;

@@ -70,10 +70,14 @@ std::string Row::label() const {
 
 std::vector<int> Row::expected_ends() const {
   switch (fault) {
-    case Fault::kKill: return {137};
-    case Fault::kKillTwice: return {137, 137};
-    case Fault::kRestart: return {0};
-    default: return {};
+    case Fault::kKill:
+      return {137};
+    case Fault::kKillTwice:
+      return {137, 137};
+    case Fault::kRestart:
+      return {0};
+    default:
+      return {};
   }
 }
 
@@ -100,8 +104,13 @@ std::vector<Row> rows_named(const std::vector<std::string>& beginnings) {
 std::vector<Row> one_row_per_fault() {
   std::vector<Row> rows;
   for (const Kind& kind : kKinds) {
-    Row row{rows.size(), kind.fault, kind.name, kind.services[rows.size() % kind.services.size()],
-            kMoments[0], "walkers", vendor_of(rows.size())};
+    Row row{rows.size(),
+            kind.fault,
+            kind.name,
+            kind.services[rows.size() % kind.services.size()],
+            kMoments[0],
+            "walkers",
+            vendor_of(rows.size())};
     rows.push_back(std::move(row));
   }
   return rows;

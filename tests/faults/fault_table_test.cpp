@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Five services as processes, one fault each: nothing else ends, nothing hangs, and what the camera and the map have
-// become is compared with an undisturbed run.
+// Five services as processes, one fault each: nothing else ends, nothing hangs, and what the camera and the
+// map have become is compared with an undisturbed run.
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -17,10 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::IsEmpty;
 
-constexpr double kMaxErrorRatio = 1.5;   // to the undisturbed run
-constexpr double kSmallErrorM = 0.010;   // … or, in a rendered room, where that has an error of some millimetres
+constexpr double kMaxErrorRatio = 1.5;  // to the undisturbed run
+constexpr double kSmallErrorM =
+    0.010;  // … or, in a rendered room, where that has an error of some millimetres
 constexpr double kMinRecallRatio = 0.95;
-constexpr double kMinLocalized = 0.9;    // of the frames, in an undisturbed run
+constexpr double kMinLocalized = 0.9;  // of the frames, in an undisturbed run
 
 std::string name_of(const testing::TestParamInfo<Row>& row) {
   return row.param.label();
@@ -28,8 +29,7 @@ std::string name_of(const testing::TestParamInfo<Row>& row) {
 
 /// Where undisturbed results lie between tests.
 fs::path undisturbed_folder(const Row& row) {
-  const std::string name =
-      row.moment.name + "_" + bus::name_of(row.vendor) + "_" + row.recording;
+  const std::string name = row.moment.name + "_" + bus::name_of(row.vendor) + "_" + row.recording;
   return fs::path(RDS_FAULTS_DIR) / "undisturbed" / name;
 }
 
@@ -52,8 +52,8 @@ void expect_no_other_ends(const Row& row, const Trial::Report& report) {
 /// In parentheses what the undisturbed run has.
 void print(const Row& row, const Trial::Report& report, const Figures& figures, const Figures& expected) {
   fmt::print("{}: ATE live {:.4f} ({:.4f}) final {:.4f} ({:.4f}) m, recall {:.3f} ({:.3f}), ", row.label(),
-             figures.ate_live_m, expected.ate_live_m, figures.ate_final_m, expected.ate_final_m, figures.recall,
-             expected.recall);
+             figures.ate_live_m, expected.ate_live_m, figures.ate_final_m, expected.ate_final_m,
+             figures.recall, expected.recall);
   fmt::print("{} of {} frames localised, {} of {} keyframes mapped\n", report.localized, report.frames,
              report.integrated, report.keyframes);
 }

@@ -20,7 +20,8 @@ FaultyCamera::FaultyCamera(bus::Participant& bus, const Row& row, const Timing& 
       random_(static_cast<std::uint32_t>(row.index)),
       color_(bus.advertise<sensor_msgs::msg::Image>("camera/color/image_raw", bus::kSensor)),
       info_(bus.advertise<sensor_msgs::msg::CameraInfo>("camera/color/camera_info", bus::kSensor)),
-      depth_(bus.advertise<sensor_msgs::msg::Image>("camera/aligned_depth_to_color/image_raw", bus::kSensor)) {}
+      depth_(
+          bus.advertise<sensor_msgs::msg::Image>("camera/aligned_depth_to_color/image_raw", bus::kSensor)) {}
 
 std::int64_t FaultyCamera::clock_offset_ns(double at_s) const {
   if (at_s < timing_.at_s) return 0;
@@ -43,8 +44,10 @@ void FaultyCamera::show(const image::RgbdFrame& frame, std::int64_t depth_stamp_
   if (offset_ns != 0) true_stamps_[last_stamp_ns_] = frame.stamp_ns;
   const auto header = messages::make_header(last_stamp_ns_, kFrameId);
   const auto depth_header = messages::make_header(depth_stamp_ns + offset_ns, kFrameId);
-  send(at_s, [this, camera = frame.camera, header] { info_.write(messages::to_camera_info(camera, header)); });
-  send(at_s, [this, color = frame.color, header] { color_.write(messages::to_image_message(color, header)); });
+  send(at_s,
+       [this, camera = frame.camera, header] { info_.write(messages::to_camera_info(camera, header)); });
+  send(at_s,
+       [this, color = frame.color, header] { color_.write(messages::to_image_message(color, header)); });
   send(at_s, [this, depth = frame.depth, depth_header] {
     depth_.write(messages::to_image_message(depth, depth_header));
   });

@@ -11,8 +11,11 @@ namespace rds::test {
 Figures figures_of(const RecordingPair& recording, const std::filesystem::path& out,
                    const std::filesystem::path& seen_by) {
   const auto path = score(recording.dataset, out);
-  const auto map = evaluation::score_map(
-      {.dataset = recording.dataset, .background = recording.background, .out = out, .every = 5, .seen_by = seen_by});
+  const auto map = evaluation::score_map({.dataset = recording.dataset,
+                                          .background = recording.background,
+                                          .out = out,
+                                          .every = 5,
+                                          .seen_by = seen_by});
   if (!map) throw std::runtime_error(map.error());
   return {path["ate_live"].get<double>(), path["ate_final"].get<double>(), map->static_recall};
 }

@@ -75,24 +75,34 @@ void ProcessFault::send(int signal) {
 void ProcessFault::begin() {
   switch (row_.fault) {
     case Fault::kKill:
-    case Fault::kKillTwice: return send(SIGKILL);
-    case Fault::kStop: return send(SIGSTOP);
-    case Fault::kRestart: return send(SIGTERM);
-    case Fault::kTwin: twin_.emplace(command_.command, command_.log); return;
+    case Fault::kKillTwice:
+      return send(SIGKILL);
+    case Fault::kStop:
+      return send(SIGSTOP);
+    case Fault::kRestart:
+      return send(SIGTERM);
+    case Fault::kTwin:
+      twin_.emplace(command_.command, command_.log);
+      return;
     case Fault::kDiskFull:
-    case Fault::kDiskError: return disk_.arm(row_.fault);
-    default: return;
+    case Fault::kDiskError:
+      return disk_.arm(row_.fault);
+    default:
+      return;
   }
 }
 
 void ProcessFault::go_on(double since_begin_s) {
-  if (row_.fault == Fault::kKillTwice && !killed_again_ && since_begin_s >= kSecondKillShare * timing_.lasts_s) {
+  if (row_.fault == Fault::kKillTwice && !killed_again_ &&
+      since_begin_s >= kSecondKillShare * timing_.lasts_s) {
     killed_again_ = true;
     send(SIGKILL);
   }
-  if (is_of_disk(row_.fault) && !saved_.valid() && since_begin_s >= kSaveShare * timing_.lasts_s) try_to_save();
+  if (is_of_disk(row_.fault) && !saved_.valid() && since_begin_s >= kSaveShare * timing_.lasts_s)
+    try_to_save();
   if (row_.fault != Fault::kStarve) return;
-  const bool stops = std::fmod(since_begin_s / timing_.rate, kStarvedPeriodS) < kStarvedShare * kStarvedPeriodS;
+  const bool stops =
+      std::fmod(since_begin_s / timing_.rate, kStarvedPeriodS) < kStarvedShare * kStarvedPeriodS;
   if (stops != is_stopped_) send(stops ? SIGSTOP : SIGCONT);
   is_stopped_ = stops;
 }

@@ -25,8 +25,8 @@ Source source_of(const std::string& name) {
     return {{people.folder, shared() / "data/7scenes_kitchen"}, 6};
   }
   if (name != "rpy") throw std::runtime_error(name + ": no such recording");
-  const auto folder =
-      why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy" : rendered_recording("room_empty");
+  const auto folder = why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy"
+                                                                 : rendered_recording("room_empty");
   return {{folder, folder}, 0};
 }
 

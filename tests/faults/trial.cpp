@@ -53,17 +53,16 @@ std::uint64_t number_in(const std::string& answer, const char* key) {
 
 }  // namespace
 
-Trial::Trial(const fs::path& recording, const Row& row, const Timing& timing, const fs::path& out, int patience)
+Trial::Trial(const fs::path& recording, const Row& row, const Timing& timing, const fs::path& out,
+             int patience)
     : row_(row),
       timing_(timing),
       out_(out),
       patience_(patience),
       dataset_(image::TumDataset::open(recording).value()),
       options_(options(recording)),
-      bus_(bus::Participant::create({.vendor = row.vendor,
-                                     .domain = domain_.domain(),
-                                     .node_name = "trial",
-                                     .loopback_only = true})),
+      bus_(bus::Participant::create(
+          {.vendor = row.vendor, .domain = domain_.domain(), .node_name = "trial", .loopback_only = true})),
       recorder_(*bus_),
       commander_(*bus_),
       camera_(*bus_, row, timing),
@@ -106,7 +105,8 @@ void Trial::wait_until_connected() {
     for (const auto& [name, text] : commander_.ask_status(commands_.size(), {}, patient(kStatusLimit)))
       endpoints[name] = endpoints_of(text);
     missing = run::missing_links(running, endpoints, false);
-    std::erase_if(missing, [](const std::string& link) { return link.find("rds/features") != std::string::npos; });
+    std::erase_if(missing,
+                  [](const std::string& link) { return link.find("rds/features") != std::string::npos; });
     if (missing.empty()) return;
   }
   throw std::runtime_error(fmt::format("the services did not come together: {}", fmt::join(missing, "; ")));
@@ -115,7 +115,8 @@ void Trial::wait_until_connected() {
 void Trial::play() {
   const auto& frames = dataset_.frames();
   const auto command = std::ranges::find(commands_, row_.service, &run::ServiceCommand::name);
-  ProcessFault fault(row_, timing_, command == commands_.end() ? run::ServiceCommand{} : *command, commander_, disk_);
+  ProcessFault fault(row_, timing_, command == commands_.end() ? run::ServiceCommand{} : *command, commander_,
+                     disk_);
   play::DecodeAhead decoder(dataset_, 0, frames.size(), false);
   const auto started = Clock::now();
   while (auto decoded = decoder.next({})) {
@@ -155,7 +156,8 @@ void Trial::save_map() {
   for (const std::string& service : services) ask(service, "save", order.dump());
   const fs::path saved = out_ / run::kMapsFolder / kMapName;
   if (!fs::exists(saved)) return report_.faults.push_back("the map was not saved");
-  for (const auto& file : fs::directory_iterator(saved)) fs::rename(file.path(), out_ / file.path().filename());
+  for (const auto& file : fs::directory_iterator(saved))
+    fs::rename(file.path(), out_ / file.path().filename());
 }
 
 std::string Trial::ask(const std::string& service, const std::string& verb, const std::string& argument) {

@@ -13,7 +13,8 @@ namespace rds::test {
 /// The five services as processes of one domain, with a folder of maps that outlasts them.
 class Fleet {
  public:
-  static constexpr auto kServices = {"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper", "rds-loop-closer"};
+  static constexpr auto kServices = {"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper",
+                                     "rds-loop-closer"};
 
   Fleet(int domain, std::string vendor) : domain_(domain), vendor_(std::move(vendor)) { start(); }
 
@@ -39,7 +40,8 @@ class Fleet {
   [[nodiscard]] std::filesystem::path maps() const { return maps_.path(); }
 
   /// A command that plays a recording to them, over and over, time going on.
-  [[nodiscard]] std::vector<std::string> player(const std::filesystem::path& recording, const std::string& rate) const {
+  [[nodiscard]] std::vector<std::string> player(const std::filesystem::path& recording,
+                                                const std::string& rate) const {
     return command(rds(), {"play", recording.string(), "--loop", "--rate", rate});
   }
 
@@ -52,7 +54,8 @@ class Fleet {
   [[nodiscard]] const std::string& last_log() const { return last_log_; }
 
  private:
-  [[nodiscard]] std::vector<std::string> command(const std::string& program, const std::vector<std::string>& arguments) const {
+  [[nodiscard]] std::vector<std::string> command(const std::string& program,
+                                                 const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     words.insert(words.end(), {"--domain", std::to_string(domain_), "--loopback", "--bus", vendor_});

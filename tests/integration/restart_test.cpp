@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All five services are killed at random moments and started again, under a camera that goes on: they go on in
-// the same map.
+// All five services are killed at random moments and started again, under a camera that goes on: they go on
+// in the same map.
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
@@ -52,8 +52,10 @@ class Watch {
                                        .domain = kDomain,
                                        .node_name = "watch",
                                        .loopback_only = true})) {
-    listen<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream, [this](const auto& m) { take(m); });
-    listen<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kPoses, [this](const auto& m) { take(m); });
+    listen<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream,
+                                         [this](const auto& m) { take(m); });
+    listen<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kPoses,
+                                         [this](const auto& m) { take(m); });
     listen<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched, [this](const auto& m) {
       map_ = {m.instance(), m.map_epoch(), m.keyframes_integrated(), m.node_count()};
     });
@@ -99,7 +101,8 @@ class Watch {
     if (poses.source() != 0) return;
     meet(poses.instance(), poses.map_epoch());
     const auto told = messages::to_keyframe_poses(poses);
-    if (told && !told->empty() && seen_.newest_keyframe_ns == 0) seen_.newest_keyframe_ns = told->back().stamp_ns;
+    if (told && !told->empty() && seen_.newest_keyframe_ns == 0)
+      seen_.newest_keyframe_ns = told->back().stamp_ns;
   }
 
   std::mutex mutex_;
@@ -117,19 +120,26 @@ double seconds(Clock::duration duration) {
 /// @param before, map  what was seen last before all were killed.
 void start_and_go_on(Fleet& fleet, Watch& watch, const Watch::Seen& before, const Watch::Map& map) {
   fleet.start();
-  ASSERT_TRUE(watch.wait(60s, [&](const auto& seen, const auto&) {
-    return seen.instance != before.instance && seen.first_pose && seen.newest_keyframe_ns != 0;
-  })) << "no pose since\n" << fleet.log();
+  ASSERT_TRUE(watch.wait(60s,
+                         [&](const auto& seen, const auto&) {
+                           return seen.instance != before.instance && seen.first_pose &&
+                                  seen.newest_keyframe_ns != 0;
+                         }))
+      << "no pose since\n"
+      << fleet.log();
   const Watch::Seen after = watch.now();
   const double found_s = seconds(*after.first_pose - *after.first_frame);
   const double lost_s = static_cast<double>(before.newest_frame_ns - after.newest_keyframe_ns) * 1e-9;
   EXPECT_EQ(after.epoch, before.epoch) << fleet.log();
   EXPECT_LE(found_s, 3);
   EXPECT_LE(lost_s, 10);
-  ASSERT_TRUE(watch.wait(30s, [&](const auto&, const auto& now) { return now.instance != map.instance; })) << "no map since";
+  ASSERT_TRUE(watch.wait(30s, [&](const auto&, const auto& now) { return now.instance != map.instance; }))
+      << "no map since";
   const Watch::Map map_after = watch.map();
-  fmt::print("found itself after {:.2f} s, lost {:.1f} s; the mapper goes on with {} of {} keyframes, {} of {} nodes\n", found_s,
-             lost_s, map_after.keyframes, map.keyframes, map_after.nodes, map.nodes);
+  fmt::print(
+      "found itself after {:.2f} s, lost {:.1f} s; the mapper goes on with {} of {} keyframes, {} of {} "
+      "nodes\n",
+      found_s, lost_s, map_after.keyframes, map.keyframes, map_after.nodes, map.nodes);
   EXPECT_EQ(map_after.epoch, map.epoch) << "the mapper's map is another one\n" << fleet.log();
   EXPECT_GE(static_cast<double>(map_after.nodes), 0.8 * static_cast<double>(map.nodes)) << fleet.log();
 }
@@ -145,7 +155,9 @@ TEST_P(Restart, AllFiveGoOnInTheSameMap) {
   Fleet fleet(kDomain, GetParam());
   Watch watch(GetParam());
   Process player(fleet.player(room.folder, "0.5"));
-  ASSERT_TRUE(watch.wait(60s, [](const auto& seen, const auto& map) { return seen.first_pose && map.nodes > 0; })) << fleet.log();
+  ASSERT_TRUE(watch.wait(60s, [](const auto& seen, const auto& map) {
+    return seen.first_pose && map.nodes > 0;
+  })) << fleet.log();
   std::this_thread::sleep_for(7s);  // a checkpoint is made every five seconds
   std::mt19937 random(7);
   for (int i = 0; i < kills() && !HasFatalFailure(); ++i) {

@@ -14,8 +14,8 @@
 
 namespace rds::test {
 
-/// Spoils fields of messages, so that they are still messages of their type: every string, number, flag and length
-/// can become one that is easily wrong. The same seed spoils in the same ways.
+/// Spoils fields of messages, so that they are still messages of their type: every string, number, flag and
+/// length can become one that is easily wrong. The same seed spoils in the same ways.
 class MessageMutation {
  public:
   explicit MessageMutation(std::uint64_t seed) : random_(seed) {}
@@ -66,31 +66,51 @@ class MessageMutation {
 
   void change(bool& value) { value = !value; }
   void change(std::string& value) {
-    const std::array<std::string, 7> wrong{"", "\xff\xfe", std::string(65'000, 'x'), std::string("a\0b", 3), "../../etc", value + "\xc3", "%s{}\n\033[2J"};
+    const std::array<std::string, 7> wrong{
+        "",          "\xff\xfe",     std::string(65'000, 'x'), std::string("a\0b", 3),
+        "../../etc", value + "\xc3", "%s{}\n\033[2J"};
     value = wrong.at(below(wrong.size()));
   }
   template <class T>
   requires std::is_floating_point_v<T>
   void change(T& value) {
     using Limits = std::numeric_limits<T>;
-    const std::array<T, 9> wrong{Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::denorm_min(), T{0}, -value, value * T{1e6}, T{-1e6}};
+    const std::array<T, 9> wrong{Limits::quiet_NaN(),
+                                 Limits::infinity(),
+                                 -Limits::infinity(),
+                                 Limits::max(),
+                                 Limits::denorm_min(),
+                                 T{0},
+                                 -value,
+                                 value * T{1e6},
+                                 T{-1e6}};
     value = wrong.at(below(wrong.size()));
   }
   template <class T>
   requires std::is_integral_v<T>
   void change(T& value) {
     using Limits = std::numeric_limits<T>;
-    const std::array<T, 7> wrong{T{0}, T{1}, Limits::max(), Limits::min(), static_cast<T>(value + 1), static_cast<T>(value - 1), static_cast<T>(random_())};
+    const std::array<T, 7> wrong{T{0},
+                                 T{1},
+                                 Limits::max(),
+                                 Limits::min(),
+                                 static_cast<T>(value + 1),
+                                 static_cast<T>(value - 1),
+                                 static_cast<T>(random_())};
     value = wrong.at(below(wrong.size()));
   }
   template <class T>
   void change(std::vector<T>& list) {
     const std::size_t size = list.size();
     switch (below(6)) {
-      case 0: return list.clear();
-      case 1: return list.resize(size > 0 ? size - 1 : 1);
-      case 2: return list.resize(size + 1);
-      case 3: return list.resize(std::min(kMostElements, 2 * size + 1));
+      case 0:
+        return list.clear();
+      case 1:
+        return list.resize(size > 0 ? size - 1 : 1);
+      case 2:
+        return list.resize(size + 1);
+      case 3:
+        return list.resize(std::min(kMostElements, 2 * size + 1));
       case 4:
         if constexpr (is_simple<T>) return list.resize(kMostElements);
         return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spoiled copies of every message that the services read, written beside a camera that goes on. RDS_MUTATIONS says
-// how many per topic.
+// Spoiled copies of every message that the services read, written beside a camera that goes on. RDS_MUTATIONS
+// says how many per topic.
 #include <atomic>
 #include <cstdlib>
 #include <map>
@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "rds_msgs/message_fields.hpp"
 #include "rds_msgs/msg/Command.h"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/ServiceStatus.h"
 #include "rds_msgs/msg/TrackingState.h"
-#include "rds_msgs/message_fields.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tests/integration/fleet.hpp"
@@ -68,11 +68,13 @@ class RefusalWatch {
 
 std::vector<std::unique_ptr<Stranger>> strangers(bus::Participant& bus) {
   std::vector<std::unique_ptr<Stranger>> all;
-  const auto add = [&]<class Message>(std::type_identity<Message>, const std::string& topic, const bus::Qos& qos) {
+  const auto add = [&]<class Message>(std::type_identity<Message>, const std::string& topic,
+                                      const bus::Qos& qos) {
     all.push_back(std::make_unique<StrangerOf<Message>>(bus, topic, qos, all.size() + 1));
   };
   add(std::type_identity<rds_msgs::msg::KeyFramePoses>{}, "rds/keyframe/poses", bus::kPoses);
-  add(std::type_identity<rds_msgs::msg::KeyFrameFeatures>{}, "rds/keyframe/features", {.transient_local = true, .depth = 20});
+  add(std::type_identity<rds_msgs::msg::KeyFrameFeatures>{}, "rds/keyframe/features",
+      {.transient_local = true, .depth = 20});
   add(std::type_identity<rds_msgs::msg::KeyFrameImages>{}, "rds/keyframe/images", bus::kKeyframeImages);
   add(std::type_identity<vision_msgs::msg::Detection2DArray>{}, "rds/detections", bus::kStream);
   add(std::type_identity<vision_msgs::msg::Detection3DArray>{}, "rds/boxes", bus::kBoxes);
@@ -108,9 +110,10 @@ class Mutations : public ::testing::TestWithParam<const char*> {
   /// The camera is seen, and found in a map, again.
   void expect_to_go_on() {
     std::atomic<int> poses = 0;
-    const auto states = bus_->subscribe<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream, [&](const auto& m) {
-      if (m->state() == 1) ++poses;  // TRACKING
-    });
+    const auto states =
+        bus_->subscribe<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream, [&](const auto& m) {
+          if (m->state() == 1) ++poses;  // TRACKING
+        });
     Process player(fleet_.player(place_ / "room", "0.3"));
     const auto deadline = std::chrono::steady_clock::now() + 60s;
     while (poses < 50 && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(100ms);
@@ -119,8 +122,11 @@ class Mutations : public ::testing::TestWithParam<const char*> {
 
   TemporaryFolder place_;
   Fleet fleet_{kDomain, GetParam()};
-  std::unique_ptr<bus::Participant> bus_ = bus::Participant::create(
-      {.vendor = bus::vendor_from_name(GetParam()), .domain = kDomain, .node_name = "stranger", .loopback_only = true});
+  std::unique_ptr<bus::Participant> bus_ =
+      bus::Participant::create({.vendor = bus::vendor_from_name(GetParam()),
+                                .domain = kDomain,
+                                .node_name = "stranger",
+                                .loopback_only = true});
   run::Commander commander_{*bus_};
   RefusalWatch watch_{*bus_};
 };
@@ -153,8 +159,11 @@ TEST_P(Mutations, EndNothingAndFillNothing) {
   }
   for (const auto& [what, count] : watch_.refused()) fmt::print("{}: {}\n", what, count);
   expect_to_go_on();
-  for (const std::string topic : {"rds/keyframe/poses", "rds/keyframe/features", "rds/keyframe/images", "rds/detections", "rds/boxes"})
-    EXPECT_TRUE(std::ranges::any_of(watch_.refused(), [&](const auto& entry) { return entry.first.find(topic) != std::string::npos; })) << topic;
+  for (const std::string topic :
+       {"rds/keyframe/poses", "rds/keyframe/features", "rds/keyframe/images", "rds/detections", "rds/boxes"})
+    EXPECT_TRUE(std::ranges::any_of(watch_.refused(), [&](const auto& entry) {
+      return entry.first.find(topic) != std::string::npos;
+    })) << topic;
 }
 
 INSTANTIATE_TEST_SUITE_P(OnBoth, Mutations, ::testing::Values("fastdds", "cyclonedds"));

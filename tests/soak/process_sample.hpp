@@ -8,7 +8,8 @@
 
 namespace rds::test {
 
-/// Memory of a process that no other one shares, and what it has on file mappings: proportional set size [bytes].
+/// Memory of a process that no other one shares, and what it has on file mappings: proportional set size
+/// [bytes].
 std::uint64_t memory_of(pid_t process);
 
 /// What the files take on the disk that a process has open without a name [bytes].

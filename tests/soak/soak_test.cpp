@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half an hour in one room where people walk: memory, disk and bytes on the bus of five services stay what they were
-// after ten minutes. RDS_SOAK_MINUTES shortens it; then a third of it is what is not looked at.
+// Half an hour in one room where people walk: memory, disk and bytes on the bus of five services stay what
+// they were after ten minutes. RDS_SOAK_MINUTES shortens it; then a third of it is what is not looked at.
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -23,7 +23,8 @@ using namespace std::chrono_literals;
 constexpr int kDomain = 172;
 constexpr double kFlat = 1.05;  // times what it was
 constexpr auto kSample = 10s;
-// What a curve may wander by without being said to grow: pages, and messages that fall into one sample or the next.
+// What a curve may wander by without being said to grow: pages, and messages that fall into one sample or the
+// next.
 constexpr double kMemoryNoise = 2e6;
 constexpr double kDiskNoise = 2e6;
 constexpr double kTopicNoise = 2e3;  // bytes/s
@@ -49,11 +50,12 @@ class Meter {
     for (const auto& [topic, type] : kTopics) {
       const auto* known = messages::find_message_type(type);
       if (known == nullptr) throw std::runtime_error(type + ": no such type");
-      subscriptions_.push_back(bus_->make_subscription(
-          topic, *known->ops, {.reliable = true}, [this, topic = topic, known](const std::shared_ptr<const void>& m) {
-            const std::lock_guard lock(mutex_);
-            bytes_[topic] += known->ops->encoded_size(m.get());
-          }));
+      subscriptions_.push_back(
+          bus_->make_subscription(topic, *known->ops, {.reliable = true},
+                                  [this, topic = topic, known](const std::shared_ptr<const void>& m) {
+                                    const std::lock_guard lock(mutex_);
+                                    bytes_[topic] += known->ops->encoded_size(m.get());
+                                  }));
     }
   }
   /// Since the last call.
@@ -99,7 +101,8 @@ void sample(const Fleet& fleet, Meter& meter, Curves& curves) {
   std::uint64_t disk = disk_of(fleet.maps());
   for (std::size_t i = 0; i < fleet.services().size(); ++i) {
     const pid_t process = fleet.services()[i]->pid();
-    note(std::string("memory ") + *(Fleet::kServices.begin() + i), kMemoryNoise, static_cast<double>(memory_of(process)));
+    note(std::string("memory ") + *(Fleet::kServices.begin() + i), kMemoryNoise,
+         static_cast<double>(memory_of(process)));
     disk += nameless_files_of(process);
   }
   note("disk", kDiskNoise, static_cast<double>(disk));
@@ -120,8 +123,9 @@ double minutes() {
 
 /// A room with two people who walk, 12 s.
 std::filesystem::path render(const TemporaryFolder& place) {
-  const auto rendered = run_process({rds(), "simulate", "--out", (place / "room").string(), "--path", "xyz", "--people", "2",
-                                     "--seconds", "12", "--seed", "1"}, 300s);
+  const auto rendered = run_process({rds(), "simulate", "--out", (place / "room").string(), "--path", "xyz",
+                                     "--people", "2", "--seconds", "12", "--seed", "1"},
+                                    300s);
   if (rendered.status != 0) throw std::runtime_error(rendered.standard_error);
   return place / "room";
 }

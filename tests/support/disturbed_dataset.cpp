@@ -105,7 +105,8 @@ void make_to_and_fro(const std::filesystem::path& dataset, const std::filesystem
   const double start_s = read_list(dataset / "rgb.txt").front().stamp_s + from_s;
   const double period_s = turn_s + kHalfFrameS;  // so that no stamp comes twice
   rewrite(dataset, destination, [&](const std::string&, Entries entries) {
-    std::erase_if(entries, [&](const Entry& e) { return e.stamp_s < start_s || e.stamp_s > start_s + turn_s; });
+    std::erase_if(entries,
+                  [&](const Entry& e) { return e.stamp_s < start_s || e.stamp_s > start_s + turn_s; });
     Entries changed;
     for (int pass = 0; pass * period_s < length_s; ++pass) {
       for (const Entry& e : entries) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -16,7 +16,7 @@ namespace rds::mapper {
 
 /// The parts of a checkpoint, apart because they change at different times.
 struct MapCheckpoint {
-  map_file::Bytes state;                              // epoch, labels, what the epoch began with
+  map_file::Bytes state;                               // epoch, labels, what the epoch began with
   std::map<std::uint64_t, map_file::Bytes> keyframes;  // stamps and poses, kIdsPerBlock ids in a block
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
   static constexpr std::uint64_t kIdsPerBlock = 64;
@@ -47,7 +47,8 @@ class SemanticMapper {
   /// poses that are not finite, are ignored.
   /// @return what changed, deletions included; is_noop() if nothing was done.
   MapDelta apply_poses(std::span<const KeyframePose> poses);
-  /// Keyframes that are older than the newest of these, by id, and not among them: nothing will move them any more.
+  /// Keyframes that are older than the newest of these, by id, and not among them: nothing will move them any
+  /// more.
   void make_others_final(std::span<const KeyframePose> told);
 
   /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
@@ -146,15 +147,15 @@ class SemanticMapper {
   std::uint64_t revision_ = 0;
   LabelTable labels_;
   std::map<std::uint64_t, Keyframe> keyframes_;
-  KeyframeStore records_;      // of keyframes_
+  KeyframeStore records_;             // of keyframes_
   time::ContinuousTime clock_;        // at the newest keyframe
   time::ContinuousTime final_clock_;  // at the newest one that is final, and all before it are
-  Start start_;                // its map is nullptr unless there is a saved one
+  Start start_;                       // its map is nullptr unless there is a saved one
   std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
   std::unique_ptr<Map> map_;
   std::size_t final_keyframes_ = 0;
   std::map<std::uint64_t, Keyframe> unsaved_final_;  // that the last checkpoint has as others
-  bool has_checkpoint_ = false;                       // since the last reset
+  bool has_checkpoint_ = false;                      // since the last reset
   std::size_t corrections_lost_ = 0;
   bool boxes_waiting_ = false;
   Scan scan_;  // scratch

@@ -17,7 +17,8 @@ constexpr const char* kFeatures = "features";
 constexpr const char* kKeyframes = "keyframes";
 constexpr const char* kPoints = "points";
 constexpr const char* kMap = "map";
-// Ids that are left out after a restart: more than are given between two checkpoints, even while the disk is full.
+// Ids that are left out after a restart: more than are given between two checkpoints, even while the disk is
+// full.
 constexpr KeyframeId kReservedKeyframes = 10'000;
 constexpr PointId kReservedPoints = 10'000'000;
 

@@ -30,11 +30,11 @@ using ReadRows = std::function<tl::expected<void, std::string>(const std::string
 
 /// Tells a map as rows, each time those that may have changed.
 ///
-/// "features", by keyframe, are written once: what its picture showed. "keyframes", by IdTable's block of ids,
-/// hold stamps, poses, anchors of what was culled, and which features are movable by now; "points", by block,
-/// positions, who sees them and how often they were found (told anew only where something else has changed, too);
-/// "map", one row, is what holds for all. So a step costs what is around the camera, not the whole map, and a camera
-/// that stands still in a place it knows costs nothing.
+/// "features", by keyframe, are written once: what its picture showed. "keyframes", by IdTable's block of
+/// ids, hold stamps, poses, anchors of what was culled, and which features are movable by now; "points", by
+/// block, positions, who sees them and how often they were found (told anew only where something else has
+/// changed, too); "map", one row, is what holds for all. So a step costs what is around the camera, not the
+/// whole map, and a camera that stands still in a place it knows costs nothing.
 class MapCheckpoint {
  public:
   /// @param map  the same one each time; what it says of touched blocks is taken.
@@ -46,8 +46,9 @@ class MapCheckpoint {
   void append_features(const SlamMap& map, std::size_t block, std::vector<CheckpointRow>& rows);
   void append_points(const SlamMap& map, std::size_t block, std::vector<CheckpointRow>& rows);
 
-  std::set<KeyframeId> with_features_;            // that have been told
-  std::map<std::size_t, std::uint64_t> points_;  // checksums of the blocks that have been told, without counters
+  std::set<KeyframeId> with_features_;  // that have been told
+  std::map<std::size_t, std::uint64_t>
+      points_;  // checksums of the blocks that have been told, without counters
 };
 
 /// The map that rows tell of. Ids that the process before may have given since are used up.

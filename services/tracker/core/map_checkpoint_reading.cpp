@@ -36,7 +36,8 @@ Keyframe get_picture(ByteReader& reader, int levels) {
 
 std::vector<bool> get_bits(ByteReader& reader, std::size_t expected) {
   std::vector<bool> bits(expected);
-  if (reader.get<std::uint64_t>() != expected) reader.refuse("another number of features than the picture has");
+  if (reader.get<std::uint64_t>() != expected)
+    reader.refuse("another number of features than the picture has");
   for (std::size_t i = 0; i < expected && reader.ok(); i += 8) {
     const unsigned byte = reader.get<std::uint8_t>();
     for (std::size_t b = 0; b < 8 && i + b < expected; ++b) bits[i + b] = ((byte >> b) & 1U) != 0;
@@ -44,7 +45,8 @@ std::vector<bool> get_bits(ByteReader& reader, std::size_t expected) {
   return bits;
 }
 
-void get_keyframe(ByteReader& reader, const KeyframeRecord& record, Pictures& pictures, MapContents& contents) {
+void get_keyframe(ByteReader& reader, const KeyframeRecord& record, Pictures& pictures,
+                  MapContents& contents) {
   const auto picture = pictures.extract(record.id);
   if (!picture) return reader.refuse(fmt::format("keyframe {} without its features", record.id));
   Keyframe& keyframe = picture.mapped();
@@ -134,7 +136,8 @@ tl::expected<SlamMap, std::string> map_from_rows(const ReadRows& read, const Map
     });
     if (fault.empty() && !done) fault = done.error();
   };
-  take("features", [&](std::uint64_t id, ByteReader& reader) { pictures[id] = get_picture(reader, pyramid.levels()); });
+  take("features",
+       [&](std::uint64_t id, ByteReader& reader) { pictures[id] = get_picture(reader, pyramid.levels()); });
   take("keyframes", [&](std::uint64_t, ByteReader& reader) { get_keyframes(reader, pictures, contents); });
   take("points", [&](std::uint64_t, ByteReader& reader) { get_points(reader, contents); });
   take("map", [&](std::uint64_t, ByteReader& reader) { next = get_common(reader, contents); });

@@ -124,8 +124,8 @@ class SlamMap {
   /// Takes an id for a keyframe that the map does not hold: only its pose is kept, relative to `anchor`.
   /// @return the id. @throws std::out_of_range for an unknown anchor.
   KeyframeId add_pose_only(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
-  /// As add_pose_only(), of a keyframe that never was in the map. Earlier ones of this anchor are forgotten, as the
-  /// configuration says: a known place is seen for ever.
+  /// As add_pose_only(), of a keyframe that never was in the map. Earlier ones of this anchor are forgotten,
+  /// as the configuration says: a known place is seen for ever.
   KeyframeId add_passing(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
   /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
   void hold_keyframes() { held_ = records_.next_id(); }

@@ -47,9 +47,9 @@ struct SavedMap {
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
-/// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the map.
-/// With config.localize_only nothing enters the map; keyframes are then only looked at by others.
-/// Same calls, same results, bit by bit.
+/// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the
+/// map. With config.localize_only nothing enters the map; keyframes are then only looked at by others. Same
+/// calls, same results, bit by bit.
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
@@ -85,13 +85,13 @@ class Tracker {
   /// What may have changed since the last call, as rows of a checkpoint; all of it the first time, and after
   /// another map has begun. Best called when the frame's result is on its way.
   std::vector<CheckpointRow> checkpoint();
-  /// Goes on where the rows end that checkpoint() has told: with the same map and what is known of the camera,
-  /// lost until it has found itself there. Ids that were given since are not given again.
+  /// Goes on where the rows end that checkpoint() has told: with the same map and what is known of the
+  /// camera, lost until it has found itself there. Ids that were given since are not given again.
   /// @return or why not; then everything is as before.
   tl::expected<void, std::string> resume(const ReadRows& read);
 
-  /// Every keyframe since the last reset, by id, also those that are culled, and of those that never were in the map
-  /// the newer ones; without those of a map that it started from.
+  /// Every keyframe since the last reset, by id, also those that are culled, and of those that never were in
+  /// the map the newer ones; without those of a map that it started from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   [[nodiscard]] const SlamMap& map() const { return map_; }
   /// Keyframes that a lost camera can find itself by.

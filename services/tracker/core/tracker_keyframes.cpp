@@ -11,8 +11,8 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kWild = 4;  // jerk() of a frame that is no keyframe of the map, with few inliers
-constexpr std::size_t kShown = 1000;        // keyframes that are remembered where the map does not grow
+constexpr double kWild = 4;           // jerk() of a frame that is no keyframe of the map, with few inliers
+constexpr std::size_t kShown = 1000;  // keyframes that are remembered where the map does not grow
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kWellObserved = 2;    // keyframes, of a point that the reference keyframe can rely on
 

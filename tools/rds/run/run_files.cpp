@@ -98,16 +98,16 @@ std::vector<StampedPose> live_trajectory(const Recording& recording) {
 
 std::vector<StampedPose> optimized_trajectory(const Recording& recording) {
   std::vector<StampedPose> poses;
-  // Without its keyframe a pose is final: of a saved map, whose keyframes do not move; of an earlier epoch; of a
-  // tracker that was killed before its last checkpoint had them.
+  // Without its keyframe a pose is final: of a saved map, whose keyframes do not move; of an earlier epoch;
+  // of a tracker that was killed before its last checkpoint had them.
   for (const auto& [stamp, frame] : recording.frames) {
     if (!frame.has_pose) continue;
     const auto reference = recording.keyframes.find(frame.reference_keyframe_id);
     const bool has_moved = frame.map_epoch == recording.map_epoch && reference != recording.keyframes.end();
-    poses.push_back({stamp,
-                     has_moved ? reference->second.map_from_camera * frame.reference_from_camera
-                               : frame.map_from_camera,
-                     {}});
+    poses.push_back(
+        {stamp,
+         has_moved ? reference->second.map_from_camera * frame.reference_from_camera : frame.map_from_camera,
+         {}});
   }
   return poses;
 }

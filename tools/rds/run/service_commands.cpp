@@ -54,7 +54,8 @@ YAML::Node read_user_config(const fs::path& file) {
 }
 
 /// Takes the command line's word into one service's configuration.
-void complete(YAML::Node& node, const std::string& process, const RunOptions& options, const fs::path& folder) {
+void complete(YAML::Node& node, const std::string& process, const RunOptions& options,
+              const fs::path& folder) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
   if (process == kTracker) node["dynamics"] = options.dynamics;
   if (process == kTracker && !options.poses.empty())
@@ -65,8 +66,7 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
     node["map_file"] = fs::absolute(options.map).string();
   if (keeps_map) node["localize_only"] = options.localize_only;
   if (keeps_map) node["maps_dir"] = (folder / kMapsFolder).string();
-  if (keeps_map)
-    node["backup_s"] = 0;  // for a process that starts again, not for a disk that errs
+  if (keeps_map) node["backup_s"] = 0;  // for a process that starts again, not for a disk that errs
   if (process != kDetector) return;
   if (!options.model.empty()) node["network"] = options.model;
   if (!options.model_dir.empty()) node["model_dir"] = fs::absolute(options.model_dir).string();

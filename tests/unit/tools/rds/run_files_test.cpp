@@ -93,7 +93,8 @@ TEST(RunFilesOnAFullDisk, EveryWriterSaysWhichFileHasNoRoom) {
   };
   Recording recording;  // without poses: trajectories are short enough
   for (int i = 0; i < 20; ++i) recording.frames[i] = {.stamp_ns = i, .state = "LOST", .has_pose = false};
-  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }), HasSubstr("frames.csv: cannot be written"));
+  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }),
+              HasSubstr("frames.csv: cannot be written"));
   recording.frames.clear();
   recording.detections[1] = two_frames().detections.begin()->second;
   recording.detections[2] = recording.detections[1];

@@ -7,10 +7,10 @@
 namespace rds::tracker {
 namespace {
 
-using ::testing::HasSubstr;
 using test::kFrameNs;
 using test::small_config;
 using test::step;
+using ::testing::HasSubstr;
 
 /// What a store does with rows.
 struct Rows {
@@ -114,7 +114,9 @@ TEST_F(CheckpointedTracker, WhatHasNotChangedIsNotToldAgain) {
 TEST_F(CheckpointedTracker, ACameraThatStandsStillCostsNothing) {
   for (int i = 24; i < 40; ++i) step(tracker, 23);
   rows.take(tracker.checkpoint());
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(has_pose(tracker.track(test::picture_of_wall(test::truth(23), (50 + i) * kFrameNs), {}).state));
+  for (int i = 0; i < 10; ++i)
+    EXPECT_TRUE(
+        has_pose(tracker.track(test::picture_of_wall(test::truth(23), (50 + i) * kFrameNs), {}).state));
   for (const CheckpointRow& row : tracker.checkpoint()) EXPECT_NE(row.kind, "points");
 }
 

@@ -3,12 +3,27 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace rds::tracker {
 namespace {
 
 enum Flag : std::uint8_t { kMovable = 1, kMatchable = 2, kMovableNow = 4, kAllFlags = 7 };
 
 }  // namespace
+
+void put_pyramid(map_file::ByteWriter& writer, const ExtractionConfig& extraction) {
+  writer.put(extraction.levels);
+  writer.put(extraction.scale_factor);
+}
+
+void expect_pyramid(map_file::ByteReader& reader, const ExtractionConfig& extraction) {
+  const auto levels = reader.get<int>();
+  const auto factor = reader.get<double>();
+  if (levels != extraction.levels || factor != extraction.scale_factor)
+    reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
+                              factor, extraction.levels, extraction.scale_factor));
+}
 
 void put(map_file::ByteWriter& writer, const Feature& feature, bool movable_now) {
   for (const float value : {feature.px.x(), feature.px.y(), feature.image_px.x(), feature.image_px.y(),

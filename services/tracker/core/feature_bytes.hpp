@@ -6,11 +6,17 @@
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/byte_writer.hpp"
 #include "services/tracker/core/feature.hpp"
+#include "services/tracker/core/tracker_config.hpp"
 
 namespace rds::tracker {
 
 /// Bytes of a feature.
 inline constexpr std::size_t kFeatureBytes = 24 + 2 + sizeof(Descriptor);
+
+/// Features are found again on the same image pyramid only.
+void put_pyramid(map_file::ByteWriter& writer, const ExtractionConfig& extraction);
+/// Refuses another one than this.
+void expect_pyramid(map_file::ByteReader& reader, const ExtractionConfig& extraction);
 
 /// @param movable_now  what its keyframe knows of it by now.
 void put(map_file::ByteWriter& writer, const Feature& feature, bool movable_now);

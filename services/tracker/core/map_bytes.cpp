@@ -97,8 +97,7 @@ void get_point(ByteReader& reader, SlamMap& map) {
 
 map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const ExtractionConfig& extraction) {
   ByteWriter writer;
-  writer.put(extraction.levels);
-  writer.put(extraction.scale_factor);
+  put_pyramid(writer, extraction);
   writer.put(camera.given_fx);
   writer.put(camera.focal_scale);
   writer.put_count(map.keyframes());
@@ -112,18 +111,15 @@ tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t>
                                                    std::span<const KeyframePose> poses,
                                                    const TrackerConfig& config) {
   ByteReader reader(bytes);
-  const auto levels = reader.get<int>();
-  const auto factor = reader.get<double>();
-  if (levels != config.extraction.levels || factor != config.extraction.scale_factor)
-    reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
-                              factor, config.extraction.levels, config.extraction.scale_factor));
+  expect_pyramid(reader, config.extraction);
   KnownCamera camera;
   camera.given_fx = reader.get<double>();
   camera.focal_scale = reader.get<double>();
   SlamMap map(config.map, ScalePyramid(config.extraction.levels, config.extraction.scale_factor));
   if (!are_in_order(poses)) reader.refuse("keyframe poses out of order");
   const std::size_t keyframes = reader.get_count(kKeyframeBytes);
-  for (std::size_t i = 0; i < keyframes && reader.ok(); ++i) get_keyframe(reader, poses, levels, map);
+  for (std::size_t i = 0; i < keyframes && reader.ok(); ++i)
+    get_keyframe(reader, poses, config.extraction.levels, map);
   if (map.keyframes() > 0 && !poses.empty())
     add_culled(poses, poses.back().id + 1, map);
   else if (!poses.empty())

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Tracker that tells its map as a checkpoint, and goes on from one.
-#include <fmt/format.h>
-
 #include "common/map_file/byte_reader.hpp"
-#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/feature_bytes.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
@@ -55,8 +53,7 @@ std::vector<CheckpointRow> Tracker::checkpoint() {
   std::vector<CheckpointRow> rows;
   map_checkpoint_.append_changes(map_, rows);
   ByteWriter writer;
-  writer.put(config_.extraction.levels);
-  writer.put(config_.extraction.scale_factor);
+  put_pyramid(writer, config_.extraction);
   put(writer, {given_fx_, calibration_.belief(), clock_.newest()});
   rows.push_back({kCamera, 0, writer.take()});
   return rows;
@@ -67,11 +64,7 @@ tl::expected<void, std::string> Tracker::resume(const ReadRows& read) {
   std::string fault = "no camera";
   const auto done = read(kCamera, [&](std::uint64_t, std::span<const std::uint8_t> bytes) {
     ByteReader reader(bytes);
-    const auto levels = reader.get<int>();
-    const auto factor = reader.get<double>();
-    if (levels != config_.extraction.levels || factor != config_.extraction.scale_factor)
-      reader.refuse(fmt::format("features of {} levels with factor {}, expected {} with factor {}", levels,
-                                factor, config_.extraction.levels, config_.extraction.scale_factor));
+    expect_pyramid(reader, config_.extraction);
     camera = get_camera_state(reader);
     const auto whole = reader.finish();
     fault = whole ? "" : whole.error();

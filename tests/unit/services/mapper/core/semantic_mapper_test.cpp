@@ -268,6 +268,24 @@ TEST(SemanticMapper, KeyframesBeyondTheLimitBecomeFinalAndStayInTheMap) {
   EXPECT_FALSE(limited.set_boxes(0, {}));
 }
 
+TEST(SemanticMapper, KeyframesThatNobodyTellsOfBecomeFinalAndStayInTheMap) {
+  SemanticMapper mapper(MapperConfig{});
+  SemanticMapper all(MapperConfig{});
+  for (std::uint64_t id = 0; id < 5; ++id) {
+    const auto keyframe = SyntheticKeyframe(id).pose(shifted(0.1 * static_cast<double>(id), 0, 0)).make();
+    mapper.integrate(keyframe);
+    all.integrate(keyframe);
+  }
+  const std::vector<KeyframePose> told{{0, 0, shifted(0, 0, 0)}, {3, 0, shifted(0.3, 0, 0)}};
+  mapper.make_others_final(told);  // 1 and 2; 4 is newer than what was told
+  mapper.settle({});
+  EXPECT_EQ(mapper.keyframes(), 5U);
+  EXPECT_EQ(mapper.keyframe_poses().size(), 3U);
+  EXPECT_EQ(to_bytes(mapper.tree()), to_bytes(all.tree()));
+  mapper.make_others_final({});
+  EXPECT_EQ(mapper.keyframe_poses().size(), 3U);
+}
+
 TEST(SemanticMapper, KeyframesFarOutsideTheOctreeAreHarmless) {
   SemanticMapper mapper(MapperConfig{});
   EXPECT_NO_THROW(mapper.integrate(SyntheticKeyframe(0).pose(shifted(1e7, 0, 0)).make()));

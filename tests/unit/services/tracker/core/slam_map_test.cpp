@@ -102,6 +102,23 @@ TEST_F(SlamMapTest, CulledKeyframesKeepTheirPoseAndMoveWithTheirAnchor) {
   expect_consistent();
 }
 
+TEST_F(SlamMapTest, PosesOfKeyframesInAKnownPlaceAreForgottenAfterAMinute) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const auto pass = [&](KeyframeId anchor, int begin_s, int end_s) {
+    for (int s = begin_s; s < end_s; ++s) map.add_passing(s * kSecond, place(1), anchor);
+  };
+  pass(0, 0, 60);
+  EXPECT_EQ(map.keyframe_poses().size(), 64U) << "of the last minute all";
+  pass(0, 60, 600);
+  EXPECT_EQ(map.keyframe_poses().size(), 4U + 61U);
+  map.add_passing(900 * kSecond, place(1), 0);
+  EXPECT_EQ(map.keyframe_poses().size(), 4U + 20U) << "and always some, however old";
+  EXPECT_FALSE(map.knows(4));
+  EXPECT_EQ(map.next_keyframe_id(), 4U + 601U) << "no id is used twice";
+  pass(1, 900, 903);
+  EXPECT_EQ(map.keyframe_poses().size(), 4U + 20U + 3U) << "each place by itself";
+}
+
 TEST_F(SlamMapTest, TheLastKeyframeStays) {
   for (KeyframeId k = 0; k < 4; ++k) map.cull_keyframe(k);
   EXPECT_EQ(map.keyframes(), 1U);

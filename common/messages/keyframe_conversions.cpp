@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
@@ -11,6 +14,9 @@ namespace rds::messages {
 namespace {
 
 constexpr std::size_t kPoseNumbers = 7;
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::int64_t kMaxSeconds = std::numeric_limits<std::int32_t>::max();  // of a stamp in a header
+constexpr double kFarthest_m = 1e8;
 
 /// A member of a message that keeps the whole message alive.
 template <class Member, class Message>
@@ -51,8 +57,14 @@ std::string fault_of(const rds_msgs::msg::KeyFramePoses& message) {
   const std::size_t count = message.keyframe_ids().size();
   if (message.stamps().size() != count || message.poses().size() != kPoseNumbers * count)
     return "arrays of lengths that do not fit";
-  if (!std::ranges::all_of(message.poses(), [](double x) { return std::isfinite(x); }))
-    return "a pose that is not finite";
+  if (std::ranges::adjacent_find(message.keyframe_ids(), std::ranges::greater_equal{}) !=
+      message.keyframe_ids().end())
+    return "keyframes that are not in order";
+  if (!std::ranges::all_of(message.stamps(),
+                           [](std::int64_t ns) { return std::abs(ns / kNsPerSecond) < kMaxSeconds; }))
+    return "a stamp that no message can have";
+  if (!std::ranges::all_of(message.poses(), [](double x) { return std::abs(x) < kFarthest_m; }))
+    return "a pose that is not finite, or not on this planet";
   for (std::size_t i = 0; i < count; ++i)
     if (const auto* q = &message.poses()[kPoseNumbers * i + 3];
         std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) > 0.01)

@@ -7,16 +7,26 @@
 #include "common/time/stamp_step.hpp"
 
 namespace rds::transformer {
+namespace {
+
+constexpr std::uint64_t kMaxStep = 1'000'000;
+
+}  // namespace
 
 void FirstPoses::take(std::span<const geometry::KeyframePose> poses) {
   for (const geometry::KeyframePose& pose : poses) {
-    if (pose.id < first_id_ || by_id_.contains(pose.id)) continue;
+    if (pose.id < first_id_ || by_id_.contains(pose.id) || is_impossible(pose)) continue;
     if (goes_back(pose)) forget_before(pose.id);
     by_id_.emplace(pose.id, pose);
     std::uint64_t& newest_of_stamp = id_of_stamp_.try_emplace(pose.stamp_ns, pose.id).first->second;
     newest_of_stamp = std::max(newest_of_stamp, pose.id);
     if (by_id_.size() > capacity_) forget_before(std::next(by_id_.begin())->first);
   }
+}
+
+/// Ids count up, and a tracker that was started again leaves some thousands out.
+bool FirstPoses::is_impossible(const geometry::KeyframePose& pose) const {
+  return !by_id_.empty() && pose.id > by_id_.rbegin()->first + kMaxStep;
 }
 
 /// Whether it is newer than all others and of an earlier time.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/messages/keyframe_pose_table.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "common/messages/keyframe_conversions.hpp"
@@ -87,6 +89,21 @@ TEST_F(KeyframePosesOnTheWay, AnotherMapBeginsWithAll) {
   changes_.clear();
   ASSERT_TRUE(hear(tell({pose(0, 5)})));
   EXPECT_EQ(heard(), (std::vector<double>{5}));
+}
+
+TEST(KeyframePosesFault, IsWhatNoTrackerWrites) {
+  Message good;
+  append_poses(std::vector{pose(3, 0), pose(7, 1)}, good);
+  EXPECT_EQ(fault_of(good), "");
+  Message bad = good;
+  bad.keyframe_ids({7, 7});
+  EXPECT_NE(fault_of(bad), "") << "one keyframe twice";
+  bad = good;
+  bad.stamps({0, std::numeric_limits<std::int64_t>::min()});
+  EXPECT_NE(fault_of(bad), "");
+  bad = good;
+  bad.poses()[0] = 1e30;
+  EXPECT_NE(fault_of(bad), "");
 }
 
 }  // namespace

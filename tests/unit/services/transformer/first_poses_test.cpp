@@ -71,5 +71,18 @@ TEST(FirstPoses, WhatWasForgottenIsNotTakenForNew) {
   EXPECT_EQ(x_at(poses, 1), 0.5);
 }
 
+TEST(FirstPoses, AnIdThatCannotBeReachedShutsNobodyOut) {
+  FirstPoses poses(10);
+  geometry::KeyframePose real{5, 5'000'000'000, geometry::Pose::Identity()};
+  poses.take({&real, 1});
+  const geometry::KeyframePose spoiled{~std::uint64_t{0} - 1, 1'000'000'000, geometry::Pose::Identity()};
+  poses.take({&spoiled, 1});
+  real = {6, 6'000'000'000, geometry::Pose::Identity()};
+  poses.take({&real, 1});
+  EXPECT_TRUE(poses.of(5'000'000'000));
+  EXPECT_TRUE(poses.of(6'000'000'000));
+  EXPECT_FALSE(poses.of(1'000'000'000));
+}
+
 }  // namespace
 }  // namespace rds::transformer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spoiled copies of every message that the services read, written beside a camera that goes on. RDS_MUTATIONS
-// says how many per topic.
+// Spoiled copies of every message that the services read, written while the camera rests. RDS_MUTATIONS says how
+// many per topic.
 #include <atomic>
 #include <cstdlib>
 #include <map>

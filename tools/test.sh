@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # test.sh [--preset release|dev|asan|tsan] [--no-skip] [CTEST OPTIONS]: sets up, builds, runs the preset's tests.
 #
-# -L soak     the long tests alone, which no preset has: half an hour in one room, every fault of the table.
+# -L soak     the long tests alone, which no preset has: half an hour in one room, every fault of the table (asan, tsan: its first moment).
 # --no-skip   a skipped test is a failure.
 # RDS_SHARED  folder with recordings and models; where it is not set tests render a room instead, and what needs the recordings of a
 #             real camera is skipped by name.
@@ -24,8 +24,11 @@ export RDS_SHARED RDS_PYTHON=$root/.venv/bin/python
 
 tests=$preset
 case " $* " in *" -L soak "*)
-  [ "$preset" = release ] || fail "-L soak: expected the preset release"
-  tests=soak
+  case $preset in
+    release) tests=soak ;;
+    asan | tsan) tests=${preset}_soak ;;
+    *) fail "-L soak: expected the preset release, asan or tsan" ;;
+  esac
   ;;
 esac
 

@@ -2,8 +2,7 @@
 #include "tests/faults/fault_table.hpp"
 
 #include <algorithm>
-#include <ranges>
-#include <stdexcept>
+#include <iterator>
 
 namespace rds::test {
 namespace {
@@ -90,29 +89,10 @@ const std::vector<Row>& fault_table() {
   return kTable;
 }
 
-std::vector<Row> rows_named(const std::vector<std::string>& beginnings) {
+std::vector<Row> rows_at_begin() {
   std::vector<Row> rows;
-  for (const std::string& beginning : beginnings) {
-    const auto row = std::ranges::find_if(
-        fault_table(), [&](const Row& r) { return r.label().starts_with(beginning + "_"); });
-    if (row == fault_table().end()) throw std::invalid_argument(beginning + ": no such row");
-    rows.push_back(*row);
-  }
-  return rows;
-}
-
-std::vector<Row> one_row_per_fault() {
-  std::vector<Row> rows;
-  for (const Kind& kind : kKinds) {
-    Row row{rows.size(),
-            kind.fault,
-            kind.name,
-            kind.services[rows.size() % kind.services.size()],
-            kMoments[0],
-            "walkers",
-            vendor_of(rows.size())};
-    rows.push_back(std::move(row));
-  }
+  std::ranges::copy_if(fault_table(), std::back_inserter(rows),
+                       [](const Row& row) { return row.moment.name == kMoments.front().name; });
   return rows;
 }
 

@@ -65,11 +65,8 @@ void PrintTo(const Row& row, std::ostream* out);
 
 /// All rows: faults × services × moments, vendors and recordings in turn.
 const std::vector<Row>& fault_table();
-/// The rows of these labels' beginnings (fault, service, moment), in the given order.
-/// @throws std::invalid_argument for one that begins no label.
-std::vector<Row> rows_named(const std::vector<std::string>& beginnings);
-/// For each fault one row at the first moment, services in turn, and each vendor.
-std::vector<Row> one_row_per_fault();
+/// Those of the first moment.
+std::vector<Row> rows_at_begin();
 /// The run without a fault that rows of each vendor, recording and moment are compared with.
 std::vector<Row> undisturbed_rows();
 

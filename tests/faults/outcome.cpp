@@ -1,23 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/faults/outcome.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tests/integration/run_support.hpp"
 #include "tools/evaluation/map_score.hpp"
+#include "tools/evaluation/octree_file.hpp"
+#include "tools/evaluation/voxel_set.hpp"
 
 namespace rds::test {
+namespace {
 
-Figures figures_of(const RecordingPair& recording, const std::filesystem::path& out,
-                   const std::filesystem::path& seen_by) {
-  const auto path = score(recording.dataset, out);
+evaluation::VoxelSet occupied_voxels(const std::filesystem::path& results) {
+  const auto tree = evaluation::read_octree_file(results / "map.ot");
+  if (!tree) throw std::runtime_error(tree.error());
+  std::vector<evaluation::VoxelKey> keys;
+  for (const auto& center : tree->occupied_centers())
+    keys.push_back(evaluation::voxel_of(center, tree->resolution_m));
+  return evaluation::make_voxel_set(std::move(keys));
+}
+
+/// Of the undisturbed map's voxels the share with a voxel in the 3×3×3 around. Both maps have the first
+/// camera's frame.
+double recall_of_map(const std::filesystem::path& out, const std::filesystem::path& undisturbed) {
+  const auto map = occupied_voxels(out);
+  const auto expected = occupied_voxels(undisturbed);
+  const auto found = std::ranges::count_if(
+      expected, [&](evaluation::VoxelKey key) { return evaluation::has_neighbour(map, key, 1); });
+  return static_cast<double>(found) / static_cast<double>(expected.size());
+}
+
+double recall_of_surfaces(const RecordingPair& recording, const std::filesystem::path& out,
+                          const std::filesystem::path& undisturbed) {
   const auto map = evaluation::score_map({.dataset = recording.dataset,
                                           .background = recording.background,
                                           .out = out,
                                           .every = 5,
-                                          .seen_by = seen_by});
+                                          .seen_by = undisturbed});
   if (!map) throw std::runtime_error(map.error());
-  return {path["ate_live"].get<double>(), path["ate_final"].get<double>(), map->static_recall};
+  return map->static_recall;
+}
+
+}  // namespace
+
+Figures figures_of(const RecordingPair& recording, const std::filesystem::path& out,
+                   const std::filesystem::path& undisturbed) {
+  const auto path = score(recording.dataset, out);
+  const double recall = recording.background.empty() ? recall_of_map(out, undisturbed)
+                                                     : recall_of_surfaces(recording, out, undisturbed);
+  return {path["ate_live"].get<double>(), path["ate_final"].get<double>(), recall};
 }
 
 }  // namespace rds::test

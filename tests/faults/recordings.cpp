@@ -27,7 +27,7 @@ Source source_of(const std::string& name) {
   if (name != "rpy") throw std::runtime_error(name + ": no such recording");
   const auto folder = why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy"
                                                                  : rendered_recording("room_empty");
-  return {{folder, folder}, 0};
+  return {{folder, {}}, 0};
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ Source source_of(const std::string& name) {
 RecordingPair to_and_fro(const std::string& name, const std::filesystem::path& place) {
   const auto [whole, from_s] = source_of(name);
   make_to_and_fro(whole.dataset, place / name, from_s, kTurnS, kLengthS);
+  if (whole.background.empty()) return {place / name, {}};
   make_to_and_fro(whole.background, place / (name + "_background"), from_s, kTurnS, kLengthS);
   return {place / name, place / (name + "_background")};
 }

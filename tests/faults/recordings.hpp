@@ -9,7 +9,7 @@ namespace rds::test {
 /// A recording, and the same without people.
 struct RecordingPair {
   std::filesystem::path dataset;
-  std::filesystem::path background;
+  std::filesystem::path background;  // empty: nobody walks in the recording
 };
 
 /// 4 s of a recording, to and fro for 30 s: what a camera misses in 5 s it has seen, and sees again.

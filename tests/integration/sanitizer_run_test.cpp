@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A short run of the real processes, people in the picture, on each bus, in lockstep and in real time: built
 // with a sanitizer, no process may report anything.
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 
 #include "tests/integration/run_support.hpp"
+#include "tests/support/sanitizers/reports.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RunMode {
   std::string name;
@@ -24,30 +21,18 @@ void PrintTo(const RunMode& mode, std::ostream* out) {
   *out << mode.name;
 }
 
-/// The sanitizers' options as they are, and a folder for what they find.
-Process::Environment reporting_to(const fs::path& folder) {
-  Process::Environment environment;
-  for (const char* name : {"ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}) {
-    const char* options = std::getenv(name);
-    environment[name] = (options == nullptr ? "" : std::string(options) + ":") + "log_path='" +
-                        (folder / "report").string() + "'";
-  }
-  return environment;
-}
-
 class SanitizedRun : public ::testing::TestWithParam<RunMode> {};
 
 TEST_P(SanitizedRun, IsCleanInEveryProcess) {
   const TemporaryFolder place;
-  const fs::path reports = place / "reports";
-  fs::create_directory(reports);
+  const SanitizerReports reports;
   // A sanitizer makes everything ten times slower.
   write_text(place / "slow.yaml", "tracker: {lockstep_timeout_s: 300}\n");
   const ProcessResult result = run(recording_with_people().folder, place / "out",
                                    {"--start", "20", "--frames", "40", "--bus", GetParam().bus, "--rate",
                                     GetParam().rate, "--config", (place / "slow.yaml").string()},
-                                   std::chrono::minutes(10), reporting_to(reports));
-  for (const auto& report : fs::directory_iterator(reports)) ADD_FAILURE() << read_text(report.path());
+                                   std::chrono::minutes(10), reports.environment());
+  EXPECT_THAT(reports.found(), ::testing::IsEmpty());
   EXPECT_EQ(result.status, 0) << result.standard_error;
 }
 

@@ -78,7 +78,8 @@ void set_common(const TypeOps& type, const Qos& qos, EndpointQos& target) {
   target.resource_limits().max_samples = std::max(depth, qos.max_samples);
   target.resource_limits().max_samples_per_instance = target.resource_limits().max_samples;
   target.resource_limits().max_instances = 1;
-  target.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  // A pool would keep each of its buffers as large as the largest message that ever was in it.
+  target.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   target.data_sharing().off();
   const std::string user_data = endpoint_user_data(type);
   target.user_data().data_vec({user_data.begin(), user_data.end()});

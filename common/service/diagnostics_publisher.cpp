@@ -3,7 +3,10 @@
 
 #include <chrono>
 
+#include <malloc.h>
+
 #include "common/messages/conversions.hpp"
+#include "common/service/freed_memory.hpp"
 #include "common/service/process_usage.hpp"
 #include "common/service/supervisor.hpp"
 
@@ -35,8 +38,10 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& pr
       versions_(context.bus),
       thread_([this](const std::stop_token& stop) {
         concurrency::Mailbox timer;
+        FreedMemory freed_memory;
         while (!stop.stop_requested()) {
           publish();
+          freed_memory.look();
           timer.wait_for(stop, kPeriod, [] { return false; });
         }
       }) {}
@@ -46,8 +51,7 @@ Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t misma
   for (const auto& endpoint : context_.bus.statistics()) troubles += endpoint.dropped;
   const std::uint64_t lately = troubles - troubles_before_;
   troubles_before_ = troubles;
-  if (hangs(worker))
-    return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
+  if (hangs(worker)) return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
   if (const auto rivalry = presence_.rivalry()) return {kError, *rivalry};
   if (mismatches > 0) return {kWarn, fmt::format("{} endpoints of another version", mismatches)};
   if (lately > 0) return {kWarn, fmt::format("{} messages dropped", lately)};
@@ -83,6 +87,8 @@ void DiagnosticsPublisher::publish() {
   values.push_back(key_value("worker silent [s]", fmt::format("{:.1f}", worker.silent_s)));
   values.push_back(key_value("cpu [s]", fmt::format("{:.2f}", usage.cpu_s)));
   values.push_back(key_value("rss [MB]", fmt::format("{:.1f}", static_cast<double>(usage.rss_bytes) / 1e6)));
+  values.push_back(
+      key_value("freed, kept [MB]", fmt::format("{:.1f}", static_cast<double>(mallinfo2().fordblks) / 1e6)));
   for (const auto& [name, value] : context_.diagnostics.figures()) values.push_back(key_value(name, value));
   for (const auto& endpoint : context_.bus.statistics())
     if (endpoint.dropped > 0)

@@ -7,6 +7,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/service/checkpoints.hpp"
+#include "common/service/possible_poses.hpp"
 #include "services/mapper/keyframe_input.hpp"
 #include "services/mapper/spill_file.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
-constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
+constexpr std::size_t kMaxBoxes = 100;                 // messages whose keyframe has not come
 constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
 
 /// Keyframes, both before and after the worker has looked at them.
@@ -54,7 +55,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) { poses_inbox_.push(std::move(m)); }));
+      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
+        if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
+      }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size() + waiting_.size(); });
   context.diagnostics.gauge("corrections lost", [this] { return corrections_lost_.load(); });
   context.diagnostics.gauge("keyframes dropped",

@@ -13,6 +13,7 @@
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/checkpoints.hpp"
+#include "common/service/possible_poses.hpp"
 #include "common/service/random_id.hpp"
 #include "services/tracker/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
@@ -64,7 +65,8 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
           "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
       poses_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
           "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
-            if (m->source() == kLoop) poses_inbox_.push(std::move(m));
+            if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
+              poses_inbox_.push(std::move(m));
           })) {
   if (!config.map_file.empty()) {
     auto [map, checksum] = read_start_or_throw(config);

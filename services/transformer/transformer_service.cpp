@@ -4,6 +4,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/service/possible_poses.hpp"
 
 namespace rds::transformer {
 namespace {
@@ -26,7 +27,8 @@ TransformerService::TransformerService(service::ServiceContext& context,
       "rds/detections", bus::kStream, [this](Detections m) { detections_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
-        if (m->source() == kLocal) poses_inbox_.push(std::move(m));
+        if (m->source() == kLocal && service::is_possible(*m, context_.diagnostics))
+          poses_inbox_.push(std::move(m));
       }));
   subscriptions_.push_back(context.bus.subscribe<sensor_msgs::msg::CameraInfo>(
       config.camera_info_topic, bus::kSensor, [this](Info m) { camera_inbox_.push(std::move(m)); }));
@@ -56,8 +58,7 @@ void TransformerService::take_camera() {
 }
 
 void TransformerService::take_pose_messages() {
-  while (const auto message = poses_inbox_.try_pop())
-    guarded("rds/keyframe/poses", [&] { take(*message); });
+  while (const auto message = poses_inbox_.try_pop()) guarded("rds/keyframe/poses", [&] { take(*message); });
 }
 
 void TransformerService::take(const Poses& message) {

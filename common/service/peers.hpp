@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/service/instance_owners.hpp"
 #include "rds_msgs/msg/ServiceStatus.h"
 
 namespace rds::service {
@@ -52,6 +53,7 @@ class Peers {
   void forget_silent();  // under the lock
 
   std::function<void()> changed_;
+  InstanceOwners owners_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, Peer> peers_;  // by instance; at most kMaxPeers
   bus::Subscription subscription_;       // last: its callback uses the members above
@@ -66,8 +68,8 @@ class FollowedWriter {
 
   /// Whether a message of this instance is to be used; then it is the one that is followed from now on.
   ///
-  /// @param same_map  the message goes on with the map that the reader knows: whoever was started again in the
-  /// place of the one that was followed is taken at once.
+  /// @param same_map  the message goes on with the map that the reader knows: whoever was started again in
+  /// the place of the one that was followed is taken at once.
   bool accept(std::uint64_t instance, bool same_map);
 
  private:

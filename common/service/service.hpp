@@ -15,6 +15,7 @@
 #include "common/concurrency/mailbox.hpp"
 #include "common/config/config_reader.hpp"
 #include "common/service/diagnostics.hpp"
+#include "common/service/instance_owners.hpp"
 #include "common/service/random_id.hpp"
 
 namespace rds::service {
@@ -26,6 +27,7 @@ struct ServiceContext {
   Diagnostics& diagnostics;
   int domain = 0;
   std::uint64_t instance = random_id();  // of this process, in all that it publishes
+  std::shared_ptr<InstanceOwners> owners = std::make_shared<InstanceOwners>();
 };
 
 struct CommandOutcome {
@@ -103,6 +105,19 @@ class Service {
       context_.diagnostics.reject(topic, Rejection::kFailed, e.what());
       return false;
     }
+  }
+
+  /// Subscribes to messages that name the instance of the service which wrote them. What another participant
+  /// writes in its name is refused and counted, and never reaches the callback.
+  template <class Message>
+  bus::Subscription subscribe_to_instances(const std::string& topic, const bus::Qos& qos,
+                                           std::function<void(std::shared_ptr<const Message>)> callback) {
+    return context_.bus.subscribe<Message>(
+        topic, qos,
+        [this, topic, callback](std::shared_ptr<const Message> message, const bus::ParticipantId& writer) {
+          if (context_.owners->owns(writer, message->instance())) return callback(std::move(message));
+          context_.diagnostics.reject(topic, Rejection::kForeign, "written in another one's name");
+        });
   }
 
   ServiceContext& context_;

@@ -35,9 +35,8 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
-      subscription_(context.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
-          "rds/keyframe/images", bus::kKeyframeImages,
-          [this](Keyframe m) { receive(std::move(m)); })) {
+      subscription_(subscribe_to_instances<rds_msgs::msg::KeyFrameImages>(
+          "rds/keyframe/images", bus::kKeyframeImages, [this](Keyframe m) { receive(std::move(m)); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }

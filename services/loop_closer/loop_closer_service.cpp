@@ -35,7 +35,7 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
-    subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
+    subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFrameFeatures>(
         "rds/keyframe/features", bus::kKeyframeFeatures,
         [this](Features m) { features_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });

@@ -54,7 +54,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
-  subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
+  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
         if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
       }));
@@ -82,7 +82,7 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe_to_keyframes() {
-  subscriptions_.push_back(context_.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
+  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFrameImages>(
       "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(context_.bus.subscribe<vision_msgs::msg::Detection3DArray>(
       "rds/boxes", bus::kBoxes, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));

@@ -63,7 +63,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       mapping_worker_(config.tracker.local_mapping, config.mapping_nice, mapping_inbox_),
       boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
           "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
-      poses_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
+      poses_subscription_(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
           "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
             if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
               poses_inbox_.push(std::move(m));

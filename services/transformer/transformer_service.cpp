@@ -25,7 +25,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
       boxes_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kBoxes)) {
   subscriptions_.push_back(context.bus.subscribe<vision_msgs::msg::Detection2DArray>(
       "rds/detections", bus::kStream, [this](Detections m) { detections_inbox_.push(std::move(m)); }));
-  subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
+  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
       "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
         if (m->source() == kLocal && service::is_possible(*m, context_.diagnostics))
           poses_inbox_.push(std::move(m));

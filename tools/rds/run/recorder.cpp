@@ -61,16 +61,21 @@ std::vector<PredictionRecord> to_records(const rds_msgs::msg::PredictedBoxes& m)
 }  // namespace
 
 Recorder::Recorder(bus::Participant& bus) : tracker_(bus) {
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::TrackingState>(
-      "rds/tracking_state", bus::kStream, [this](const auto& m) { on_state(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::PredictedBoxes>(
-      "rds/predicted_boxes", bus::kStream, [this](const auto& m) { on_boxes(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](const auto& m) { on_poses(*m); }));
+  subscribe(bus, "rds/tracking_state", bus::kStream, &Recorder::on_state);
+  subscribe(bus, "rds/predicted_boxes", bus::kStream, &Recorder::on_boxes);
+  subscribe(bus, "rds/keyframe/poses", bus::kLatchedEvery, &Recorder::on_poses);
   subscriptions_.push_back(bus.subscribe<vision_msgs::msg::Detection2DArray>(
       "rds/detections", bus::kStream, [this](const auto& m) { on_detections(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched,
-                                                                 [this](const auto& m) { on_map_info(*m); }));
+  subscribe(bus, "rds/map/info", bus::kLatched, &Recorder::on_map_info);
+}
+
+template <class Message>
+void Recorder::subscribe(bus::Participant& bus, const std::string& topic, const bus::Qos& qos,
+                         void (Recorder::*take)(const Message&)) {
+  subscriptions_.push_back(
+      bus.subscribe<Message>(topic, qos, [this, take](const auto& m, const auto& writer) {
+        if (owners_.owns(writer, m->instance())) (this->*take)(*m);
+      }));
 }
 
 void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/topics/topics.hpp"
+
 namespace rds::service {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr std::size_t kMaxPeers = 256;
 
 Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qos& qos)
     : changed_(std::move(changed)),
-      subscription_(bus.subscribe<ServiceStatus>(kServicesTopic, qos,
+      subscription_(bus.subscribe<ServiceStatus>(topics::kServiceStatus.name, qos,
                                                  [this](const auto& status) { take(*status); })) {}
 
 void Peers::take(const ServiceStatus& status) {

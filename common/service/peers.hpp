@@ -16,8 +16,6 @@
 
 namespace rds::service {
 
-inline const std::string kServicesTopic = "rds/services";
-
 /// A service on the bus, as it tells about itself.
 struct Peer {
   rds_msgs::msg::ServiceStatus status;
@@ -66,8 +64,8 @@ class FollowedWriter {
 
   /// Whether a message of this instance is to be used; then it is the one that is followed from now on.
   ///
-  /// @param same_map  the message goes on with the map that the reader knows: whoever was started again in the
-  /// place of the one that was followed is taken at once.
+  /// @param same_map  the message goes on with the map that the reader knows: whoever was started again in
+  /// the place of the one that was followed is taken at once.
   bool accept(std::uint64_t instance, bool same_map);
 
  private:

@@ -12,6 +12,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/checkpoints.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/loop_closer/feature_message.hpp"
 
 namespace rds::loop_closer {
@@ -31,13 +32,12 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
-      poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
+      poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kLoopCloser)) {
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
-    subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFrameFeatures>(
-        "rds/keyframe/features", bus::kKeyframeFeatures,
-        [this](Features m) { features_.push(std::move(m)); }));
+    subscriptions_.push_back(topics::subscribe(context.bus, topics::kKeyframeFeatures, topics::kLoopCloser,
+                                               [this](Features m) { features_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
@@ -73,7 +73,8 @@ void LoopCloserService::run(const std::stop_token& stop) {
   })) {
     handle_commands();
     map_commands_.settle();
-    if (const auto features = features_.try_pop()) guarded("rds/keyframe/features", [&] { take(*features); });
+    if (const auto features = features_.try_pop())
+      guarded(topics::kKeyframeFeatures.name, [&] { take(*features); });
     lasting_.save();
   }
 }
@@ -104,7 +105,7 @@ bool LoopCloserService::is_confirmed(const Features& features) {
 
 void LoopCloserService::take(const Features& features) {
   if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
-    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kForeign,
+    return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kForeign,
                                        "another tracker");
   if (!is_confirmed(features)) return;
   if (is_known(features) && features->keyframe_id() < known_->id) return;
@@ -112,13 +113,13 @@ void LoopCloserService::take(const Features& features) {
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe)
-    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid,
+    return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid,
                                        keyframe.error());
   const LoopAnswer found = loop_closer_.add(*keyframe);
   if (found.refused.empty()) lasting_.add(*keyframe);
   keyframes_ = loop_closer_.keyframes();
   if (!found.refused.empty())
-    context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid, found.refused);
+    context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid, found.refused);
   answer(features, found);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("keyframe").add_ms(took.count());

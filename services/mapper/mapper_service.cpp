@@ -8,6 +8,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/service/checkpoints.hpp"
 #include "common/service/possible_poses.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/mapper/keyframe_input.hpp"
 #include "services/mapper/spill_file.hpp"
 
@@ -54,8 +55,8 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
-  subscriptions_.push_back(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
+  subscriptions_.push_back(
+      topics::subscribe(context.bus, topics::kKeyframePoses, topics::kMapper, [this](Poses m) {
         if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
       }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size() + waiting_.size(); });
@@ -82,10 +83,10 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe_to_keyframes() {
-  subscriptions_.push_back(context_.bus.subscribe<rds_msgs::msg::KeyFrameImages>(
-      "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
-  subscriptions_.push_back(context_.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-      "rds/boxes", bus::kBoxes, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(topics::subscribe(context_.bus, topics::kKeyframeImages, topics::kMapper,
+                                             [this](Images m) { images_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
+                                             [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }
 
 void MapperService::run(const std::stop_token& stop) {
@@ -100,7 +101,7 @@ void MapperService::run(const std::stop_token& stop) {
     take_arrivals();
     if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;
-    guarded("rds/keyframe/poses", [this] { correct(); });
+    guarded(topics::kKeyframePoses.name, [this] { correct(); });
     integrate_ready();
     lasting_.save(mapper_);
   }
@@ -135,7 +136,7 @@ void MapperService::report_losses() {
 
 void MapperService::integrate_ready() {
   while (!waiting_.empty() && is_ready(waiting_.oldest()))
-    guarded("rds/keyframe/images", [this] {
+    guarded(topics::kKeyframeImages.name, [this] {
       beat();
       integrate(waiting_.take_oldest());
     });
@@ -153,7 +154,8 @@ void MapperService::integrate(const Images& images) {
   const auto started = std::chrono::steady_clock::now();
   auto input = to_keyframe_input(images);
   if (!input)
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, input.error());
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kInvalid,
+                                       input.error());
   const geometry::Pose camera_from_map = input->map_from_camera.inverse();
   if (const Boxes boxes = waiting_boxes_.take(input->stamp_ns))
     input->boxes = labelled_boxes(boxes, camera_from_map, input->camera);
@@ -163,7 +165,7 @@ void MapperService::integrate(const Images& images) {
   try {
     delta = mapper_.integrate(*input);
   } catch (const std::invalid_argument& e) {
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, e.what());
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kInvalid, e.what());
   }
   const Integrated integrated{input->id, input->stamp_ns, camera_from_map, input->camera};
   integrated_by_stamp_.insert_or_assign(input->stamp_ns, integrated);

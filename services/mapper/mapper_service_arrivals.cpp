@@ -7,6 +7,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/topics/topics.hpp"
 #include "services/mapper/labelled_boxes.hpp"
 #include "services/mapper/mapper_service.hpp"
 
@@ -27,9 +28,10 @@ bool MapperService::something_arrived() const {
 
 void MapperService::take_arrivals() {
   while (const auto images = images_inbox_.try_pop())  // first: they begin an epoch
-    guarded("rds/keyframe/images", [&] { take(*images); });
-  while (const auto boxes = boxes_inbox_.try_pop()) guarded("rds/boxes", [&] { take(*boxes); });
-  while (const auto poses = poses_inbox_.try_pop()) guarded("rds/keyframe/poses", [&] { take(*poses); });
+    guarded(topics::kKeyframeImages.name, [&] { take(*images); });
+  while (const auto boxes = boxes_inbox_.try_pop()) guarded(topics::kBoxes.name, [&] { take(*boxes); });
+  while (const auto poses = poses_inbox_.try_pop())
+    guarded(topics::kKeyframePoses.name, [&] { take(*poses); });
 }
 
 /// One tracker is followed, and of that one its newest epoch: messages of others change nothing.
@@ -66,10 +68,11 @@ bool MapperService::is_of_loop_closer(const Poses& poses) {
   const bool known = poses->map_epoch() == mapper_.map_epoch();
   const bool accepted = known && loop_closer_.accept(poses->instance(), false);
   if (!known)
-    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated,
+    context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kOutdated,
                                 "loops of another map epoch");
   else if (!accepted)
-    context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
+    context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kForeign,
+                                "another loop closer");
   return accepted;
 }
 
@@ -116,7 +119,7 @@ void MapperService::forget_keyframes() {
 }
 
 void MapperService::take(const Images& images) {
-  if (!is_of_tracker(images->instance(), images->map_epoch(), "rds/keyframe/images")) return;
+  if (!is_of_tracker(images->instance(), images->map_epoch(), topics::kKeyframeImages.name)) return;
   const std::int64_t stamp = messages::to_nanoseconds(images->header().stamp());
   if (images->map_epoch() != mapper_.map_epoch()) {
     if (!is_confirmed(images)) return;
@@ -148,7 +151,7 @@ std::optional<std::vector<LabelledBox>> MapperService::labelled_boxes(const Boxe
                                                                       const geometry::CameraModel& camera) {
   auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config_.mapper);
   if (!labelled) {
-    context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, labelled.error());
+    context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kInvalid, labelled.error());
     return std::nullopt;
   }
   context_.diagnostics.counter("impossible boxes") += labelled->impossible;
@@ -158,11 +161,12 @@ std::optional<std::vector<LabelledBox>> MapperService::labelled_boxes(const Boxe
 /// Only keyframes begin an epoch; without them (localize_only) poses do.
 void MapperService::take(const Poses& message) {
   const bool local = message->source() == kLocal;
-  if (local && !is_of_tracker(message->instance(), message->map_epoch(), "rds/keyframe/poses")) return;
+  if (local && !is_of_tracker(message->instance(), message->map_epoch(), topics::kKeyframePoses.name)) return;
   if (!local && !is_of_loop_closer(message)) return;
   auto poses = messages::to_keyframe_poses(*message);
   if (!poses)
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
+                                       poses.error());
   if (message->map_epoch() != mapper_.map_epoch()) {
     if (!config_.localize_only) {
       if (early_poses_.size() >= kMaxEarlyPoses)

@@ -15,6 +15,7 @@
 #include "common/service/checkpoints.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/service/random_id.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/tracker/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
 
@@ -61,10 +62,10 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       mapping_inbox_(mailbox_, 2),
       map_commands_(mailbox_, config.maps, map_file::kTracker),
       mapping_worker_(config.tracker.local_mapping, config.mapping_nice, mapping_inbox_),
-      boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-          "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
-      poses_subscription_(context.bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-          "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
+      boxes_subscription_(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
+                                            [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
+      poses_subscription_(
+          topics::subscribe(context.bus, topics::kKeyframePoses, topics::kTracker, [this](PosesMessage m) {
             if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
               poses_inbox_.push(std::move(m));
           })) {
@@ -185,15 +186,17 @@ void TrackerService::sort_in_arrivals() {
   while (auto boxes = boxes_inbox_.try_pop()) {
     const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
     if (!boxes_.arrive(stamp, std::move(*boxes)))
-      context_.diagnostics.reject("rds/boxes", service::Rejection::kUnexpected,
+      context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kUnexpected,
                                   "their keyframe waits for none");
   }
   while (auto poses = poses_inbox_.try_pop()) {
     const std::uint64_t answered = (*poses)->answered_keyframe_id();
     if ((*poses)->map_epoch() != map_epoch_)
-      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated, "another map epoch");
+      context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kOutdated,
+                                  "another map epoch");
     else if (!loop_closer_.accept((*poses)->instance(), false))
-      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
+      context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kForeign,
+                                  "another loop closer");
     else
       loop_answers_.arrive_through(answered, *poses);
   }
@@ -228,8 +231,9 @@ void TrackerService::apply_answers() {
     return config_.lockstep.enabled ? values.take_due(frame_index_) : values.take_arrived();
   };
   for (const LocalMappingResult& result : take(mappings_)) guarded("local mapping", [&] { apply(result); });
-  for (const PosesMessage& poses : take(loop_answers_)) guarded("rds/keyframe/poses", [&] { apply(poses); });
-  for (const BoxesMessage& boxes : take(boxes_)) guarded("rds/boxes", [&] { apply(boxes); });
+  for (const PosesMessage& poses : take(loop_answers_))
+    guarded(topics::kKeyframePoses.name, [&] { apply(poses); });
+  for (const BoxesMessage& boxes : take(boxes_)) guarded(topics::kBoxes.name, [&] { apply(boxes); });
 }
 
 void TrackerService::apply(const LocalMappingResult& result) {
@@ -248,7 +252,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   const auto correction = messages::to_keyframe_poses(*poses);
   if (correction && correction->empty()) return;  // its poses came before
   if (!correction)
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid,
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
                                        correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});
@@ -265,7 +269,7 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
   const auto detections = messages::to_detections(*boxes);
   if (!detections)
-    return context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, detections.error());
+    return context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   ++box_sets_used_;

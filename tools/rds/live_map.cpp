@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/topics/endpoints.hpp"
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "services/mapper/core/tree_bytes.hpp"
@@ -22,9 +23,9 @@ constexpr std::chrono::milliseconds kInfoTime{1500};  // in which a mapper that 
 template <class Message>
 class Newest {
  public:
-  Newest(bus::Participant& participant, const std::string& topic)
+  Newest(bus::Participant& participant, const topics::Topic<Message>& topic)
       : subscription_(
-            participant.subscribe<Message>(topic, bus::kLatched, [this](std::shared_ptr<const Message> m) {
+            topics::subscribe(participant, topic, topics::kTool, [this](std::shared_ptr<const Message> m) {
               const std::lock_guard lock(mutex_);
               message_ = std::move(m);
             })) {}
@@ -41,11 +42,12 @@ class Newest {
 
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> decode(const Octomap& message) {
   if (message.id() != "ColorOcTree" || message.binary())
-    return tl::unexpected(fmt::format("rds/map/full: a {} tree of type '{}', expected a full ColorOcTree",
-                                      message.binary() ? "binary" : "full", message.id()));
+    return tl::unexpected(fmt::format("{}: a {} tree of type '{}', expected a full ColorOcTree",
+                                      topics::kMapFull.name, message.binary() ? "binary" : "full",
+                                      message.id()));
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(message.data().data());
   auto tree = mapper::tree_from_bytes({bytes, message.data().size()}, message.resolution());
-  if (!tree) return tl::unexpected("rds/map/full: " + tree.error());
+  if (!tree) return tl::unexpected(fmt::format("{}: {}", topics::kMapFull.name, tree.error()));
   return tree;
 }
 
@@ -58,12 +60,12 @@ bool belong_together(const Octomap& full, const MapInfo* info) {
 tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
                                                  std::chrono::duration<double> timeout,
                                                  const std::stop_token& stop) {
-  const Newest<Octomap> full(participant, "rds/map/full");
-  const Newest<MapInfo> info(participant, "rds/map/info");
+  const Newest full(participant, topics::kMapFull);
+  const Newest info(participant, topics::kMapInfo);
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
   if (!wait_until(deadline, stop, [&] { return full.get() != nullptr; }))
-    return tl::unexpected(
-        fmt::format("rds/map/full: no map in {} s, expected a running rds-mapper", timeout.count()));
+    return tl::unexpected(fmt::format("{}: no map in {} s, expected a running rds-mapper",
+                                      topics::kMapFull.name, timeout.count()));
   wait_until(Clock::now() + kInfoTime, stop, [&] { return belong_together(*full.get(), info.get().get()); });
   auto tree = decode(*full.get());
   if (!tree) return tl::unexpected(tree.error());

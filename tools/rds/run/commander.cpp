@@ -3,8 +3,12 @@
 
 #include <random>
 
+#include "common/topics/endpoints.hpp"
+
 namespace rds::run {
 namespace {
+
+constexpr topics::Process kSender = topics::kPlayer | topics::kTool;
 
 std::uint64_t random_id() {
   std::random_device device;
@@ -15,15 +19,14 @@ std::uint64_t random_id() {
 
 Commander::Commander(bus::Participant& bus)
     : next_id_(random_id()),
-      commands_(bus.advertise<rds_msgs::msg::Command>("rds/command", bus::kCommand)),
-      results_(bus.subscribe<rds_msgs::msg::CommandResult>(
-          "rds/command_result", bus::kCommand, [this](const auto& m) {
-            const std::lock_guard lock(mutex_);
-            const auto request = replies_.find(m->request_id());
-            if (request == replies_.end()) return;  // somebody else's, or too late
-            request->second[m->service()] = {m->success(), m->message()};
-            changed_.notify_all();
-          })) {}
+      commands_(topics::advertise(bus, topics::kCommand, kSender)),
+      results_(topics::subscribe(bus, topics::kCommandResult, kSender, [this](const auto& m) {
+        const std::lock_guard lock(mutex_);
+        const auto request = replies_.find(m->request_id());
+        if (request == replies_.end()) return;  // somebody else's, or too late
+        request->second[m->service()] = {m->success(), m->message()};
+        changed_.notify_all();
+      })) {}
 
 std::uint64_t Commander::send(const std::string& service, const std::string& verb,
                               const std::string& argument) {

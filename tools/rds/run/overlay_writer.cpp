@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/messages/conversions.hpp"
+#include "common/topics/endpoints.hpp"
 #include "tools/rds/run/overlay.hpp"
 #include "tools/rds/run/result_file.hpp"
 
@@ -22,8 +23,8 @@ OverlayWriter::OverlayWriter(bus::Participant& bus, Recorder& recorder, std::fil
       folder_(std::move(folder)),
       video_(video ? std::make_unique<MjpegAvi>(folder_ / "overlay.avi", frames_per_second) : nullptr),
       features_(mailbox_, kMaxWaiting),
-      subscription_(bus.subscribe<rds_msgs::msg::FrameFeatures>(
-          "rds/features", bus::kStream, [this](Features m) { features_.push(std::move(m)); })),
+      subscription_(topics::subscribe(bus, topics::kFeatures, topics::kPlayer,
+                                      [this](Features m) { features_.push(std::move(m)); })),
       thread_([this](const std::stop_token& stop) { draw_all(stop); }) {
   std::filesystem::create_directories(folder_ / "overlay");
 }

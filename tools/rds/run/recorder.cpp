@@ -6,6 +6,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::run {
 namespace {
@@ -61,16 +62,16 @@ std::vector<PredictionRecord> to_records(const rds_msgs::msg::PredictedBoxes& m)
 }  // namespace
 
 Recorder::Recorder(bus::Participant& bus) : tracker_(bus) {
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::TrackingState>(
-      "rds/tracking_state", bus::kStream, [this](const auto& m) { on_state(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::PredictedBoxes>(
-      "rds/predicted_boxes", bus::kStream, [this](const auto& m) { on_boxes(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](const auto& m) { on_poses(*m); }));
-  subscriptions_.push_back(bus.subscribe<vision_msgs::msg::Detection2DArray>(
-      "rds/detections", bus::kStream, [this](const auto& m) { on_detections(*m); }));
-  subscriptions_.push_back(bus.subscribe<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatched,
-                                                                 [this](const auto& m) { on_map_info(*m); }));
+  subscriptions_.push_back(topics::subscribe(bus, topics::kTrackingState, topics::kPlayer,
+                                             [this](const auto& m) { on_state(*m); }));
+  subscriptions_.push_back(topics::subscribe(bus, topics::kPredictedBoxes, topics::kPlayer,
+                                             [this](const auto& m) { on_boxes(*m); }));
+  subscriptions_.push_back(topics::subscribe(bus, topics::kKeyframePoses, topics::kPlayer,
+                                             [this](const auto& m) { on_poses(*m); }));
+  subscriptions_.push_back(topics::subscribe(bus, topics::kDetections, topics::kPlayer,
+                                             [this](const auto& m) { on_detections(*m); }));
+  subscriptions_.push_back(
+      topics::subscribe(bus, topics::kMapInfo, topics::kPlayer, [this](const auto& m) { on_map_info(*m); }));
 }
 
 void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {

@@ -2,36 +2,50 @@
 #include "tools/rds/run/topology.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
+
+#include "common/topics/table.hpp"
+#include "common/topics/topics.hpp"
 
 namespace rds::run {
 namespace {
 
-struct Topic {
-  std::string name;
+/// A process and the name it reports under.
+struct Member {
+  topics::Process process;
+  const std::string& name;
+};
+
+const std::array<Member, 6>& members() {
+  static const std::array<Member, 6> kMembers{{{topics::kPlayer, kPlayer},
+                                               {topics::kTracker, kTracker},
+                                               {topics::kDetector, kDetector},
+                                               {topics::kTransformer, kTransformer},
+                                               {topics::kMapper, kMapper},
+                                               {topics::kLoopCloser, kLoopCloser}}};
+  return kMembers;
+}
+
+/// Names of processes that write a topic, or read it.
+struct Link {
+  std::string topic;
   std::set<std::string> writers;
   std::set<std::string> readers;
 };
 
-const std::vector<Topic>& topics() {
-  static const std::vector<Topic> kTopics{
-      {"camera/color/image_raw", {kPlayer}, {kTracker}},
-      {"camera/color/camera_info", {kPlayer}, {kTracker, kTransformer}},
-      {"camera/aligned_depth_to_color/image_raw", {kPlayer}, {kTracker}},
-      {"rds/tracking_state", {kTracker}, {kPlayer}},
-      {"rds/predicted_boxes", {kTracker}, {kPlayer}},
-      {"rds/features", {kTracker}, {kPlayer}},
-      {"rds/keyframe/images", {kTracker}, {kDetector, kMapper}},
-      {"rds/keyframe/features", {kTracker}, {kLoopCloser}},
-      {"rds/keyframe/poses", {kTracker, kLoopCloser}, {kPlayer, kTracker, kTransformer, kMapper}},
-      {"rds/detections", {kDetector}, {kPlayer, kTransformer}},
-      {"rds/boxes", {kTransformer}, {kTracker, kMapper}},
-      {"rds/map/info", {kMapper}, {kPlayer}},
-      {"rds/command", {kPlayer}, {kTracker, kDetector, kTransformer, kMapper, kLoopCloser}},
-      {"rds/command_result", {kTracker, kDetector, kTransformer, kMapper, kLoopCloser}, {kPlayer}},
-  };
-  return kTopics;
+std::vector<Link> links() {
+  std::vector<Link> links;
+  for (const topics::Row& row : topics::table()) {
+    if (row.name == topics::kServiceStatus.name) continue;  // said every second: nothing is lost
+    Link& link = links.emplace_back(row.name);
+    for (const auto& [process, name] : members()) {
+      if (row.is_written_by(process)) link.writers.insert(name);
+      if (row.is_read_by(process)) link.readers.insert(name);
+    }
+  }
+  return links;
 }
 
 std::size_t count_running(const std::set<std::string>& processes, const std::set<std::string>& running) {
@@ -51,7 +65,7 @@ std::vector<std::string> missing_links(const std::set<std::string>& running,
                                        const std::map<std::string, std::vector<Endpoint>>& endpoints,
                                        bool localize_only) {
   std::vector<std::string> missing;
-  const auto check = [&](const std::string& process, const Topic& topic, bool publisher) {
+  const auto check = [&](const std::string& process, const Link& link, bool publisher) {
     const auto reported = endpoints.find(process);
     if (!running.contains(process)) return;
     if (reported == endpoints.end()) {
@@ -59,21 +73,22 @@ std::vector<std::string> missing_links(const std::set<std::string>& running,
         missing.push_back(process + " does not answer");
       return;
     }
-    const std::size_t expected = count_running(publisher ? topic.readers : topic.writers, running);
+    const std::size_t expected = count_running(publisher ? link.readers : link.writers, running);
     const auto endpoint = std::ranges::find_if(reported->second, [&](const Endpoint& e) {
-      return e.topic == topic.name && e.publisher == publisher;
+      return e.topic == link.topic && e.publisher == publisher;
     });
     const int matched = endpoint == reported->second.end() ? 0 : endpoint->matched;
     if (matched < static_cast<int>(expected))
       missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads",
-                                    topic.name, matched, expected, publisher ? "readers" : "writers"));
+                                    link.topic, matched, expected, publisher ? "readers" : "writers"));
   };
-  static const std::set<std::string> kMapped{"rds/keyframe/images", "rds/keyframe/features", "rds/boxes"};
-  for (Topic topic : topics()) {
-    if (localize_only && kMapped.contains(topic.name))
-      std::erase_if(topic.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
-    for (const std::string& writer : topic.writers) check(writer, topic, true);
-    for (const std::string& reader : topic.readers) check(reader, topic, false);
+  static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kKeyframeFeatures.name,
+                                             topics::kBoxes.name};
+  for (Link& link : links()) {
+    if (localize_only && kMapped.contains(link.topic))
+      std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
+    for (const std::string& writer : link.writers) check(writer, link, true);
+    for (const std::string& reader : link.readers) check(reader, link, false);
   }
   return missing;
 }

@@ -90,6 +90,22 @@ disturb() {
   wait_for 60 "it comes back" status --wait 20
 }
 
+# The live map as `rds map info` tells it: its epoch and how many nodes it has.
+map_epoch() { "$rds" map info --bus "$RDS_BUS" --timeout 60 | awk '$1 == "map_epoch" {print $2}'; }
+
+# All containers, and an engine of our own, end at once, as when the power fails; `up` goes on in the same map.
+cut_power() {
+  local epoch containers
+  epoch=$(map_epoch)
+  [ -n "$epoch" ] || fail "$RDS_BUS: no map to go on in"
+  say "$RDS_BUS: the engine is killed, and all containers with it"
+  containers=$(compose ps --quiet)
+  if [ -n "$engine_pid" ]; then kill_engine; launch_engine; else docker kill $containers >/dev/null; fi
+  compose up --detach --wait --wait-timeout 180 "${services[@]}" >"$log" 2>&1 ||
+    { cat "$log" >&2; fail "$RDS_BUS: the services did not come back"; }
+  expect "$RDS_BUS: epoch of the map after the engine was killed" "$epoch" "$(map_epoch)"
+}
+
 # One whole run on a vendor; the map is asked for from this machine, outside the containers.
 try_vendor() {
   export RDS_BUS=$1
@@ -110,6 +126,7 @@ try_vendor() {
   say "$RDS_BUS: the map arrived:"
   sed 's/^/  /' <<<"$map"
   disturb
+  cut_power
   compose down --volumes --timeout 5 >/dev/null 2>&1
 }
 

@@ -47,6 +47,19 @@ launch_engine() {
   fail "the Docker engine did not start, see $engine_folder/engine.log"
 }
 
+# Ends the engine and every process of its containers with SIGKILL.
+kill_engine() {
+  local shims
+  kill -9 "$engine_pid"
+  shims=$(pgrep -f "containerd-shim.*$engine_run" || true)
+  # shellcheck disable=SC2086
+  for shim in $shims; do pkill -9 -P "$shim" || true; done
+  [ -z "$shims" ] || kill -9 $shims 2>/dev/null || true
+  pkill -9 -f "containerd.*$engine_run" || true
+  wait "$engine_pid" 2>/dev/null || true
+  rm -f "$engine_run/pid"
+}
+
 stop_engine() {
   [ -n "$engine_pid" ] || return 0
   kill "$engine_pid" 2>/dev/null || true

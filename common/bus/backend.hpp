@@ -22,6 +22,7 @@ struct Sample {
   std::size_t bytes = 0;
   bool decoded = false;
   bool another_version = false;  // not decoded
+  ParticipantId writer{};
 
   void decode(const std::uint8_t* data, std::size_t size) {
     bytes = size;

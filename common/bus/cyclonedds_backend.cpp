@@ -70,8 +70,9 @@ class CycloneWriter final : public BackendWriter {
 class CycloneReader final : public BackendReader {
  public:
   CycloneReader(dds_entity_t participant, dds_entity_t topic, const std::string& name, const QosPtr& qos,
-                VersionCheck<dds_instance_handle_t> versions)
-      : versions_(std::move(versions)),
+                const CycloneEndpoints& endpoints, VersionCheck<dds_instance_handle_t> versions)
+      : endpoints_(endpoints),
+        versions_(std::move(versions)),
         reader_(dds_create_reader(participant, topic, qos.get(), nullptr), "a reader on " + name),
         readable_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), "a condition"),
         stop_(dds_create_guardcondition(participant), "a condition"),
@@ -88,6 +89,7 @@ class CycloneReader final : public BackendReader {
     while (dds_takecdr(reader_.get(), &message, 1, &info, DDS_ANY_STATE) > 0) {
       const std::unique_ptr<ddsi_serdata, Unref> held(message);
       if (!info.valid_data) continue;
+      sample.writer = endpoints_.participant_of_writer(info.publication_handle);
       sample.another_version = versions_.others().contains(info.publication_handle);
       if (!sample.another_version) ddsi_serdata_to_sample(message, &sample, nullptr, nullptr);
       return true;
@@ -107,6 +109,7 @@ class CycloneReader final : public BackendReader {
   [[nodiscard]] Guid guid() const override { return guid_of(reader_.get()); }
 
  private:
+  const CycloneEndpoints& endpoints_;
   VersionCheck<dds_instance_handle_t> versions_;
   Entity reader_;
   Entity readable_;
@@ -137,7 +140,7 @@ class CycloneBackend final : public Backend {
                                              const Qos& qos) override {
     const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
     return std::make_unique<CycloneReader>(
-        participant_.get(), entity.get(), topic, endpoint_qos(type, qos),
+        participant_.get(), entity.get(), topic, endpoint_qos(type, qos), endpoints_,
         VersionCheck<dds_instance_handle_t>(endpoints_.directory(), topic, type));
   }
   [[nodiscard]] Guid guid() const override { return guid_of(participant_.get()); }

@@ -73,8 +73,10 @@ void CycloneEndpoints::take_all(dds_entity_t list, bool publisher) {
 void CycloneEndpoints::take(const dds_builtintopic_endpoint_t& endpoint, dds_instance_handle_t handle,
                             bool publisher) {
   if (to_guid(endpoint.participant_key) == self_) return;
-  directory_.put(handle, {endpoint.topic_name, endpoint.type_name, publisher, type_hash_of(endpoint.qos),
-                          text_of(to_guid(endpoint.key))});
+  directory_.put(handle,
+                 {endpoint.topic_name, endpoint.type_name, publisher, type_hash_of(endpoint.qos),
+                  text_of(to_guid(endpoint.key))},
+                 to_guid(endpoint.key));
 }
 
 }  // namespace rds::bus::detail

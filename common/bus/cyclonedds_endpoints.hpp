@@ -18,6 +18,10 @@ class CycloneEndpoints {
 
   /// By the handle that samples have as publication_handle.
   [[nodiscard]] const EndpointDirectory<dds_instance_handle_t>& directory() const { return directory_; }
+  /// @param handle  publication_handle of a sample.
+  [[nodiscard]] ParticipantId participant_of_writer(dds_instance_handle_t handle) const {
+    return participant_of(directory_.guid_of(handle).value_or(self_));  // our own are not listed
+  }
 
  private:
   void take_all(dds_entity_t list, bool publisher);

@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -26,9 +27,9 @@ class EndpointDirectory {
   /// Writers that have left stay known by their last kRemembered, as samples of theirs may wait to be taken.
   static constexpr std::size_t kRemembered = 256;
 
-  void put(const Key& key, DiscoveredEndpoint endpoint) {
+  void put(const Key& key, DiscoveredEndpoint endpoint, const Guid& guid) {
     const std::lock_guard lock(mutex_);
-    present_[key] = std::move(endpoint);
+    present_[key] = {std::move(endpoint), guid};
     ++revision_;
   }
 
@@ -44,7 +45,7 @@ class EndpointDirectory {
         ++entry;
         continue;
       }
-      if (entry->second.publisher) departed_.emplace_back(entry->first, std::move(entry->second));
+      if (entry->second.endpoint.publisher) departed_.emplace_back(entry->first, std::move(entry->second));
       entry = present_.erase(entry);
     }
     while (departed_.size() > kRemembered) departed_.pop_front();
@@ -54,7 +55,7 @@ class EndpointDirectory {
   [[nodiscard]] std::vector<DiscoveredEndpoint> endpoints() const {
     const std::lock_guard lock(mutex_);
     std::vector<DiscoveredEndpoint> result;
-    for (const auto& [key, endpoint] : present_) result.push_back(endpoint);
+    for (const auto& [key, entry] : present_) result.push_back(entry.endpoint);
     return result;
   }
 
@@ -63,20 +64,33 @@ class EndpointDirectory {
     const std::lock_guard lock(mutex_);
     std::set<Key> result;
     const auto insert = [&](const auto& entry) {
-      if (entry.second.publisher && is_another_version(own, entry.second)) result.insert(entry.first);
+      if (entry.second.endpoint.publisher && is_another_version(own, entry.second.endpoint))
+        result.insert(entry.first);
     };
     std::for_each(present_.begin(), present_.end(), insert);
     std::for_each(departed_.begin(), departed_.end(), insert);
     return result;
   }
 
+  /// Of an endpoint, present or departed; nullopt if it is not known.
+  [[nodiscard]] std::optional<Guid> guid_of(const Key& key) const {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = present_.find(key); known != present_.end()) return known->second.guid;
+    const auto departed = std::ranges::find(departed_, key, &std::pair<Key, Entry>::first);
+    return departed == departed_.end() ? std::nullopt : std::optional(departed->second.guid);
+  }
+
   /// Grows with every change.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
  private:
+  struct Entry {
+    DiscoveredEndpoint endpoint;
+    Guid guid{};
+  };
   mutable std::mutex mutex_;
-  std::map<Key, DiscoveredEndpoint> present_;
-  std::deque<std::pair<Key, DiscoveredEndpoint>> departed_;
+  std::map<Key, Entry> present_;
+  std::deque<std::pair<Key, Entry>> departed_;
   std::atomic<std::uint64_t> revision_ = 0;
 };
 

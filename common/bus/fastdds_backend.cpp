@@ -123,9 +123,11 @@ class DiscoveryListener final : public dds::DomainParticipantListener {
       return;
     }
     const auto& user_data = proxy.m_qos.m_userData.data_vec();
-    directory_.put(guid, {proxy.topicName().to_string(), proxy.typeName().to_string(), publisher,
-                          type_hash_in({reinterpret_cast<const char*>(user_data.data()), user_data.size()}),
-                          text_of(guid)});
+    directory_.put(
+        guid,
+        {proxy.topicName().to_string(), proxy.typeName().to_string(), publisher,
+         type_hash_in({reinterpret_cast<const char*>(user_data.data()), user_data.size()}), text_of(guid)},
+        guid);
   }
 
   EndpointDirectory<Guid> directory_;
@@ -196,7 +198,9 @@ class FastReader final : public BackendReader {
     Receipt receipt{sample, versions_};
     while (reader_->take_next_sample(&receipt, &info) == ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
-      receipt.writer_is(to_guid(info.sample_identity.writer_guid()));
+      const Guid writer = to_guid(info.sample_identity.writer_guid());
+      receipt.writer_is(writer);
+      sample.writer = participant_of(writer);
       return true;
     }
     return false;

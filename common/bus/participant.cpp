@@ -138,7 +138,7 @@ class WriterEndpoint final : public detail::PublisherEndpoint, public Endpoint {
 
 class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoint {
  public:
-  using Callback = std::function<void(std::shared_ptr<const void>)>;
+  using Callback = std::function<void(std::shared_ptr<const void>, const ParticipantId&)>;
 
   ReaderEndpoint(std::shared_ptr<Shared> shared, std::string topic, const TypeOps& type, const Qos& qos,
                  Callback callback)
@@ -188,7 +188,7 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
     if (sample.decoded) {
       ++messages_;
       bytes_ += sample.bytes;
-      call_back(message);
+      call_back(message, sample.writer);
     } else {
       ++(sample.another_version ? another_version_ : undecodable_);
     }
@@ -196,9 +196,9 @@ class ReaderEndpoint final : public detail::SubscriptionEndpoint, public Endpoin
   }
 
   /// An exception must not end the process: the message counts as dropped.
-  void call_back(const std::shared_ptr<void>& message) {
+  void call_back(const std::shared_ptr<void>& message, const ParticipantId& writer) {
     try {
-      callback_(message);
+      callback_(message, writer);
     } catch (const std::exception&) {
       ++failed_;
     }
@@ -231,7 +231,7 @@ class DdsParticipant final : public Participant {
 
   std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
       const std::string& topic, const TypeOps& type, const Qos& qos,
-      std::function<void(std::shared_ptr<const void>)> callback) override {
+      std::function<void(std::shared_ptr<const void>, const ParticipantId&)> callback) override {
     shared_->check_type(topic, type);
     return shared_->explain_refusal(
         [&] { return std::make_unique<ReaderEndpoint>(shared_, topic, type, qos, std::move(callback)); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,10 +32,14 @@ std::string name_of(Vendor vendor);
 struct ParticipantOptions {
   Vendor vendor = Vendor::kFastDds;
   int domain = 0;
-  std::string node_name;       // as `ros2 node list` shows it, without the leading slash
-  bool loopback_only = false;  // this machine only: no multicast, nobody else is disturbed
+  std::string node_name;                        // as `ros2 node list` shows it, without the leading slash
+  bool loopback_only = false;                   // this machine only: no multicast, nobody else is disturbed
   std::optional<Credentials> credentials = {};  // of a secured domain; without them the bus is open
 };
+
+/// Which participant wrote a message: the same for all that one process writes, on every topic; nobody else
+/// can write with it by accident, and on a secured bus not on purpose.
+using ParticipantId = std::array<std::uint8_t, 12>;
 
 /// Traffic of one endpoint since its creation.
 struct EndpointStatistics {
@@ -124,16 +129,24 @@ class Participant {
   template <class T>
   Subscription subscribe(const std::string& topic, const Qos& qos,
                          std::function<void(std::shared_ptr<const T>)> callback) {
-    return Subscription(
-        make_subscription(topic, type_ops<T>(), qos, [callback](std::shared_ptr<const void> m) {
-          callback(std::static_pointer_cast<const T>(std::move(m)));
+    return subscribe<T>(topic, qos, [callback](std::shared_ptr<const T> message, const ParticipantId&) {
+      callback(std::move(message));
+    });
+  }
+  /// For readers that ask who wrote a message.
+  template <class T>
+  Subscription subscribe(const std::string& topic, const Qos& qos,
+                         std::function<void(std::shared_ptr<const T>, const ParticipantId&)> callback) {
+    return Subscription(make_subscription(
+        topic, type_ops<T>(), qos, [callback](std::shared_ptr<const void> m, const ParticipantId& writer) {
+          callback(std::static_pointer_cast<const T>(std::move(m)), writer);
         }));
   }
 
   /// For tools that learn the type at run time: as subscribe(), and the size on the wire [bytes].
   virtual std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
       const std::string& topic, const TypeOps& type, const Qos& qos,
-      std::function<void(std::shared_ptr<const void>)> callback) = 0;
+      std::function<void(std::shared_ptr<const void>, const ParticipantId&)> callback) = 0;
   virtual std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic,
                                                                     const TypeOps& type, const Qos& qos) = 0;
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/service/instance_owners.hpp"
 #include "rds_msgs/msg/ServiceStatus.h"
 
 namespace rds::service {
@@ -50,6 +51,7 @@ class Peers {
   void forget_silent();  // under the lock
 
   std::function<void()> changed_;
+  InstanceOwners owners_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, Peer> peers_;  // by instance; at most kMaxPeers
   bus::Subscription subscription_;       // last: its callback uses the members above

@@ -9,13 +9,16 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "common/bus/participant.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "common/config/config_reader.hpp"
 #include "common/service/diagnostics.hpp"
+#include "common/service/instance_owners.hpp"
 #include "common/service/random_id.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::service {
 
@@ -26,6 +29,7 @@ struct ServiceContext {
   Diagnostics& diagnostics;
   int domain = 0;
   std::uint64_t instance = random_id();  // of this process, in all that it publishes
+  std::shared_ptr<InstanceOwners> owners = std::make_shared<InstanceOwners>();
 };
 
 struct CommandOutcome {
@@ -103,6 +107,20 @@ class Service {
       context_.diagnostics.reject(topic, Rejection::kFailed, e.what());
       return false;
     }
+  }
+
+  /// Subscribes to messages that name the instance of the service which wrote them. What another participant
+  /// writes in its name is refused and counted, and never reaches the callback.
+  template <class Message>
+  bus::Subscription subscribe_to_instances(
+      const topics::Topic<Message>& topic, topics::Process process,
+      std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
+    return topics::subscribe(
+        context_.bus, topic, process,
+        [this, topic, callback](std::shared_ptr<const Message> message, const bus::ParticipantId& writer) {
+          if (context_.owners->owns(writer, message->instance())) return callback(std::move(message));
+          context_.diagnostics.reject(topic.name, Rejection::kForeign, "written in another one's name");
+        });
   }
 
   ServiceContext& context_;

@@ -24,4 +24,13 @@ bus::Subscription subscribe(
   return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
 }
 
+/// For readers that ask who wrote a message.
+template <class Message>
+bus::Subscription subscribe(
+    bus::Participant& bus, const Topic<Message>& topic, Process process,
+    std::type_identity_t<std::function<void(std::shared_ptr<const Message>, const bus::ParticipantId&)>>
+        callback) {
+  return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
+}
+
 }  // namespace rds::topics

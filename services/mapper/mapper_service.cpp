@@ -55,10 +55,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
-  subscriptions_.push_back(
-      topics::subscribe(context.bus, topics::kKeyframePoses, topics::kMapper, [this](Poses m) {
-        if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
-      }));
+  subscriptions_.push_back(subscribe_to_instances(topics::kKeyframePoses, topics::kMapper, [this](Poses m) {
+    if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
+  }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size() + waiting_.size(); });
   context.diagnostics.gauge("corrections lost", [this] { return corrections_lost_.load(); });
   context.diagnostics.gauge("keyframes dropped",
@@ -83,8 +82,8 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe_to_keyframes() {
-  subscriptions_.push_back(topics::subscribe(context_.bus, topics::kKeyframeImages, topics::kMapper,
-                                             [this](Images m) { images_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeImages, topics::kMapper,
+                                                  [this](Images m) { images_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
                                              [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }

@@ -65,7 +65,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       boxes_subscription_(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
                                             [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
       poses_subscription_(
-          topics::subscribe(context.bus, topics::kKeyframePoses, topics::kTracker, [this](PosesMessage m) {
+          subscribe_to_instances(topics::kKeyframePoses, topics::kTracker, [this](PosesMessage m) {
             if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
               poses_inbox_.push(std::move(m));
           })) {

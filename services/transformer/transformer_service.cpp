@@ -27,7 +27,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kDetections, topics::kTransformer,
                                              [this](Detections m) { detections_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(
-      topics::subscribe(context.bus, topics::kKeyframePoses, topics::kTransformer, [this](Poses m) {
+      subscribe_to_instances(topics::kKeyframePoses, topics::kTransformer, [this](Poses m) {
         if (m->source() == kLocal && service::is_possible(*m, context_.diagnostics))
           poses_inbox_.push(std::move(m));
       }));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What programs that are no part of a run write on its bus changes nothing of its results.
+#include <atomic>
+
 #include <gmock/gmock.h>
 
 #include "common/bus/participant.hpp"
@@ -23,6 +25,44 @@ using ::testing::HasSubstr;
 
 constexpr int kDomain = 29;
 const std::string kNoUtf8 = "\xFF\xFF";
+
+/// A program that speaks in the tracker's name: it writes spoiled copies of what the tracker has written.
+class Impostor {
+ public:
+  explicit Impostor(bus::Participant& bus)
+      : images_(bus.advertise<rds_msgs::msg::KeyFrameImages>("rds/keyframe/images", bus::kKeyframeImages)),
+        poses_(bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)),
+        copy_images_(bus.subscribe<rds_msgs::msg::KeyFrameImages>("rds/keyframe/images", bus::kKeyframeImages,
+                                                                  [this](const auto& m) { copy(*m); })),
+        copy_poses_(bus.subscribe<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatchedEvery,
+                                                                [this](const auto& m) { copy(*m); })) {}
+  [[nodiscard]] int spoken() const { return spoken_; }
+
+ private:
+  // Its own messages come back to it: those are left alone.
+  static constexpr std::uint64_t kAhead = 1000;  // ids and revisions
+
+  void copy(rds_msgs::msg::KeyFrameImages message) {
+    if (message.keyframe_id() >= kAhead) return;
+    message.keyframe_id(message.keyframe_id() + kAhead);
+    images_.write(message);
+    ++spoken_;
+  }
+  void copy(rds_msgs::msg::KeyFramePoses message) {
+    if (message.revision() >= kAhead) return;
+    message.base_revision(0);
+    message.revision(message.revision() + kAhead);
+    for (auto& number : message.poses()) number += 0.01;
+    poses_.write(message);
+    ++spoken_;
+  }
+
+  std::atomic<int> spoken_ = 0;
+  bus::Publisher<rds_msgs::msg::KeyFrameImages> images_;
+  bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
+  bus::Subscription copy_images_;
+  bus::Subscription copy_poses_;
+};
 
 /// A program that speaks of another map, as a second tracker or a mistaken one would.
 class Stranger {
@@ -79,8 +119,8 @@ class Stranger {
 };
 
 std::vector<std::string> arguments(const std::filesystem::path& data, const std::filesystem::path& out) {
-  return {rds(),    "run", "--dataset", data.string(),          "--out", out.string(),
-          "--rate", "max", "--domain",  std::to_string(kDomain)};
+  return {rds(),        "run",    "--dataset", data.string(), "--out",
+          out.string(), "--rate", "max",       "--domain",    std::to_string(kDomain)};
 }
 
 TEST(Strangers, ChangeNothingOfALockstepRun) {
@@ -91,6 +131,7 @@ TEST(Strangers, ChangeNothingOfALockstepRun) {
 
   Process disturbed(arguments(place / "data", place / "disturbed"));
   Stranger stranger;
+  Impostor impostor(stranger.bus());
   run::Commander commander(stranger.bus());
   while (!stranger.is_heard()) {
     ASSERT_TRUE(disturbed.running());
@@ -109,9 +150,11 @@ TEST(Strangers, ChangeNothingOfALockstepRun) {
   }
   EXPECT_EQ(disturbed.wait(1s), 0) << disturbed.standard_error();
   EXPECT_TRUE(answered) << "every service answers status";
+  EXPECT_GE(impostor.spoken(), 5);
   for (const char* file : {"trajectory.txt", "keyframes.txt", "predictions.jsonl", "objects.json", "map.ot"})
     EXPECT_EQ(read_text(place / "alone" / file), read_text(place / "disturbed" / file)) << file;
   EXPECT_THAT(read_text(place / "disturbed/log/rds-mapper.log"), HasSubstr("another tracker"));
+  EXPECT_THAT(read_text(place / "disturbed/log/rds-mapper.log"), HasSubstr("in another one's name"));
   EXPECT_THAT(read_text(place / "disturbed/log/rds-tracker.log"), HasSubstr("\\xFF\\xFF"));
 }
 

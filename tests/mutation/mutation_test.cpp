@@ -2,6 +2,7 @@
 // Spoiled copies of every message that the services read, written while the camera rests. RDS_MUTATIONS says
 // how many per topic.
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/service/peers.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "rds_msgs/message_fields.hpp"
 #include "rds_msgs/msg/Command.h"
@@ -38,6 +40,7 @@ constexpr int kDomain = 173;
 constexpr std::uint64_t kMany = 10'000;  // messages of each topic, among which buffers reach their size
 constexpr auto kDrain = 5s;              // until what was written has been looked at
 constexpr double kMaxGrowthMb = 5;
+constexpr std::uint64_t kInstance = 4711;
 
 double grown_mb(std::uint64_t before, std::uint64_t after) {
   return (static_cast<double>(after) - static_cast<double>(before)) / 1e6;
@@ -115,6 +118,23 @@ class Mutations : public ::testing::TestWithParam<const char*> {
     ASSERT_EQ(answers.size(), Fleet::kServices.size()) << "after " << after;
   }
 
+  /// Strangers that the others take for the tracker: it is silent, and they write as another instance.
+  void write_as_the_tracker(const std::vector<std::unique_ptr<Stranger>>& all) {
+    const pid_t tracker = fleet_.services().front()->pid();
+    ::kill(tracker, SIGSTOP);
+    std::this_thread::sleep_for(service::Peers::kGoneAfter + 1s);
+    for (const auto& stranger : all) {
+      stranger->speak_as(kInstance);
+      write(*stranger, mutations());
+      EXPECT_TRUE(fleet_.all_run()) << "after " << stranger->topic() << "\n" << fleet_.log();
+      EXPECT_EQ(commander_.ask_status(Fleet::kServices.size() - 1, {}, 10s).size(),
+                Fleet::kServices.size() - 1)
+          << "after " << stranger->topic();
+    }
+    ::kill(tracker, SIGCONT);
+    expect_well("all of them, written as the tracker");
+  }
+
   static void write(Stranger& stranger, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) {
       stranger.write();
@@ -169,6 +189,7 @@ TEST_P(Mutations, EndNothingAndFillNothing) {
   print_growth(before, after, "all topics");
   for (std::size_t s = 0; s < after.size() && mutations() >= kMany; ++s)
     EXPECT_LE(grown_mb(before[s], after[s]), kMaxGrowthMb) << *(Fleet::kServices.begin() + s);
+  write_as_the_tracker(all);
   for (const auto& [what, count] : watch_.refused()) fmt::print("{}: {}\n", what, count);
   expect_to_go_on();
   for (const std::string topic :

@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -21,6 +22,11 @@ class Stranger {
   /// @return false as long as there is nothing to spoil.
   [[nodiscard]] virtual bool is_ready() = 0;
   virtual void write() = 0;
+  /// From now on it writes as this instance of a service, where a message names one.
+  void speak_as(std::uint64_t instance) { instance_ = instance; }
+
+ protected:
+  std::optional<std::uint64_t> instance_;  // else that of the message that is copied
 };
 
 template <class Message>
@@ -40,6 +46,8 @@ class StrangerOf : public Stranger {
   }
   void write() override {
     Message message = pick();
+    if constexpr (requires { message.instance(std::uint64_t{}); })
+      message.instance(instance_.value_or(message.instance()));
     mutation_.spoil(message);
     publisher_.write(message);
   }

@@ -50,12 +50,12 @@ class Meter {
     for (const auto& [topic, type] : kTopics) {
       const auto* known = messages::find_message_type(type);
       if (known == nullptr) throw std::runtime_error(type + ": no such type");
-      subscriptions_.push_back(
-          bus_->make_subscription(topic, *known->ops, {.reliable = true},
-                                  [this, topic = topic, known](const std::shared_ptr<const void>& m) {
-                                    const std::lock_guard lock(mutex_);
-                                    bytes_[topic] += known->ops->encoded_size(m.get());
-                                  }));
+      subscriptions_.push_back(bus_->make_subscription(
+          topic, *known->ops, {.reliable = true},
+          [this, topic = topic, known](const std::shared_ptr<const void>& m, const bus::ParticipantId&) {
+            const std::lock_guard lock(mutex_);
+            bytes_[topic] += known->ops->encoded_size(m.get());
+          }));
     }
   }
   /// Since the last call.

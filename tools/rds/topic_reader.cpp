@@ -56,7 +56,8 @@ void TopicReader::subscribe(bus::Participant& participant, const std::string& to
   for (const auto& qos : {kReliableWithHistory, kReliable, kBestEffort}) {
     subscription_.reset();
     subscription_ = participant.make_subscription(
-        topic, *type_->ops, qos, [this](std::shared_ptr<const void> message) { push(std::move(message)); });
+        topic, *type_->ops, qos,
+        [this](std::shared_ptr<const void> message, const bus::ParticipantId&) { push(std::move(message)); });
     if (wait_until(Clock::now() + kMatchTime, stop, [&] { return subscription_->matched() > 0; })) return;
   }
 }

@@ -62,16 +62,22 @@ std::vector<PredictionRecord> to_records(const rds_msgs::msg::PredictedBoxes& m)
 }  // namespace
 
 Recorder::Recorder(bus::Participant& bus) : tracker_(bus) {
-  subscriptions_.push_back(topics::subscribe(bus, topics::kTrackingState, topics::kPlayer,
-                                             [this](const auto& m) { on_state(*m); }));
-  subscriptions_.push_back(topics::subscribe(bus, topics::kPredictedBoxes, topics::kPlayer,
-                                             [this](const auto& m) { on_boxes(*m); }));
-  subscriptions_.push_back(topics::subscribe(bus, topics::kKeyframePoses, topics::kPlayer,
-                                             [this](const auto& m) { on_poses(*m); }));
+  subscribe(bus, topics::kTrackingState, &Recorder::on_state);
+  subscribe(bus, topics::kPredictedBoxes, &Recorder::on_boxes);
+  subscribe(bus, topics::kKeyframePoses, &Recorder::on_poses);
   subscriptions_.push_back(topics::subscribe(bus, topics::kDetections, topics::kPlayer,
                                              [this](const auto& m) { on_detections(*m); }));
+  subscribe(bus, topics::kMapInfo, &Recorder::on_map_info);
+}
+
+template <class Message>
+void Recorder::subscribe(bus::Participant& bus, const topics::Topic<Message>& topic,
+                         void (Recorder::*take)(const Message&)) {
   subscriptions_.push_back(
-      topics::subscribe(bus, topics::kMapInfo, topics::kPlayer, [this](const auto& m) { on_map_info(*m); }));
+      topics::subscribe(bus, topic, topics::kPlayer,
+                        [this, take](std::shared_ptr<const Message> m, const bus::ParticipantId& writer) {
+                          if (owners_.owns(writer, m->instance())) (this->*take)(*m);
+                        }));
 }
 
 void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {

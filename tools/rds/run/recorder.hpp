@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
-#include "common/service/peers.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
+#include "common/service/peers.hpp"
+#include "common/topics/topic.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/PredictedBoxes.h"
@@ -20,7 +21,8 @@
 
 namespace rds::run {
 
-/// Listens to a run (to one tracker, whoever else speaks), keeps its Recording, and tells the player what has been acknowledged.
+/// Listens to a run (to one tracker, whoever else speaks), keeps its Recording, and tells the player what has
+/// been acknowledged.
 class Recorder {
  public:
   explicit Recorder(bus::Participant& bus);
@@ -44,6 +46,10 @@ class Recorder {
   [[nodiscard]] std::uint64_t keyframes() const;
 
  private:
+  /// Subscribes to what services write in their own name only.
+  template <class Message>
+  void subscribe(bus::Participant& bus, const topics::Topic<Message>& topic,
+                 void (Recorder::*take)(const Message&));
   void on_state(const rds_msgs::msg::TrackingState& message);
   void on_boxes(const rds_msgs::msg::PredictedBoxes& message);
   void on_poses(const rds_msgs::msg::KeyFramePoses& message);
@@ -53,6 +59,7 @@ class Recorder {
   bool wait(const std::stop_token& stop, std::chrono::milliseconds limit, Ready ready);
 
   mutable std::mutex mutex_;
+  service::InstanceOwners owners_;
   service::FollowedWriter tracker_;
   messages::KeyframePoseTable poses_;
   std::condition_variable_any changed_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every combination of vendors, over 127.0.0.1.
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "sensor_msgs/msg/Image.h"
@@ -34,6 +36,33 @@ TEST_P(Exchange, DeliversEveryMessageInOrder) {
   ASSERT_TRUE(eventually([&] { return inbox.size() == 50; }));
   const auto messages = inbox.messages();
   for (int i = 0; i < 50; ++i) EXPECT_EQ(*messages[static_cast<std::size_t>(i)], numbered(i));
+}
+
+TEST_P(Exchange, TellsWhoWroteAMessage) {
+  const auto other_side = join(GetParam().writer, "other");
+  std::mutex mutex;
+  std::map<int, std::vector<ParticipantId>> writers;  // by number
+  const auto note = [&](const auto& message, const ParticipantId& writer) {
+    const std::lock_guard lock(mutex);
+    writers[message->stamp().sec()].push_back(writer);
+  };
+  auto first = writer_side->advertise<Header>("first", kTransform);
+  auto second = writer_side->advertise<Header>("second", kTransform);
+  auto others = other_side->advertise<Header>("first", kTransform);
+  auto read_first = reader_side->subscribe<Header>("first", kTransform, note);
+  auto read_second = reader_side->subscribe<Header>("second", kTransform, note);
+  ASSERT_TRUE(eventually([&] { return read_first.matched() == 2 && read_second.matched() == 1; }));
+  ASSERT_TRUE(eventually([&] { return first.matched() + second.matched() + others.matched() == 3; }));
+  first.write(numbered(1));
+  second.write(numbered(1));
+  others.write(numbered(2));
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return writers[1].size() == 2 && writers[2].size() == 1;
+  }));
+  EXPECT_EQ(writers[1][0], writers[1][1]);
+  EXPECT_NE(writers[1][0], writers[2][0]);
+  EXPECT_NE(writers[1][0], ParticipantId{});
 }
 
 TEST_P(Exchange, CarriesThreeMegabytes) {

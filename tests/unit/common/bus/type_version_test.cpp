@@ -40,7 +40,7 @@ TEST(EndpointDirectory, RemembersTheLastWritersThatLeft) {
   const DiscoveredEndpoint own{"topic", "type", false, "RIHS01_" + std::string(64, '1')};
   Directory directory;
   for (int i = 0; i < kMany; ++i) {
-    directory.put(i, {"topic", "type", true, kOtherHash});
+    directory.put(i, {"topic", "type", true, kOtherHash}, {});
     directory.remove(i);
   }
   EXPECT_THAT(directory.endpoints(), IsEmpty());

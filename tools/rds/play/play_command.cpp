@@ -11,10 +11,10 @@
 #include "common/messages/conversions.hpp"
 #include "common/topics/endpoints.hpp"
 #include "rds_msgs/msg/TrackingState.h"
-#include "tools/rds/bus_options.hpp"
-#include "tools/rds/interrupt.hpp"
+#include "tools/rds/cli/bus_options.hpp"
+#include "tools/rds/cli/interrupt.hpp"
+#include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/play/player.hpp"
-#include "tools/rds/rate_option.hpp"
 
 namespace rds::play {
 namespace {

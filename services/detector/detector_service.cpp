@@ -15,12 +15,23 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 
+/// A person under another name would become furniture, without a word.
+void warn_of_unknown_labels(const NetworkDescription& network, const labels::Table& labels) {
+  for (const std::string& label : network.labels)
+    if (labels.find(label) == nullptr)
+      spdlog::warn(
+          "network {}: the table of labels does not know '{}' (setting labels_file): what has it counts as "
+          "furniture, it supports the camera's pose and enters the map, even if it moves",
+          network.name, label);
+}
+
 std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config) {
   if (!config.detections_file.empty()) {
     spdlog::info("boxes from {}", config.detections_file);
     return std::make_unique<RecordedSource>(config.detections_file, config.detector.depth);
   }
   const Network network = load_network(config.detector.network, model_folders(config.model_dir));
+  warn_of_unknown_labels(network.description, config.detector.labels);
   auto source = std::make_unique<NetworkSource>(network, config.detector);
   spdlog::info("network {}, computed by {}, threads: {}", network.description.name, source->library(),
                config.detector.threads);

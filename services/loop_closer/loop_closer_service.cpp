@@ -27,7 +27,7 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       tracker_(context.bus),
       loop_closer_(config.loop_closer),
-      lasting_(
+      checkpoints_(
           config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
@@ -54,11 +54,11 @@ void LoopCloserService::read_start(const LoopCloserServiceConfig& config) {
 
 /// With the keyframes that the process before this one knew; nothing of it is published.
 void LoopCloserService::go_on_from_checkpoint() {
-  const auto last = lasting_.restore(start_checksum_, loop_closer_);
+  const auto last = checkpoints_.restore(start_checksum_, loop_closer_);
   if (!last) {
     spdlog::warn("the keyframes of the checkpoint are not used: {}", last.error());
     loop_closer_.reset();
-    return lasting_.clear(start_checksum_);
+    return checkpoints_.clear(start_checksum_);
   }
   known_ = *last;
   keyframes_ = loop_closer_.keyframes();
@@ -75,7 +75,7 @@ void LoopCloserService::run(const std::stop_token& stop) {
     map_commands_.settle();
     if (const auto features = features_.try_pop())
       guarded(topics::kKeyframeFeatures.name, [&] { take(*features); });
-    lasting_.save();
+    checkpoints_.save();
   }
 }
 
@@ -116,7 +116,7 @@ void LoopCloserService::take(const Features& features) {
     return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid,
                                        keyframe.error());
   const LoopAnswer found = loop_closer_.add(*keyframe);
-  if (found.refused.empty()) lasting_.add(*keyframe);
+  if (found.refused.empty()) checkpoints_.add(*keyframe);
   keyframes_ = loop_closer_.keyframes();
   if (!found.refused.empty())
     context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid, found.refused);
@@ -169,7 +169,7 @@ rds_msgs::msg::KeyFramePoses LoopCloserService::answer_to(const Features& featur
 void LoopCloserService::forget() {
   corrected_ = {};
   known_.reset();
-  lasting_.clear(start_checksum_);
+  checkpoints_.clear(start_checksum_);
   keyframes_ = loop_closer_.keyframes();
 }
 
@@ -221,7 +221,7 @@ bool LoopCloserService::begin(const service::PendingCommand& command) {
   map_commands_.load(
       command,
       [this](const map_file::Folder& map,
-             const map_file::FileLimits& limits) -> tl::expected<MapCommands::TakeOver, std::string> {
+             const map_file::FileLimits& limits) -> tl::expected<MapCommands::Completion, std::string> {
         auto sections = map_file::read_saved_map(map, {map_file::kKeyframePoses}, limits);
         if (!sections) return tl::unexpected(sections.error());
         const auto read = std::make_shared<map_file::Sections>(std::move(*sections));

@@ -26,8 +26,8 @@ std::size_t max_waiting(const MapperServiceConfig& config) {
 }
 
 /// Of keyframe records: in the checkpoint, else in a file that goes with the process.
-std::unique_ptr<SpillStorage> storage_of(LastingMap& lasting, const MapperServiceConfig& config) {
-  if (auto storage = lasting.storage()) return storage;
+std::unique_ptr<SpillStorage> storage_of(MapperCheckpoints& checkpoints, const MapperServiceConfig& config) {
+  if (auto storage = checkpoints.storage()) return storage;
   return std::make_unique<SpillFile>(config.mapper.correction.spill_folder);
 }
 
@@ -38,9 +38,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       config_(config),
       tracker_(context.bus),
       loop_closer_(context.bus),
-      lasting_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
+      checkpoints_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
                config.maps.checkpoint_s),
-      mapper_(config.mapper, 0, storage_of(lasting_, config)),
+      mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
       waiting_boxes_(kMaxBoxes),
@@ -66,7 +66,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
 
 /// The map as the process before this one had it, if it has left one.
 void MapperService::go_on_from_checkpoint() {
-  const auto keyframes = lasting_.restore(mapper_);
+  const auto keyframes = checkpoints_.restore(mapper_);
   if (!keyframes) {
     spdlog::warn("the map of the checkpoint is not used: {}", keyframes.error());
     return mapper_.reset(mapper_.map_epoch());
@@ -93,16 +93,16 @@ void MapperService::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     beat();
     mailbox_.wait_for(stop, kReaderLook, [this] {
-      return something_arrived() || !commands_.locked_empty() || map_commands_.locked_ready();
+      return has_messages() || !commands_.locked_empty() || map_commands_.locked_ready();
     });
     handle_commands();
     map_commands_.settle();
-    take_arrivals();
+    take_messages();
     if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;
     guarded(topics::kKeyframePoses.name, [this] { correct(); });
     integrate_ready();
-    lasting_.save(mapper_);
+    checkpoints_.save(mapper_);
   }
 }
 
@@ -168,7 +168,7 @@ void MapperService::integrate(const Images& images) {
   }
   const Integrated integrated{input->id, input->stamp_ns, camera_from_map, input->camera};
   integrated_by_stamp_.insert_or_assign(input->stamp_ns, integrated);
-  lasting_.add(integrated);
+  checkpoints_.add(integrated);
   report_losses();
   last_keyframe_id_ = input->id;
   last_stamp_ns_ = input->stamp_ns;

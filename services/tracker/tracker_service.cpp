@@ -47,8 +47,8 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       map_epoch_(service::random_id()),
       loop_closer_(context.bus),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
-      lasting_(
+               [this](std::size_t count, const auto& part) { parallel_for_.run(count, part); }),
+      checkpoints_(
           keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
           config.maps.checkpoint_s),
       resume_(config.resume_s),
@@ -81,19 +81,19 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
 
 void TrackerService::run(const std::stop_token& stop) {
   stop_ = stop;
-  const auto holds_frames = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
+  const auto frames_wait = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
   while (wait(stop, [&] {
-    return (!holds_frames() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
+    return (!frames_wait() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
            !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty() ||
            map_commands_.locked_ready();
   })) {
     handle_commands();
     map_commands_.settle();
-    sort_in_arrivals();
-    if (holds_frames()) continue;
+    take_inboxes();
+    if (frames_wait()) continue;
     if (const auto frame = input_.frames().try_pop())
       if (!guarded("frame", [&] { take(*frame); })) guarded("frame", [&] { acknowledge(*frame); });
-    if (lasting_.is_due()) save_checkpoint();
+    if (checkpoints_.is_due()) save_checkpoint();
   }
 }
 
@@ -162,7 +162,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
-  if (result.keyframe) lasting_.schedule().note_keyframe();
+  if (result.keyframe) checkpoints_.schedule().note_keyframe();
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
@@ -182,7 +182,7 @@ void TrackerService::give_up_where_lost(const image::RgbdFrame& frame, const Fra
   }
 }
 
-void TrackerService::sort_in_arrivals() {
+void TrackerService::take_inboxes() {
   while (auto boxes = boxes_inbox_.try_pop()) {
     const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
     if (!boxes_.arrive(stamp, std::move(*boxes)))
@@ -211,7 +211,7 @@ void TrackerService::await_answers() {
   const auto deadline = Clock::now() + std::chrono::duration<double>(config_.lockstep.timeout_s);
   while (!stop_.stop_requested()) {
     beat();
-    sort_in_arrivals();
+    take_inboxes();
     if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) &&
         mappings_.complete(frame_index_))
       return;
@@ -262,7 +262,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   loops_ = {poses->instance(), poses->revision(), poses->loops_closed()};
   spdlog::info("loop {} closed, keyframe poses corrected", loops_.loops_closed);
   publish_poses();
-  lasting_.schedule().hurry();  // a map that does not know this loop would not fit the mapper's
+  checkpoints_.schedule().hurry();  // a map that does not know this loop would not fit the mapper's
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {
@@ -349,7 +349,7 @@ service::CommandOutcome TrackerService::finish() {
 
 void TrackerService::reset() {
   map_epoch_ = service::random_id();
-  lasting_.clear();
+  checkpoints_.clear();
   resume_.end();
   tracker_.reset();
   start_map();

@@ -8,7 +8,7 @@
 
 #include <tl/expected.hpp>
 
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 #include "common/map_commands/map_commands.hpp"
 #include "common/service/peers.hpp"
 #include "common/service/service.hpp"
@@ -18,9 +18,9 @@
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/delayed_values.hpp"
 #include "services/tracker/frame_input.hpp"
-#include "services/tracker/lasting_tracker.hpp"
 #include "services/tracker/mapping_worker.hpp"
 #include "services/tracker/resume_watch.hpp"
+#include "services/tracker/tracker_checkpoints.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
@@ -57,7 +57,7 @@ class TrackerService : public service::Service {
   void acknowledge(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
-  void sort_in_arrivals();
+  void take_inboxes();
   void await_answers();
   void apply_answers();
   void apply(const BoxesMessage& boxes);
@@ -79,11 +79,11 @@ class TrackerService : public service::Service {
   std::stop_token stop_;
   std::uint64_t map_epoch_;
   service::FollowedWriter loop_closer_;
-  concurrency::HelperThread helper_;  // of the worker
+  concurrency::ParallelFor parallel_for_;  // of the worker
   Tracker tracker_;
   std::optional<SavedMap> start_;     // the saved map that every map epoch begins with
   std::uint64_t start_checksum_ = 0;  // of the one that the settings name
-  LastingTracker lasting_;
+  TrackerCheckpoints checkpoints_;
   ResumeWatch resume_;
   MovableObjects objects_;
   TrackerOutputs outputs_;

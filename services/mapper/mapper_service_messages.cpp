@@ -22,11 +22,11 @@ constexpr std::uint64_t kPosesMark = std::numeric_limits<std::uint64_t>::max(); 
 
 }  // namespace
 
-bool MapperService::something_arrived() const {
+bool MapperService::has_messages() const {
   return !images_inbox_.locked_empty() || !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty();
 }
 
-void MapperService::take_arrivals() {
+void MapperService::take_messages() {
   while (const auto images = images_inbox_.try_pop())  // first: they begin an epoch
     guarded(topics::kKeyframeImages.name, [&] { take(*images); });
   while (const auto boxes = boxes_inbox_.try_pop()) guarded(topics::kBoxes.name, [&] { take(*boxes); });

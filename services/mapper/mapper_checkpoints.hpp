@@ -21,10 +21,10 @@ struct Integrated {
 
 /// The mapper's checkpoint: rows "record" (by keyframe), "arrival" (by keyframe), "keyframes" (by block of
 /// ids), "state" and "final". Changes gather here, and are handed over together. Used by one thread.
-class LastingMap {
+class MapperCheckpoints {
  public:
   /// @param writer  nullptr: nothing lasts.
-  LastingMap(std::unique_ptr<store::CheckpointWriter> writer, double period_s);
+  MapperCheckpoints(std::unique_ptr<store::CheckpointWriter> writer, double period_s);
 
   /// Where records go: into the checkpoint; without one nullptr.
   [[nodiscard]] std::unique_ptr<SpillStorage> storage();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/lasting_tracker.hpp"
+#include "services/tracker/tracker_checkpoints.hpp"
 
 #include "common/map_file/byte_reader.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kEpoch = "epoch";
 constexpr std::size_t kMaxWaitingBytes = 64'000'000;  // while the disk is full
 
-store::Bytes to_bytes(const LastingTracker::Epoch& epoch) {
+store::Bytes to_bytes(const TrackerCheckpoints::Epoch& epoch) {
   map_file::ByteWriter writer;
   writer.put(epoch.map_epoch);
   writer.put(epoch.start);
@@ -19,9 +19,9 @@ store::Bytes to_bytes(const LastingTracker::Epoch& epoch) {
   return writer.take();
 }
 
-tl::expected<LastingTracker::Epoch, std::string> epoch_from(std::span<const std::uint8_t> bytes) {
+tl::expected<TrackerCheckpoints::Epoch, std::string> epoch_from(std::span<const std::uint8_t> bytes) {
   map_file::ByteReader reader(bytes);
-  LastingTracker::Epoch epoch;
+  TrackerCheckpoints::Epoch epoch;
   epoch.map_epoch = reader.get<std::uint64_t>();
   epoch.start = reader.get<std::uint64_t>();
   epoch.loops.instance = reader.get<std::uint64_t>();
@@ -33,7 +33,7 @@ tl::expected<LastingTracker::Epoch, std::string> epoch_from(std::span<const std:
 
 }  // namespace
 
-tl::expected<std::optional<LastingTracker::Epoch>, std::string> LastingTracker::restore(std::uint64_t start,
+tl::expected<std::optional<TrackerCheckpoints::Epoch>, std::string> TrackerCheckpoints::restore(std::uint64_t start,
                                                                                         Tracker& tracker) {
   const auto row = writer_ ? writer_->get(kEpoch, 0) : std::nullopt;
   if (!row) return std::nullopt;
@@ -47,7 +47,7 @@ tl::expected<std::optional<LastingTracker::Epoch>, std::string> LastingTracker::
   return *epoch;
 }
 
-void LastingTracker::save(Tracker& tracker, const Epoch& epoch) {
+void TrackerCheckpoints::save(Tracker& tracker, const Epoch& epoch) {
   if (!writer_) return;
   schedule_.restart();
   if (changes_.bytes() < kMaxWaitingBytes) {
@@ -62,7 +62,7 @@ void LastingTracker::save(Tracker& tracker, const Epoch& epoch) {
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time
 }
 
-void LastingTracker::clear() {
+void TrackerCheckpoints::clear() {
   if (!writer_) return;
   writer_->keep_previous();
   changes_.clear();

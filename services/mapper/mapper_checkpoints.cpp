@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/lasting_map.hpp"
+#include "services/mapper/mapper_checkpoints.hpp"
 
 #include "common/map_file/geometry_bytes.hpp"
 
@@ -37,7 +37,7 @@ tl::expected<Integrated, std::string> integrated_from(std::uint64_t id, std::spa
 /// Records as rows of the checkpoint.
 class CheckpointedRecords : public SpillStorage {
  public:
-  explicit CheckpointedRecords(LastingMap& map) : map_(map) {}
+  explicit CheckpointedRecords(MapperCheckpoints& map) : map_(map) {}
 
   bool put(std::uint64_t id, std::span<const std::uint8_t> bytes) override {
     if (map_.changes_.bytes() + bytes.size() > kMaxWaitingBytes) return false;
@@ -58,22 +58,22 @@ class CheckpointedRecords : public SpillStorage {
   }
 
  private:
-  LastingMap& map_;
+  MapperCheckpoints& map_;
 };
 
-LastingMap::LastingMap(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
+MapperCheckpoints::MapperCheckpoints(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
     : writer_(std::move(writer)), schedule_(period_s) {}
 
-std::unique_ptr<SpillStorage> LastingMap::storage() {
+std::unique_ptr<SpillStorage> MapperCheckpoints::storage() {
   return writer_ ? std::make_unique<CheckpointedRecords>(*this) : nullptr;
 }
 
-void LastingMap::add(const Integrated& keyframe) {
+void MapperCheckpoints::add(const Integrated& keyframe) {
   schedule_.note_keyframe();
   if (writer_) changes_.put(kArrival, keyframe.id, to_bytes(keyframe));
 }
 
-void LastingMap::save(SemanticMapper& mapper, bool now) {
+void MapperCheckpoints::save(SemanticMapper& mapper, bool now) {
   if (!writer_ || (!now && !schedule_.is_due())) return;
   schedule_.restart();
   const auto checkpoint = mapper.checkpoint();
@@ -91,7 +91,7 @@ void LastingMap::save(SemanticMapper& mapper, bool now) {
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time
 }
 
-tl::expected<std::vector<Integrated>, std::string> LastingMap::restore(SemanticMapper& mapper) {
+tl::expected<std::vector<Integrated>, std::string> MapperCheckpoints::restore(SemanticMapper& mapper) {
   std::vector<Integrated> keyframes;
   const auto state = writer_ ? writer_->get(kState, 0) : std::nullopt;
   if (!state) return keyframes;

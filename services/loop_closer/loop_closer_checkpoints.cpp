@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/loop_closer/lasting_keyframes.hpp"
+#include "services/loop_closer/loop_closer_checkpoints.hpp"
 
 #include "common/map_file/byte_reader.hpp"
 #include "services/loop_closer/core/keyframe_bytes.hpp"
@@ -19,7 +19,7 @@ store::Bytes to_bytes(std::uint64_t number) {
 
 }  // namespace
 
-tl::expected<std::optional<LastingKeyframes::Last>, std::string> LastingKeyframes::restore(
+tl::expected<std::optional<LoopCloserCheckpoints::Last>, std::string> LoopCloserCheckpoints::restore(
     std::uint64_t start, LoopCloser& loop_closer) {
   start_ = start;
   if (!writer_) return std::nullopt;
@@ -42,7 +42,7 @@ tl::expected<std::optional<LastingKeyframes::Last>, std::string> LastingKeyframe
   return last;
 }
 
-void LastingKeyframes::add(const KeyframeFeatures& keyframe) {
+void LoopCloserCheckpoints::add(const KeyframeFeatures& keyframe) {
   if (!writer_) return;
   if (map_epoch_ != keyframe.map_epoch) clear(start_);
   map_epoch_ = keyframe.map_epoch;
@@ -50,14 +50,14 @@ void LastingKeyframes::add(const KeyframeFeatures& keyframe) {
   if (changes_.bytes() < kMaxWaitingBytes) changes_.put(kKeyframe, keyframe.id, to_bytes(keyframe));
 }
 
-void LastingKeyframes::clear(std::uint64_t start) {
+void LoopCloserCheckpoints::clear(std::uint64_t start) {
   start_ = start;
   map_epoch_.reset();
   changes_.clear();
   changes_.put(kStart, 0, to_bytes(start));
 }
 
-void LastingKeyframes::save(bool now) {
+void LoopCloserCheckpoints::save(bool now) {
   if (!writer_ || changes_.empty() || (!now && !schedule_.is_due())) return;
   schedule_.restart();
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time

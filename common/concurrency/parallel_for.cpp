@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 
 #include <utility>
 
 namespace rds::concurrency {
 
-HelperThread::HelperThread()
+ParallelFor::ParallelFor()
     : thread_([this](const std::stop_token& stop) { help(stop); }), processor_(thread_.native_handle()) {}
 
-void HelperThread::run(std::size_t count, const std::function<void(std::size_t)>& part) {
+void ParallelFor::run(std::size_t count, const std::function<void(std::size_t)>& part) {
   {
     const std::lock_guard lock(mutex_);
     part_ = &part;
@@ -25,7 +25,7 @@ void HelperThread::run(std::size_t count, const std::function<void(std::size_t)>
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void HelperThread::help(const std::stop_token& stop) {
+void ParallelFor::help(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return next_ < count_; })) {
     lock.unlock();
@@ -34,7 +34,7 @@ void HelperThread::help(const std::stop_token& stop) {
   }
 }
 
-void HelperThread::do_parts() {
+void ParallelFor::do_parts() {
   std::unique_lock lock(mutex_);
   while (next_ < count_) {
     const std::size_t i = next_++;

@@ -13,14 +13,14 @@
 
 namespace rds::concurrency {
 
-/// A thread that helps another with work made of independent parts, and sleeps in between.
-class HelperThread {
+/// A loop whose iterations run on the calling thread and on one more, which sleeps in between.
+class ParallelFor {
  public:
-  HelperThread();
+  ParallelFor();
 
-  /// Calls part(0) … part(count − 1), each once, on this thread and the helper's, in any order; returns when
-  /// all are done. Where the helper gets no processor, the caller does everything. To be called by one thread
-  /// at a time, not from a part.
+  /// Calls part(0) … part(count − 1), each once, on both threads, in any order; returns when
+  /// all are done. Where the second thread gets no processor, the caller does everything. To be called by one
+  /// thread at a time, not from a part.
   /// @throws what a part threw first; parts not begun by then are left out.
   void run(std::size_t count, const std::function<void(std::size_t)>& part);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 
 #include <atomic>
 #include <set>
@@ -11,8 +11,8 @@
 namespace rds::concurrency {
 namespace {
 
-TEST(HelperThread, DoesEveryPartOnceTaskAfterTask) {
-  HelperThread helper;
+TEST(ParallelFor, DoesEveryPartOnceTaskAfterTask) {
+  ParallelFor helper;
   for (std::size_t count = 0; count < 200; ++count) {
     std::vector<int> done(count, 0);
     helper.run(count, [&](std::size_t i) { ++done[i]; });
@@ -20,8 +20,8 @@ TEST(HelperThread, DoesEveryPartOnceTaskAfterTask) {
   }
 }
 
-TEST(HelperThread, TwoPartsRunAtTheSameTime) {
-  HelperThread helper;
+TEST(ParallelFor, TwoPartsRunAtTheSameTime) {
+  ParallelFor helper;
   std::atomic<int> there = 0;
   helper.run(2, [&](std::size_t) {  // each part waits for the other
     ++there;
@@ -31,8 +31,8 @@ TEST(HelperThread, TwoPartsRunAtTheSameTime) {
   EXPECT_EQ(there, 2);
 }
 
-TEST(HelperThread, PassesOnWhatAPartThrowsAndGoesOn) {
-  HelperThread helper;
+TEST(ParallelFor, PassesOnWhatAPartThrowsAndGoesOn) {
+  ParallelFor helper;
   for (int round = 0; round < 20; ++round) {
     EXPECT_THROW(helper.run(8,
                             [](std::size_t i) {

@@ -16,7 +16,7 @@
 namespace rds::tracker {
 
 /// The tracker's checkpoint: the rows of Tracker::checkpoint(), and a row "epoch". Used by one thread.
-class LastingTracker {
+class TrackerCheckpoints {
  public:
   /// What the rows belong to.
   struct Epoch {
@@ -26,7 +26,7 @@ class LastingTracker {
   };
 
   /// @param writer  nullptr: nothing lasts.
-  LastingTracker(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
+  TrackerCheckpoints(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
       : writer_(std::move(writer)), schedule_(period_s) {}
 
   /// Makes the tracker go on where the checkpoint ends, if that began with the same saved map.

@@ -11,10 +11,10 @@ namespace rds::loop_closer {
 
 /// The loop closer's checkpoint: a row "keyframe" for each that was taken, as it was taken, and a row "start"
 /// that says with which saved map. Used by one thread.
-class LastingKeyframes {
+class LoopCloserCheckpoints {
  public:
   /// @param writer  nullptr: nothing lasts.
-  LastingKeyframes(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
+  LoopCloserCheckpoints(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
       : writer_(std::move(writer)), schedule_(period_s) {}
 
   /// Shows all keyframes to a loop closer again, in order. What began with another saved map goes.

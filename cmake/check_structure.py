@@ -26,17 +26,11 @@ CORES_THAT_TOUCH_THE_WORLD = {
 }
 FOLDERS_IN_CYCLES = {"services/tracker/core", "services/tracker/core/removal"}
 LARGE_FOLDERS = {
-    "common/bus",
-    "common/service",
-    "services/mapper",
     "services/mapper/core",
-    "services/tracker",
     "services/tracker/core",
     "services/tracker/core/prediction",
-    "tests/integration",
     "tests/unit/services/mapper/core",
     "tests/unit/services/tracker/core",
-    "tools/simulator",
 }
 
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "common/messages/json.hpp"
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 #include "common/service/version_watch.hpp"
 #include "common/topics/endpoints.hpp"
 

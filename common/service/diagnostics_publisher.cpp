@@ -6,9 +6,9 @@
 #include <malloc.h>
 
 #include "common/messages/conversions.hpp"
-#include "common/service/freed_memory.hpp"
-#include "common/service/process_usage.hpp"
-#include "common/service/supervisor.hpp"
+#include "common/service/process/freed_memory.hpp"
+#include "common/service/process/process_usage.hpp"
+#include "common/service/process/supervisor.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::service {

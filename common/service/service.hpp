@@ -16,7 +16,7 @@
 #include "common/concurrency/mailbox.hpp"
 #include "common/config/config_reader.hpp"
 #include "common/service/diagnostics.hpp"
-#include "common/service/instance_owners.hpp"
+#include "common/service/peers/instance_owners.hpp"
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
 

@@ -10,8 +10,8 @@
 #include <tl/expected.hpp>
 
 #include "common/map_commands/map_commands.hpp"
-#include "common/service/epoch_confirmation.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/epoch_confirmation.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"

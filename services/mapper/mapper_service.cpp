@@ -9,7 +9,7 @@
 #include "common/service/checkpoints.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/topics/endpoints.hpp"
-#include "services/mapper/keyframe_input.hpp"
+#include "services/mapper/input/keyframe_input.hpp"
 #include "services/mapper/spill_file.hpp"
 
 namespace rds::mapper {

@@ -14,17 +14,17 @@
 
 #include "common/map_commands/map_commands.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
-#include "common/service/epoch_confirmation.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/epoch_confirmation.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/input/waiting_boxes.hpp"
+#include "services/mapper/input/waiting_keyframes.hpp"
 #include "services/mapper/loop_knowledge.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/mapper_checkpoints.hpp"
 #include "services/mapper/mapper_service_config.hpp"
-#include "services/mapper/waiting_boxes.hpp"
-#include "services/mapper/waiting_keyframes.hpp"
 
 namespace rds::mapper {
 

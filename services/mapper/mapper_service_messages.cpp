@@ -8,7 +8,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/topics/topics.hpp"
-#include "services/mapper/labelled_boxes.hpp"
+#include "services/mapper/input/labelled_boxes.hpp"
 #include "services/mapper/mapper_service.hpp"
 
 namespace rds::mapper {

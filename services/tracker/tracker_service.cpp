@@ -16,7 +16,7 @@
 #include "common/service/possible_poses.hpp"
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
-#include "services/tracker/pose_file.hpp"
+#include "services/tracker/input/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
 
 namespace rds::tracker {

@@ -10,7 +10,7 @@
 
 #include "common/concurrency/parallel_for.hpp"
 #include "common/map_commands/map_commands.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/time/stamp_watch.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"

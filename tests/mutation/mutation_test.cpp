@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "rds_msgs/message_fields.hpp"
 #include "rds_msgs/msg/Command.h"

@@ -17,7 +17,7 @@
 
 #include "tools/rds/cli/exit.hpp"
 #include "tools/simulator/dataset_writer.hpp"
-#include "tools/simulator/lens.hpp"
+#include "tools/simulator/rendering/lens.hpp"
 
 namespace rds::tools {
 namespace {

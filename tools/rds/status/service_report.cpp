@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/service/presence.hpp"
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 
 namespace rds::tools {
 namespace {

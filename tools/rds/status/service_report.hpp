@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 
 namespace rds::tools {
 

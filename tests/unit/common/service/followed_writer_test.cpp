@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/topics/topics.hpp"
 
 namespace rds::service {

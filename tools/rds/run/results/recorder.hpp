@@ -10,7 +10,7 @@
 #include "common/bus/participant.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/topics/topic.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/MapInfo.h"

@@ -73,7 +73,7 @@ class TypeVersion : public ::testing::TestWithParam<VendorPair> {
   void SetUp() override { decodes = 0; }
 
   std::unique_ptr<detail::SubscriptionEndpoint> subscribe(const Qos& qos) {
-    const auto keep = [this](const std::shared_ptr<const void>& message) {
+    const auto keep = [this](const std::shared_ptr<const void>& message, const ParticipantId&) {
       inbox.callback()(std::static_pointer_cast<const Header>(message));
     };
     return reader_side->make_subscription("topic", read_type, qos, keep);

@@ -132,3 +132,13 @@ function(rds_check_cores_do_not_reach_the_bus)
     endforeach()
   endforeach()
 endfunction()
+
+# Cores without clock, file and thread; no cycles between folders; no crowded folders: cmake/check_structure.py.
+function(rds_check_structure)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/cmake/check_structure.py ${PROJECT_SOURCE_DIR}
+    RESULT_VARIABLE status OUTPUT_VARIABLE found ERROR_VARIABLE found)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "The structure of the sources (cmake/check_structure.py):\n${found}")
+  endif()
+endfunction()

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// An answer that needs nothing of the worker.
-MapCommands::TakeOver answer(bool success, const std::string& message) {
+MapCommands::Completion answer(bool success, const std::string& message) {
   return [outcome = service::CommandOutcome{success, message}] { return outcome; };
 }
 
@@ -46,7 +46,7 @@ MapCommands::~MapCommands() {
   if (under_way_) under_way_->answer({false, "the service has stopped"});
 }
 
-MapCommands::TakeOver MapCommands::carry_out(const Order& order, const std::stop_token& stop) const {
+MapCommands::Completion MapCommands::carry_out(const Order& order, const std::stop_token& stop) const {
   map_file::FileLimits limits = limits_of(config_);
   limits.deadline = order.deadline;
   limits.stop = stop;
@@ -64,8 +64,8 @@ void MapCommands::start(const service::PendingCommand& command, Job job) {
   orders_.push({started_, deadline, std::move(job)});
 }
 
-void MapCommands::save(const service::PendingCommand& command,
-                       const std::function<map_file::MapPart()>& make, const std::string& what) {
+void MapCommands::save(const service::PendingCommand& command, const std::function<map_file::MapPart()>& make,
+                       const std::string& what) {
   const auto order = parse_save(command, own_part_);
   if (!order) return command.answer({false, order.error()});
   if (settled_ < started_) return start(command, {});  // before it is made
@@ -82,14 +82,15 @@ void MapCommands::save(const service::PendingCommand& command,
 void MapCommands::load(const service::PendingCommand& command, Read read) {
   if (const auto checked = map_file::check_map_name(command.argument); !checked)
     return command.answer({false, checked.error()});
-  start(command, [this, name = command.argument,
-                  read = std::move(read)](const map_file::FileLimits& limits) -> TakeOver {
-    const auto maps = store::maps_folder(config_);
-    const auto map = maps ? map_file::open_map(*maps, name) : tl::unexpected(maps.error());
-    if (!map) return answer(false, map.error());
-    auto taken = read(*map, limits);
-    return taken ? std::move(*taken) : answer(false, taken.error());
-  });
+  start(command,
+        [this, name = command.argument,
+         read = std::move(read)](const map_file::FileLimits& limits) -> Completion {
+          const auto maps = store::maps_folder(config_);
+          const auto map = maps ? map_file::open_map(*maps, name) : tl::unexpected(maps.error());
+          if (!map) return answer(false, map.error());
+          auto taken = read(*map, limits);
+          return taken ? std::move(*taken) : answer(false, taken.error());
+        });
 }
 
 bool MapCommands::locked_ready() const {
@@ -102,7 +103,7 @@ void MapCommands::settle() {
     if (!under_way_) return;  // answered already
     const auto order = std::exchange(under_way_, std::nullopt);
     try {
-      order->answer(done->take_over());
+      order->answer(done->complete());
     } catch (const std::exception& e) {
       order->answer({false, e.what()});
     }

@@ -26,15 +26,15 @@ inline map_file::FileLimits limits_of(const store::MapsConfig& config) {
 /// The commands `save` and `load` of a service that has a part of the map.
 ///
 /// A thread of its own touches the disk, so that the worker goes on meanwhile; it does one command at a time,
-/// others are answered "busy". A command that is not done after `limit` is answered then, and what comes of it
-/// later is thrown away.
+/// others are answered "busy". A command that is not done after `limit` is answered then, and what comes of
+/// it later is thrown away.
 class MapCommands {
  public:
-  /// Takes over what was read, on the worker. @return the answer to `load`.
-  using TakeOver = std::function<service::CommandOutcome()>;
+  /// Puts what was read in place of the map, on the worker. @return the answer to `load`.
+  using Completion = std::function<service::CommandOutcome()>;
   /// Reads and parses a map, on the thread. @return or one sentence.
-  using Read =
-      std::function<tl::expected<TakeOver, std::string>(const map_file::Folder&, const map_file::FileLimits&)>;
+  using Read = std::function<tl::expected<Completion, std::string>(const map_file::Folder&,
+                                                                   const map_file::FileLimits&)>;
 
   static constexpr std::chrono::seconds kLimit{60};
 
@@ -54,12 +54,12 @@ class MapCommands {
 
   /// Whether the worker has something to settle; for Mailbox::wait's condition only.
   [[nodiscard]] bool locked_ready() const;
-  /// On the worker: takes over what was read, and answers what is done or overdue.
+  /// On the worker: completes what was read, and answers what is done or overdue.
   void settle();
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Job = std::function<TakeOver(const map_file::FileLimits&)>;
+  using Job = std::function<Completion(const map_file::FileLimits&)>;
   struct Order {
     std::uint64_t number;
     Clock::time_point deadline;
@@ -67,7 +67,7 @@ class MapCommands {
   };
   struct Done {
     std::uint64_t number;
-    TakeOver take_over;
+    Completion complete;
   };
   struct UnderWay {
     std::uint64_t number;
@@ -76,13 +76,13 @@ class MapCommands {
   };
 
   void start(const service::PendingCommand& command, Job job);
-  [[nodiscard]] TakeOver carry_out(const Order& order, const std::stop_token& stop) const;
+  [[nodiscard]] Completion carry_out(const Order& order, const std::stop_token& stop) const;
 
   store::MapsConfig config_;
   std::string own_part_;
   std::chrono::milliseconds limit_;
   std::uint64_t started_ = 0;
-  std::uint64_t settled_ = 0;         // of started_: less while the thread is at work
+  std::uint64_t settled_ = 0;          // of started_: less while the thread is at work
   std::optional<UnderWay> under_way_;  // until it is answered
   concurrency::Inbox<Done> done_;      // the worker waits on it
   concurrency::Mailbox mailbox_;       // the thread's

@@ -6,8 +6,9 @@
 #include <unistd.h>
 
 #include "common/messages/json.hpp"
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 #include "common/service/version_watch.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::service {
 
@@ -15,18 +16,18 @@ CommandServer::CommandServer(ServiceContext& context, const Presence& presence, 
     : context_(context),
       presence_(presence),
       service_(service),
-      results_(context.bus.advertise<rds_msgs::msg::CommandResult>("rds/command_result", bus::kCommand)),
-      subscription_(context.bus.subscribe<rds_msgs::msg::Command>(
-          "rds/command", bus::kCommand, [this](const auto& command) { receive(*command); })) {}
+      results_(topics::advertise(context.bus, topics::kCommandResult, topics::kServices)),
+      subscription_(topics::subscribe(context.bus, topics::kCommand, topics::kServices,
+                                      [this](const auto& command) { receive(*command); })) {}
 
 void CommandServer::receive(const rds_msgs::msg::Command& command) {
   if (!command.target().empty() && command.target() != context_.name) return;
   const std::uint64_t id = command.request_id();
   if (command.verb() == "status") return answer(id, {true, status()});
   spdlog::info("command {} {}", printable(command.verb()), printable(command.argument()));
-  const auto posted = service_.post(
-      {command.verb(), command.argument(), [this, id](const auto& outcome) { answer(id, outcome); }, id,
-       command.target().empty()});
+  const auto posted =
+      service_.post({command.verb(), command.argument(),
+                     [this, id](const auto& outcome) { answer(id, outcome); }, id, command.target().empty()});
   if (posted == Posted::kBusy) answer(id, {false, "busy: too many commands wait"});
   if (posted == Posted::kNobody) answer(id, {false, "waits as stand-by, another is active"});
 }

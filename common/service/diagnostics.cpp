@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 
 namespace rds::service {
 namespace {

@@ -6,9 +6,10 @@
 #include <malloc.h>
 
 #include "common/messages/conversions.hpp"
-#include "common/service/freed_memory.hpp"
-#include "common/service/process_usage.hpp"
-#include "common/service/supervisor.hpp"
+#include "common/service/process/freed_memory.hpp"
+#include "common/service/process/process_usage.hpp"
+#include "common/service/process/supervisor.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::service {
 namespace {
@@ -34,7 +35,7 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& pr
     : context_(context),
       presence_(presence),
       service_(service),
-      publisher_(context.bus.advertise<diagnostic_msgs::msg::DiagnosticArray>("diagnostics", bus::kStream)),
+      publisher_(topics::advertise(context.bus, topics::kDiagnostics, topics::kServices)),
       versions_(context.bus),
       thread_([this](const std::stop_token& stop) {
         concurrency::Mailbox timer;

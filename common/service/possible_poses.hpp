@@ -5,6 +5,7 @@
 
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/diagnostics.hpp"
+#include "common/topics/topics.hpp"
 
 namespace rds::service {
 
@@ -12,7 +13,7 @@ namespace rds::service {
 /// impossible messages, which may be large, never wait for a worker.
 inline bool is_possible(const rds_msgs::msg::KeyFramePoses& message, Diagnostics& diagnostics) {
   const std::string fault = messages::fault_of(message);
-  if (!fault.empty()) diagnostics.reject("rds/keyframe/poses", Rejection::kInvalid, fault);
+  if (!fault.empty()) diagnostics.reject(topics::kKeyframePoses.name, Rejection::kInvalid, fault);
   return fault.empty();
 }
 

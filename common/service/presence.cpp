@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/messages/conversions.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::service {
 namespace {
@@ -12,7 +13,7 @@ namespace Role = rds_msgs::msg::ServiceStatus_Constants;
 
 Presence::Presence(ServiceContext& context, std::function<void()> changed)
     : context_(context),
-      publisher_(context.bus.advertise<rds_msgs::msg::ServiceStatus>(kServicesTopic, bus::kLatched)),
+      publisher_(topics::advertise(context.bus, topics::kServiceStatus, topics::kServices)),
       peers_(context.bus, std::move(changed)) {}
 
 void Presence::set_active(bool active) {
@@ -31,8 +32,7 @@ std::vector<Candidate> Presence::rivals() const {
   for (const auto& [status, heard] : peers_.present())
     if (status.service() == context_.name && status.instance() != context_.instance) {
       const std::chrono::duration<double> since = std::chrono::steady_clock::now() - heard;
-      rivals.push_back(
-          {status.instance(), status.role() == Role::ACTIVE, status.active_s() + since.count()});
+      rivals.push_back({status.instance(), status.role() == Role::ACTIVE, status.active_s() + since.count()});
     }
   return rivals;
 }
@@ -60,8 +60,7 @@ void Presence::say_goodbye() {
 void Presence::write(std::uint8_t role, const Health& health, double worker_silent_s) {
   rds_msgs::msg::ServiceStatus status;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  status.header(
-      messages::make_header(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), ""));
+  status.header(messages::make_header(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), ""));
   status.instance(context_.instance);
   status.service(context_.name);
   status.version(RDS_VERSION);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/service/election.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/election.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 
 namespace rds::service {

@@ -9,8 +9,8 @@
 
 #include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
+#include "common/service/process/stop_signals.hpp"
 #include "common/service/service_process.hpp"
-#include "common/service/stop_signals.hpp"
 
 namespace rds::service {
 namespace {

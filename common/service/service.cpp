@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/service/service.hpp"
 
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 
 namespace rds::service {
 namespace {

@@ -9,14 +9,16 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "common/bus/participant.hpp"
 #include "common/concurrency/mailbox.hpp"
 #include "common/config/config_reader.hpp"
 #include "common/service/diagnostics.hpp"
-#include "common/service/instance_owners.hpp"
+#include "common/service/peers/instance_owners.hpp"
 #include "common/service/random_id.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::service {
 
@@ -110,13 +112,14 @@ class Service {
   /// Subscribes to messages that name the instance of the service which wrote them. What another participant
   /// writes in its name is refused and counted, and never reaches the callback.
   template <class Message>
-  bus::Subscription subscribe_to_instances(const std::string& topic, const bus::Qos& qos,
-                                           std::function<void(std::shared_ptr<const Message>)> callback) {
-    return context_.bus.subscribe<Message>(
-        topic, qos,
+  bus::Subscription subscribe_to_instances(
+      const topics::Topic<Message>& topic, topics::Process process,
+      std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
+    return topics::subscribe(
+        context_.bus, topic, process,
         [this, topic, callback](std::shared_ptr<const Message> message, const bus::ParticipantId& writer) {
           if (context_.owners->owns(writer, message->instance())) return callback(std::move(message));
-          context_.diagnostics.reject(topic, Rejection::kForeign, "written in another one's name");
+          context_.diagnostics.reject(topic.name, Rejection::kForeign, "written in another one's name");
         });
   }
 

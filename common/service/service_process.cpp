@@ -8,8 +8,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include "common/service/stop_signals.hpp"
-#include "common/service/supervisor.hpp"
+#include "common/service/process/stop_signals.hpp"
+#include "common/service/process/supervisor.hpp"
 
 namespace rds::service {
 namespace {

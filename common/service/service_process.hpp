@@ -6,8 +6,8 @@
 
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
-#include "common/service/hang_watch.hpp"
 #include "common/service/presence.hpp"
+#include "common/service/process/hang_watch.hpp"
 #include "common/service/service_slot.hpp"
 
 namespace rds::service {

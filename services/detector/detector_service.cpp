@@ -7,6 +7,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/detector/models/model_store.hpp"
 
 namespace rds::detector {
@@ -14,12 +15,23 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 
+/// A person under another name would become furniture, without a word.
+void warn_of_unknown_labels(const NetworkDescription& network, const labels::Table& labels) {
+  for (const std::string& label : network.labels)
+    if (labels.find(label) == nullptr)
+      spdlog::warn(
+          "network {}: the table of labels does not know '{}' (setting labels_file): what has it counts as "
+          "furniture, it supports the camera's pose and enters the map, even if it moves",
+          network.name, label);
+}
+
 std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config) {
   if (!config.detections_file.empty()) {
     spdlog::info("boxes from {}", config.detections_file);
     return std::make_unique<RecordedSource>(config.detections_file, config.detector.depth);
   }
   const Network network = load_network(config.detector.network, model_folders(config.model_dir));
+  warn_of_unknown_labels(network.description, config.detector.labels);
   auto source = std::make_unique<NetworkSource>(network, config.detector);
   spdlog::info("network {}, computed by {}, threads: {}", network.description.name, source->library(),
                config.detector.threads);
@@ -34,9 +46,9 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       tracker_(context.bus),
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
-      detections_(context.bus.advertise<vision_msgs::msg::Detection2DArray>("rds/detections", bus::kStream)),
-      subscription_(subscribe_to_instances<rds_msgs::msg::KeyFrameImages>(
-          "rds/keyframe/images", bus::kKeyframeImages, [this](Keyframe m) { receive(std::move(m)); })) {
+      detections_(topics::advertise(context.bus, topics::kDetections, topics::kDetector)),
+      subscription_(subscribe_to_instances(topics::kKeyframeImages, topics::kDetector,
+                                           [this](Keyframe m) { receive(std::move(m)); })) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }
@@ -45,14 +57,14 @@ void DetectorService::run(const std::stop_token& stop) {
   while (wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();
     if (const auto arrival = lockstep_ ? keyframes_.try_pop() : keyframes_.try_pop_newest())
-      guarded("rds/keyframe/images", [&] { take(*arrival); });
+      guarded(topics::kKeyframeImages.name, [&] { take(*arrival); });
   }
 }
 
 /// On the bus's thread: another tracker's keyframes must not push out those that are waited for.
 void DetectorService::receive(Keyframe keyframe) {
   if (!tracker_.accept(keyframe->instance(), keyframe->map_epoch() == map_epoch_))
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kForeign,
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kForeign,
                                        "another tracker");
   map_epoch_ = keyframe->map_epoch();
   keyframes_.push({std::move(keyframe)});
@@ -69,7 +81,8 @@ void DetectorService::look_at(const Arrival& arrival) {
   const auto started = std::chrono::steady_clock::now();
   const auto frame = messages::to_rgbd_frame(arrival.keyframe);
   if (!frame)
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, frame.error());
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kInvalid,
+                                       frame.error());
   std::vector<messages::ImageDetection> found;
   for (const Detection& d : source_->detections(*frame))
     found.push_back({.label = d.label, .score = d.score, .box = d.box, .depth_m = d.depth_m});

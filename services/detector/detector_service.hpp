@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/messages/detection_conversions.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "services/detector/detection_source.hpp"

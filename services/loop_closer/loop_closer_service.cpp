@@ -12,6 +12,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/checkpoints.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/loop_closer/feature_message.hpp"
 
 namespace rds::loop_closer {
@@ -26,18 +27,17 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
     : Service(context),
       tracker_(context.bus),
       loop_closer_(config.loop_closer),
-      lasting_(
+      checkpoints_(
           config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
-      poses_(context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kLatched)) {
+      poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kLoopCloser)) {
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
-    subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFrameFeatures>(
-        "rds/keyframe/features", bus::kKeyframeFeatures,
-        [this](Features m) { features_.push(std::move(m)); }));
+    subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser,
+                                                    [this](Features m) { features_.push(std::move(m)); }));
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
@@ -54,11 +54,11 @@ void LoopCloserService::read_start(const LoopCloserServiceConfig& config) {
 
 /// With the keyframes that the process before this one knew; nothing of it is published.
 void LoopCloserService::go_on_from_checkpoint() {
-  const auto last = lasting_.restore(start_checksum_, loop_closer_);
+  const auto last = checkpoints_.restore(start_checksum_, loop_closer_);
   if (!last) {
     spdlog::warn("the keyframes of the checkpoint are not used: {}", last.error());
     loop_closer_.reset();
-    return lasting_.clear(start_checksum_);
+    return checkpoints_.clear(start_checksum_);
   }
   known_ = *last;
   keyframes_ = loop_closer_.keyframes();
@@ -73,8 +73,9 @@ void LoopCloserService::run(const std::stop_token& stop) {
   })) {
     handle_commands();
     map_commands_.settle();
-    if (const auto features = features_.try_pop()) guarded("rds/keyframe/features", [&] { take(*features); });
-    lasting_.save();
+    if (const auto features = features_.try_pop())
+      guarded(topics::kKeyframeFeatures.name, [&] { take(*features); });
+    checkpoints_.save();
   }
 }
 
@@ -104,7 +105,7 @@ bool LoopCloserService::is_confirmed(const Features& features) {
 
 void LoopCloserService::take(const Features& features) {
   if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
-    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kForeign,
+    return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kForeign,
                                        "another tracker");
   if (!is_confirmed(features)) return;
   if (is_known(features) && features->keyframe_id() < known_->id) return;
@@ -112,13 +113,13 @@ void LoopCloserService::take(const Features& features) {
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe)
-    return context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid,
+    return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid,
                                        keyframe.error());
   const LoopAnswer found = loop_closer_.add(*keyframe);
-  if (found.refused.empty()) lasting_.add(*keyframe);
+  if (found.refused.empty()) checkpoints_.add(*keyframe);
   keyframes_ = loop_closer_.keyframes();
   if (!found.refused.empty())
-    context_.diagnostics.reject("rds/keyframe/features", service::Rejection::kInvalid, found.refused);
+    context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid, found.refused);
   answer(features, found);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("keyframe").add_ms(took.count());
@@ -168,7 +169,7 @@ rds_msgs::msg::KeyFramePoses LoopCloserService::answer_to(const Features& featur
 void LoopCloserService::forget() {
   corrected_ = {};
   known_.reset();
-  lasting_.clear(start_checksum_);
+  checkpoints_.clear(start_checksum_);
   keyframes_ = loop_closer_.keyframes();
 }
 
@@ -220,7 +221,7 @@ bool LoopCloserService::begin(const service::PendingCommand& command) {
   map_commands_.load(
       command,
       [this](const map_file::Folder& map,
-             const map_file::FileLimits& limits) -> tl::expected<MapCommands::TakeOver, std::string> {
+             const map_file::FileLimits& limits) -> tl::expected<MapCommands::Completion, std::string> {
         auto sections = map_file::read_saved_map(map, {map_file::kKeyframePoses}, limits);
         if (!sections) return tl::unexpected(sections.error());
         const auto read = std::make_shared<map_file::Sections>(std::move(*sections));

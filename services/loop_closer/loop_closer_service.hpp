@@ -10,13 +10,13 @@
 #include <tl/expected.hpp>
 
 #include "common/map_commands/map_commands.hpp"
-#include "common/service/epoch_confirmation.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/epoch_confirmation.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/loop_closer/core/loop_closer.hpp"
-#include "services/loop_closer/lasting_keyframes.hpp"
+#include "services/loop_closer/loop_closer_checkpoints.hpp"
 #include "services/loop_closer/loop_closer_service_config.hpp"
 
 namespace rds::loop_closer {
@@ -27,11 +27,11 @@ class LoopCloserService : public service::Service {
   LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config);
   void run(const std::stop_token& stop) override;
   /// Hands over what is to last.
-  void close() override { lasting_.save(true); }
+  void close() override { checkpoints_.save(true); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
-  void idle() override { lasting_.save(); }
+  void idle() override { checkpoints_.save(); }
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:
@@ -53,8 +53,8 @@ class LoopCloserService : public service::Service {
   service::EpochConfirmation another_epoch_;
   Features first_of_epoch_;           // waits until it is confirmed
   std::uint64_t start_checksum_ = 0;  // of the saved map's part
-  LastingKeyframes lasting_;
-  std::optional<LastingKeyframes::Last> known_;  // the last keyframe that the checkpoint had
+  LoopCloserCheckpoints checkpoints_;
+  std::optional<LoopCloserCheckpoints::Last> known_;  // the last keyframe that the checkpoint had
   std::atomic<std::size_t> keyframes_ = 0;       // read by diagnostics
   bool paused_ = false;
   map_commands::MapCommands map_commands_;

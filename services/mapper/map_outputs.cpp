@@ -7,6 +7,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/service/random_id.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/mapper/core/tree_bytes.hpp"
 
 namespace rds::mapper {
@@ -22,14 +23,14 @@ MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid)
     : grid_config_(grid),
       instance_(context.instance),
       map_id_(service::random_id()),
-      delta_(context.bus.advertise<rds_msgs::msg::OctreeDelta>("rds/map/delta", bus::kDelta)),
-      full_(context.bus.advertise<octomap_msgs::msg::Octomap>("rds/map/full", bus::kLatched)),
-      binary_(context.bus.advertise<octomap_msgs::msg::Octomap>("rds/map/binary", bus::kLatched)),
-      points_(context.bus.advertise<sensor_msgs::msg::PointCloud2>("rds/map/points", bus::kLatched)),
-      info_(context.bus.advertise<rds_msgs::msg::MapInfo>("rds/map/info", bus::kLatchedEvery)),
-      objects_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/map/objects", bus::kLatched)),
-      markers_(context.bus.advertise<visualization_msgs::msg::MarkerArray>("rds/map/markers", bus::kLatched)),
-      grid_(context.bus.advertise<nav_msgs::msg::OccupancyGrid>("rds/map/grid", bus::kLatched)),
+      delta_(topics::advertise(context.bus, topics::kMapDelta, topics::kMapper)),
+      full_(topics::advertise(context.bus, topics::kMapFull, topics::kMapper)),
+      binary_(topics::advertise(context.bus, topics::kMapBinary, topics::kMapper)),
+      points_(topics::advertise(context.bus, topics::kMapPoints, topics::kMapper)),
+      info_(topics::advertise(context.bus, topics::kMapInfo, topics::kMapper)),
+      objects_(topics::advertise(context.bus, topics::kMapObjects, topics::kMapper)),
+      markers_(topics::advertise(context.bus, topics::kMapMarkers, topics::kMapper)),
+      grid_(topics::advertise(context.bus, topics::kMapGrid, topics::kMapper)),
       full_map_latency_(context.diagnostics.latency("full map")) {}
 
 void MapOutputs::begin_map() {
@@ -46,12 +47,11 @@ bool MapOutputs::has_new_reader() {
 void MapOutputs::publish_delta(MapDelta delta) {
   if (delta.is_noop()) return;
   delta.map_id = map_id_;
-  sender_.send(
-      [this, delta = std::make_shared<MapDelta>(std::move(delta))] {
-        auto message = to_message(*delta);
-        message.instance(instance_);
-        delta_.write(message);
-      });
+  sender_.send([this, delta = std::make_shared<MapDelta>(std::move(delta))] {
+    auto message = to_message(*delta);
+    message.instance(instance_);
+    delta_.write(message);
+  });
 }
 
 rds_msgs::msg::MapInfo MapOutputs::info_of(const SemanticMapper& mapper, const MapProgress& progress,

@@ -8,7 +8,8 @@
 #include "common/messages/conversions.hpp"
 #include "common/service/checkpoints.hpp"
 #include "common/service/possible_poses.hpp"
-#include "services/mapper/keyframe_input.hpp"
+#include "common/topics/endpoints.hpp"
+#include "services/mapper/input/keyframe_input.hpp"
 #include "services/mapper/spill_file.hpp"
 
 namespace rds::mapper {
@@ -25,8 +26,8 @@ std::size_t max_waiting(const MapperServiceConfig& config) {
 }
 
 /// Of keyframe records: in the checkpoint, else in a file that goes with the process.
-std::unique_ptr<SpillStorage> storage_of(LastingMap& lasting, const MapperServiceConfig& config) {
-  if (auto storage = lasting.storage()) return storage;
+std::unique_ptr<SpillStorage> storage_of(MapperCheckpoints& checkpoints, const MapperServiceConfig& config) {
+  if (auto storage = checkpoints.storage()) return storage;
   return std::make_unique<SpillFile>(config.mapper.correction.spill_folder);
 }
 
@@ -37,9 +38,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       config_(config),
       tracker_(context.bus),
       loop_closer_(context.bus),
-      lasting_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
+      checkpoints_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
                config.maps.checkpoint_s),
-      mapper_(config.mapper, 0, storage_of(lasting_, config)),
+      mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
       outputs_(context, config.mapper.grid),
       waiting_(max_waiting(config)),
       waiting_boxes_(kMaxBoxes),
@@ -54,10 +55,9 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   go_on_from_checkpoint();
   if (!config.localize_only) subscribe_to_keyframes();
-  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
-        if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
-      }));
+  subscriptions_.push_back(subscribe_to_instances(topics::kKeyframePoses, topics::kMapper, [this](Poses m) {
+    if (service::is_possible(*m, context_.diagnostics)) poses_inbox_.push(std::move(m));
+  }));
   context.diagnostics.gauge("keyframes waiting", [this] { return images_inbox_.size() + waiting_.size(); });
   context.diagnostics.gauge("corrections lost", [this] { return corrections_lost_.load(); });
   context.diagnostics.gauge("keyframes dropped",
@@ -66,7 +66,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
 
 /// The map as the process before this one had it, if it has left one.
 void MapperService::go_on_from_checkpoint() {
-  const auto keyframes = lasting_.restore(mapper_);
+  const auto keyframes = checkpoints_.restore(mapper_);
   if (!keyframes) {
     spdlog::warn("the map of the checkpoint is not used: {}", keyframes.error());
     return mapper_.reset(mapper_.map_epoch());
@@ -82,10 +82,10 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe_to_keyframes() {
-  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFrameImages>(
-      "rds/keyframe/images", bus::kKeyframeImages, [this](Images m) { images_inbox_.push(std::move(m)); }));
-  subscriptions_.push_back(context_.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-      "rds/boxes", bus::kBoxes, [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeImages, topics::kMapper,
+                                                  [this](Images m) { images_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
+                                             [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }
 
 void MapperService::run(const std::stop_token& stop) {
@@ -93,16 +93,16 @@ void MapperService::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     beat();
     mailbox_.wait_for(stop, kReaderLook, [this] {
-      return something_arrived() || !commands_.locked_empty() || map_commands_.locked_ready();
+      return has_messages() || !commands_.locked_empty() || map_commands_.locked_ready();
     });
     handle_commands();
     map_commands_.settle();
-    take_arrivals();
+    take_messages();
     if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
     if (paused_) continue;
-    guarded("rds/keyframe/poses", [this] { correct(); });
+    guarded(topics::kKeyframePoses.name, [this] { correct(); });
     integrate_ready();
-    lasting_.save(mapper_);
+    checkpoints_.save(mapper_);
   }
 }
 
@@ -135,7 +135,7 @@ void MapperService::report_losses() {
 
 void MapperService::integrate_ready() {
   while (!waiting_.empty() && is_ready(waiting_.oldest()))
-    guarded("rds/keyframe/images", [this] {
+    guarded(topics::kKeyframeImages.name, [this] {
       beat();
       integrate(waiting_.take_oldest());
     });
@@ -153,7 +153,8 @@ void MapperService::integrate(const Images& images) {
   const auto started = std::chrono::steady_clock::now();
   auto input = to_keyframe_input(images);
   if (!input)
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, input.error());
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kInvalid,
+                                       input.error());
   const geometry::Pose camera_from_map = input->map_from_camera.inverse();
   if (const Boxes boxes = waiting_boxes_.take(input->stamp_ns))
     input->boxes = labelled_boxes(boxes, camera_from_map, input->camera);
@@ -163,11 +164,11 @@ void MapperService::integrate(const Images& images) {
   try {
     delta = mapper_.integrate(*input);
   } catch (const std::invalid_argument& e) {
-    return context_.diagnostics.reject("rds/keyframe/images", service::Rejection::kInvalid, e.what());
+    return context_.diagnostics.reject(topics::kKeyframeImages.name, service::Rejection::kInvalid, e.what());
   }
   const Integrated integrated{input->id, input->stamp_ns, camera_from_map, input->camera};
   integrated_by_stamp_.insert_or_assign(input->stamp_ns, integrated);
-  lasting_.add(integrated);
+  checkpoints_.add(integrated);
   report_losses();
   last_keyframe_id_ = input->id;
   last_stamp_ns_ = input->stamp_ns;

@@ -14,17 +14,17 @@
 
 #include "common/map_commands/map_commands.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
-#include "common/service/epoch_confirmation.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/epoch_confirmation.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/mapper/core/semantic_mapper.hpp"
-#include "services/mapper/lasting_map.hpp"
+#include "services/mapper/input/waiting_boxes.hpp"
+#include "services/mapper/input/waiting_keyframes.hpp"
 #include "services/mapper/loop_knowledge.hpp"
 #include "services/mapper/map_outputs.hpp"
+#include "services/mapper/mapper_checkpoints.hpp"
 #include "services/mapper/mapper_service_config.hpp"
-#include "services/mapper/waiting_boxes.hpp"
-#include "services/mapper/waiting_keyframes.hpp"
 
 namespace rds::mapper {
 
@@ -34,7 +34,7 @@ class MapperService : public service::Service {
   MapperService(service::ServiceContext& context, const MapperServiceConfig& config);
   void run(const std::stop_token& stop) override;
   /// Hands over what is to last.
-  void close() override { lasting_.save(mapper_, true); }
+  void close() override { checkpoints_.save(mapper_, true); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
@@ -45,8 +45,8 @@ class MapperService : public service::Service {
   using Boxes = WaitingBoxes::Boxes;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
 
-  [[nodiscard]] bool something_arrived() const;
-  void take_arrivals();
+  [[nodiscard]] bool has_messages() const;
+  void take_messages();
   void take(const Images& images);
   void take(const Boxes& boxes);
   void take(const Poses& poses);
@@ -72,7 +72,7 @@ class MapperService : public service::Service {
   void read_start();
   [[nodiscard]] map_file::MapPart map_part() const;
   void load(const service::PendingCommand& command);
-  service::CommandOutcome take_over(const tl::expected<void, std::string>& started,
+  service::CommandOutcome finish_load(const tl::expected<void, std::string>& started,
                                     const std::filesystem::path& from);
   void go_on_from_checkpoint();
   void wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes);
@@ -87,7 +87,7 @@ class MapperService : public service::Service {
   service::EpochConfirmation another_epoch_;
   Images first_of_epoch_;  // waits until it is confirmed
   LoopKnowledge loops_;    // contained in poses_
-  LastingMap lasting_;     // before mapper_, whose records it keeps
+  MapperCheckpoints checkpoints_;     // before mapper_, whose records it keeps
   SemanticMapper mapper_;
   MapOutputs outputs_;
   WaitingKeyframes waiting_;

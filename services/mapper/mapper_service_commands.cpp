@@ -69,12 +69,12 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
   auto deadline = Clock::now() + (config_.lockstep ? std::chrono::milliseconds(kRestLimit) : kQuietLimit);
   while (!stop_.stop_requested()) {
     beat();
-    take_arrivals();
+    take_messages();
     integrate_ready();
     if (poses_revision_ >= poses_revision && mapper_.keyframes() >= keyframes) return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) return;
-    mailbox_.wait_for(stop_, left, [this] { return something_arrived(); });
+    mailbox_.wait_for(stop_, left, [this] { return has_messages(); });
   }
 }
 
@@ -117,24 +117,24 @@ map_file::MapPart MapperService::map_part() const {
 void MapperService::load(const service::PendingCommand& command) {
   using map_commands::MapCommands;
   map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
-                                  -> tl::expected<MapCommands::TakeOver, std::string> {
+                                  -> tl::expected<MapCommands::Completion, std::string> {
     const auto from = map.path();
     if (!map.has_file(map_file::kMapFile) && map.has_file(kTreeFile)) {
       const auto bytes = map.read(kTreeFile, limits);
       auto tree = bytes ? tree_from_octomap_file(*bytes) : tl::unexpected(bytes.error());
       if (!tree) return tl::unexpected(tree.error());
       const auto read = std::make_shared<std::unique_ptr<octomap::ColorOcTree>>(std::move(*tree));
-      return [this, from, read] { return take_over(mapper_.start_from(std::move(**read)), from); };
+      return [this, from, read] { return finish_load(mapper_.start_from(std::move(**read)), from); };
     }
     auto sections = map_file::read_saved_map(map, {map_file::kMapper}, limits);
     if (!sections) return tl::unexpected(sections.error());
     const auto read = std::make_shared<map_file::Bytes>(std::move(sections->at(map_file::kMapper)));
-    return [this, from, read] { return take_over(mapper_.start_from(*read), from); };
+    return [this, from, read] { return finish_load(mapper_.start_from(*read), from); };
   });
 }
 
 /// The new map is published; of one that does not fit nothing has changed.
-service::CommandOutcome MapperService::take_over(const tl::expected<void, std::string>& started,
+service::CommandOutcome MapperService::finish_load(const tl::expected<void, std::string>& started,
                                                  const std::filesystem::path& from) {
   if (!started) return {false, not_mapped_on(from, started.error())};
   outputs_.begin_map();

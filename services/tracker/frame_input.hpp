@@ -9,7 +9,7 @@
 #include "common/service/service.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
-#include "services/tracker/frame_pairer.hpp"
+#include "services/tracker/input/frame_pairer.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 
 namespace rds::tracker {

@@ -4,6 +4,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/topics/endpoints.hpp"
 #include "services/tracker/keyframe_message.hpp"
 
 namespace rds::tracker {
@@ -37,17 +38,14 @@ void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
 TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch)
     : instance_(context.instance),
       map_epoch_(map_epoch),
-      odometry_(context.bus.advertise<nav_msgs::msg::Odometry>("rds/odometry", bus::kStream)),
-      tf_(context.bus.advertise<tf2_msgs::msg::TFMessage>("tf", bus::kTransform)),
-      state_(context.bus.advertise<rds_msgs::msg::TrackingState>("rds/tracking_state", bus::kStream)),
-      boxes_(context.bus.advertise<rds_msgs::msg::PredictedBoxes>("rds/predicted_boxes", bus::kStream)),
-      features_(context.bus.advertise<rds_msgs::msg::FrameFeatures>("rds/features", bus::kStream)),
-      keyframe_images_(
-          context.bus.advertise<rds_msgs::msg::KeyFrameImages>("rds/keyframe/images", bus::kKeyframeImages)),
-      keyframe_features_(context.bus.advertise<rds_msgs::msg::KeyFrameFeatures>("rds/keyframe/features",
-                                                                                bus::kKeyframeFeatures)),
-      keyframe_poses_(
-          context.bus.advertise<rds_msgs::msg::KeyFramePoses>("rds/keyframe/poses", bus::kPoses)) {}
+      odometry_(topics::advertise(context.bus, topics::kOdometry, topics::kTracker)),
+      tf_(topics::advertise(context.bus, topics::kTransforms, topics::kTracker)),
+      state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
+      boxes_(topics::advertise(context.bus, topics::kPredictedBoxes, topics::kTracker)),
+      features_(topics::advertise(context.bus, topics::kFeatures, topics::kTracker)),
+      keyframe_images_(topics::advertise(context.bus, topics::kKeyframeImages, topics::kTracker)),
+      keyframe_features_(topics::advertise(context.bus, topics::kKeyframeFeatures, topics::kTracker)),
+      keyframe_poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kTracker)) {}
 
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;

@@ -15,7 +15,8 @@
 #include "common/service/checkpoints.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/service/random_id.hpp"
-#include "services/tracker/pose_file.hpp"
+#include "common/topics/endpoints.hpp"
+#include "services/tracker/input/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
 
 namespace rds::tracker {
@@ -25,7 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLiveFrames =
     5;  // waiting while one is processed (as the topic keeps); older ones are dropped
-constexpr std::size_t kMaxAnswers = 100;
 constexpr std::uint8_t kLoop = 1;
 
 std::uint32_t microseconds_since(Clock::time_point start) {
@@ -44,10 +44,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       map_epoch_(service::random_id()),
-      loop_closer_(context.bus),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
-      lasting_(
+               [this](std::size_t count, const auto& part) { parallel_for_.run(count, part); }),
+      checkpoints_(
           keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
           config.maps.checkpoint_s),
       resume_(config.resume_s),
@@ -56,17 +55,15 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       input_(context, mailbox_, config.camera,
              config.lockstep.enabled ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
       stamps_(!config.lockstep.enabled),
-      boxes_inbox_(mailbox_, kMaxAnswers),
-      poses_inbox_(mailbox_, kMaxAnswers),
-      mapping_inbox_(mailbox_, 2),
+      answers_(context, mailbox_, config.lockstep),
       map_commands_(mailbox_, config.maps, map_file::kTracker),
-      mapping_worker_(config.tracker.local_mapping, config.mapping_nice, mapping_inbox_),
-      boxes_subscription_(context.bus.subscribe<vision_msgs::msg::Detection3DArray>(
-          "rds/boxes", bus::kStream, [this](BoxesMessage m) { boxes_inbox_.push(std::move(m)); })),
-      poses_subscription_(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
-          "rds/keyframe/poses", bus::kLatchedEvery, [this](PosesMessage m) {
+      mapping_worker_(config.tracker.local_mapping, config.mapping_nice, answers_.mapping_results()),
+      boxes_subscription_(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
+                                            [this](BoxesMessage m) { answers_.push(std::move(m)); })),
+      poses_subscription_(
+          subscribe_to_instances(topics::kKeyframePoses, topics::kTracker, [this](PosesMessage m) {
             if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
-              poses_inbox_.push(std::move(m));
+              answers_.push(std::move(m));
           })) {
   if (!config.map_file.empty()) {
     auto [map, checksum] = read_start_or_throw(config);
@@ -80,19 +77,18 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
 
 void TrackerService::run(const std::stop_token& stop) {
   stop_ = stop;
-  const auto holds_frames = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
+  const auto frames_wait = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
   while (wait(stop, [&] {
-    return (!holds_frames() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
-           !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty() ||
-           map_commands_.locked_ready();
+    return (!frames_wait() && !input_.frames().locked_empty()) || !commands_.locked_empty() ||
+           answers_.locked_ready() || map_commands_.locked_ready();
   })) {
     handle_commands();
     map_commands_.settle();
-    sort_in_arrivals();
-    if (holds_frames()) continue;
+    answers_.sort_in(map_epoch_);
+    if (frames_wait()) continue;
     if (const auto frame = input_.frames().try_pop())
       if (!guarded("frame", [&] { take(*frame); })) guarded("frame", [&] { acknowledge(*frame); });
-    if (lasting_.is_due()) save_checkpoint();
+    if (checkpoints_.is_due()) save_checkpoint();
   }
 }
 
@@ -135,8 +131,7 @@ void TrackerService::begin_after_break() {
       static_cast<double>(stamps_.break_ns()) * 1e-9);
   if (stamps_.break_ns() > 0) return;
   objects_.reset();
-  boxes_.clear();
-  keyframes_with_boxes_due_.clear();
+  answers_.forget_boxes();
 }
 
 void TrackerService::process(const image::RgbdFrame& frame) {
@@ -161,7 +156,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), box_sets_used_});
   if (result.keyframe) publish_poses();
-  if (result.keyframe) lasting_.schedule().note_keyframe();
+  if (result.keyframe) checkpoints_.schedule().note_keyframe();
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
   ++frame_index_;
@@ -181,42 +176,16 @@ void TrackerService::give_up_where_lost(const image::RgbdFrame& frame, const Fra
   }
 }
 
-void TrackerService::sort_in_arrivals() {
-  while (auto boxes = boxes_inbox_.try_pop()) {
-    const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
-    if (!boxes_.arrive(stamp, std::move(*boxes)))
-      context_.diagnostics.reject("rds/boxes", service::Rejection::kUnexpected,
-                                  "their keyframe waits for none");
-  }
-  while (auto poses = poses_inbox_.try_pop()) {
-    const std::uint64_t answered = (*poses)->answered_keyframe_id();
-    if ((*poses)->map_epoch() != map_epoch_)
-      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kOutdated, "another map epoch");
-    else if (!loop_closer_.accept((*poses)->instance(), false))
-      context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another loop closer");
-    else
-      loop_answers_.arrive_through(answered, *poses);
-  }
-  while (auto result = mapping_inbox_.try_pop()) {
-    const std::uint64_t keyframe = result->keyframe;
-    mappings_.arrive(keyframe, std::move(*result));
-  }
-}
-
 /// In lockstep, and only here, a frame waits: for what is agreed to take effect at it.
 void TrackerService::await_answers() {
   const auto deadline = Clock::now() + std::chrono::duration<double>(config_.lockstep.timeout_s);
   while (!stop_.stop_requested()) {
     beat();
-    sort_in_arrivals();
-    if (boxes_.complete(frame_index_) && loop_answers_.complete(frame_index_) &&
-        mappings_.complete(frame_index_))
-      return;
+    answers_.sort_in(map_epoch_);
+    if (answers_.complete(frame_index_)) return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) break;
-    mailbox_.wait_for(stop_, left, [this] {
-      return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
-    });
+    mailbox_.wait_for(stop_, left, [this] { return answers_.locked_ready(); });
   }
   ++context_.diagnostics.counter("lockstep timeouts");
   spdlog::warn("frame {} goes on without an answer it waited {} s for", frame_index_,
@@ -224,12 +193,12 @@ void TrackerService::await_answers() {
 }
 
 void TrackerService::apply_answers() {
-  const auto take = [this](auto& values) {
-    return config_.lockstep.enabled ? values.take_due(frame_index_) : values.take_arrived();
-  };
-  for (const LocalMappingResult& result : take(mappings_)) guarded("local mapping", [&] { apply(result); });
-  for (const PosesMessage& poses : take(loop_answers_)) guarded("rds/keyframe/poses", [&] { apply(poses); });
-  for (const BoxesMessage& boxes : take(boxes_)) guarded("rds/boxes", [&] { apply(boxes); });
+  for (const LocalMappingResult& result : answers_.take_mappings(frame_index_))
+    guarded("local mapping", [&] { apply(result); });
+  for (const PosesMessage& poses : answers_.take_poses(frame_index_))
+    guarded(topics::kKeyframePoses.name, [&] { apply(poses); });
+  for (const BoxesMessage& boxes : answers_.take_boxes(frame_index_))
+    guarded(topics::kBoxes.name, [&] { apply(boxes); });
 }
 
 void TrackerService::apply(const LocalMappingResult& result) {
@@ -248,7 +217,7 @@ void TrackerService::apply(const PosesMessage& poses) {
   const auto correction = messages::to_keyframe_poses(*poses);
   if (correction && correction->empty()) return;  // its poses came before
   if (!correction)
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid,
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
                                        correction.error());
   const geometry::Pose before = tracker_.last_map_from_camera();
   tracker_.apply(PoseGraphCorrection{*correction});
@@ -258,44 +227,38 @@ void TrackerService::apply(const PosesMessage& poses) {
   loops_ = {poses->instance(), poses->revision(), poses->loops_closed()};
   spdlog::info("loop {} closed, keyframe poses corrected", loops_.loops_closed);
   publish_poses();
-  lasting_.schedule().hurry();  // a map that does not know this loop would not fit the mapper's
+  checkpoints_.schedule().hurry();  // a map that does not know this loop would not fit the mapper's
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {
   const std::int64_t stamp = messages::to_nanoseconds(boxes->header().stamp());
   const auto detections = messages::to_detections(*boxes);
   if (!detections)
-    return context_.diagnostics.reject("rds/boxes", service::Rejection::kInvalid, detections.error());
+    return context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   ++box_sets_used_;
-  const auto keyframe = keyframes_with_boxes_due_.extract(stamp);
+  const auto keyframe = answers_.take_snapshot(stamp);
   if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
-  const auto& [id, camera_from_map, camera] = keyframe.mapped();
+  const auto& [id, camera_from_map, camera] = *keyframe;
   objects_.observe(stamp, observations, prediction::KeyframeView{camera_from_map.inverse(), camera});
   tracker_.retract_movable(id, objects_.regions_of(observations, camera_from_map, camera));
 }
 
 void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
-  const LockstepConfig& lockstep = config_.lockstep;
-  if (config_.dynamics) {
-    boxes_.ask(static_cast<std::uint64_t>(keyframe.stamp_ns),
-               frame_index_ + lockstep.detection_latency_frames);
-    keyframes_with_boxes_due_.insert_or_assign(
-        keyframe.stamp_ns, KeyframeView{keyframe.id, keyframe.map_from_camera.inverse(), camera});
-    while (keyframes_with_boxes_due_.size() > kMaxAnswers)
-      keyframes_with_boxes_due_.erase(keyframes_with_boxes_due_.begin());
-  }
+  if (config_.dynamics)
+    answers_.ask_for_boxes(keyframe.stamp_ns, {keyframe.id, keyframe.map_from_camera.inverse(), camera},
+                           frame_index_);
   const bool corrections_wanted =
-      keyframe.in_map && config_.poses_file.empty() && (config_.loop_closer || !lockstep.enabled);
-  if (corrections_wanted) loop_answers_.ask(keyframe.id, frame_index_ + lockstep.loop_latency_frames);
+      keyframe.in_map && config_.poses_file.empty() && (config_.loop_closer || !config_.lockstep.enabled);
+  if (corrections_wanted) answers_.ask_for_poses(keyframe.id, frame_index_);
 }
 
 void TrackerService::start_mapping() {
-  if (!mappings_.empty()) return;
+  if (answers_.is_mapping()) return;
   auto job = tracker_.take_mapping_job();
   if (!job) return;
-  mappings_.ask(job->keyframe, frame_index_ + config_.lockstep.mapping_latency_frames);
+  answers_.ask_for_mapping(job->keyframe, frame_index_);
   mapping_worker_.start(std::move(*job));
 }
 
@@ -324,8 +287,7 @@ service::CommandOutcome TrackerService::finish() {
   }
   const std::uint64_t last_frame = frame_index_;
   if (config_.lockstep.enabled) {
-    for (; !(boxes_.empty() && loop_answers_.empty() && mappings_.empty()) && !stop_.stop_requested();
-         ++frame_index_) {
+    for (; !answers_.empty() && !stop_.stop_requested(); ++frame_index_) {
       await_answers();
       apply_answers();
       start_mapping();
@@ -345,16 +307,13 @@ service::CommandOutcome TrackerService::finish() {
 
 void TrackerService::reset() {
   map_epoch_ = service::random_id();
-  lasting_.clear();
+  checkpoints_.clear();
   resume_.end();
   tracker_.reset();
   start_map();
   objects_.reset();
   outputs_.set_epoch(map_epoch_);
-  boxes_.clear();
-  keyframes_with_boxes_due_.clear();
-  loop_answers_.clear();
-  mappings_.clear();
+  answers_.clear();
   loops_ = {};
   spdlog::info("begins again, map epoch {:016x}", map_epoch_);
 }

@@ -2,28 +2,24 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 
 #include <tl/expected.hpp>
 
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 #include "common/map_commands/map_commands.hpp"
-#include "common/service/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/time/stamp_watch.hpp"
-#include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
-#include "services/tracker/delayed_values.hpp"
 #include "services/tracker/frame_input.hpp"
-#include "services/tracker/lasting_tracker.hpp"
+#include "services/tracker/keyframe_answers.hpp"
 #include "services/tracker/mapping_worker.hpp"
 #include "services/tracker/resume_watch.hpp"
+#include "services/tracker/tracker_checkpoints.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
-#include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::tracker {
 
@@ -41,23 +37,14 @@ class TrackerService : public service::Service {
   void idle() override;
 
  private:
-  using BoxesMessage = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
-  using PosesMessage = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
-
-  /// What late boxes of a keyframe need.
-  struct KeyframeView {
-    std::uint64_t id;
-    geometry::Pose
-        camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
-    geometry::CameraModel camera;
-  };
+  using BoxesMessage = KeyframeAnswers::Boxes;
+  using PosesMessage = KeyframeAnswers::Poses;
 
   void take(const image::RgbdFrame& frame);
   void drop(const image::RgbdFrame& frame);
   void acknowledge(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
-  void sort_in_arrivals();
   void await_answers();
   void apply_answers();
   void apply(const BoxesMessage& boxes);
@@ -78,24 +65,17 @@ class TrackerService : public service::Service {
   TrackerServiceConfig config_;
   std::stop_token stop_;
   std::uint64_t map_epoch_;
-  service::FollowedWriter loop_closer_;
-  concurrency::HelperThread helper_;  // of the worker
+  concurrency::ParallelFor parallel_for_;  // of the worker
   Tracker tracker_;
   std::optional<SavedMap> start_;     // the saved map that every map epoch begins with
   std::uint64_t start_checksum_ = 0;  // of the one that the settings name
-  LastingTracker lasting_;
+  TrackerCheckpoints checkpoints_;
   ResumeWatch resume_;
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;
   time::StampWatch stamps_;  // of frames
-  concurrency::Inbox<BoxesMessage> boxes_inbox_;
-  concurrency::Inbox<PosesMessage> poses_inbox_;
-  concurrency::Inbox<LocalMappingResult> mapping_inbox_;
-  DelayedValues<BoxesMessage> boxes_;                              // by keyframe stamp
-  std::map<std::int64_t, KeyframeView> keyframes_with_boxes_due_;  // by stamp
-  DelayedValues<PosesMessage> loop_answers_;                       // by keyframe id
-  DelayedValues<LocalMappingResult> mappings_;                     // by keyframe id; at most one
+  KeyframeAnswers answers_;
   std::uint64_t frame_index_ = 0;
   std::uint64_t box_sets_used_ = 0;
   LoopState loops_;

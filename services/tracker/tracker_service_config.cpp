@@ -44,6 +44,7 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   if (config.tracker.localize_only && config.map_file.empty())
     reader.violation("localize_only", "true", "expected a map_file to localise in");
   read(reader.section("prediction"), config.prediction);
+  labels::read(reader, config.prediction.labels);
   if (config.lockstep.enabled) config.tracker.map.pose_only_s = 0;  // a run ends, and is the same every time
   if (!config.dynamics) config.tracker.removal.method = "off";
 }

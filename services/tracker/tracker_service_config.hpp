@@ -6,6 +6,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/store/maps_folder.hpp"
+#include "common/topics/topics.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/tracker_config.hpp"
 
@@ -13,9 +14,9 @@ namespace rds::tracker {
 
 /// Where the camera's pictures come from; names without the leading rt/.
 struct CameraTopics {
-  std::string color = "camera/color/image_raw";
-  std::string camera_info = "camera/color/camera_info";
-  std::string depth = "camera/aligned_depth_to_color/image_raw";
+  std::string color = topics::kColor.name;
+  std::string camera_info = topics::kCameraInfo.name;
+  std::string depth = topics::kDepth.name;
   bool best_effort = false;  // read a driver that publishes best effort
   double pairing_tolerance_s = 0.02;
 

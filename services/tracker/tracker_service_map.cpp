@@ -32,9 +32,9 @@ void TrackerService::start_map() {
 
 /// Goes on in the map, and the epoch, of the process before this one, if it has left a checkpoint.
 void TrackerService::go_on_from_checkpoint() {
-  const auto epoch = lasting_.restore(start_checksum_, tracker_);
+  const auto epoch = checkpoints_.restore(start_checksum_, tracker_);
   if (!epoch) spdlog::warn("the map of the checkpoint is not used: {}", epoch.error());
-  if (!epoch || !*epoch) return lasting_.clear();
+  if (!epoch || !*epoch) return checkpoints_.clear();
   map_epoch_ = (*epoch)->map_epoch;
   loops_ = (*epoch)->loops;
   outputs_.set_epoch(map_epoch_);
@@ -45,7 +45,7 @@ void TrackerService::go_on_from_checkpoint() {
 }
 
 void TrackerService::save_checkpoint() {
-  lasting_.save(tracker_, {map_epoch_, start_checksum_, loops_});
+  checkpoints_.save(tracker_, {map_epoch_, start_checksum_, loops_});
 }
 
 map_file::MapPart TrackerService::map_part() const {
@@ -61,21 +61,21 @@ void TrackerService::load(const service::PendingCommand& command) {
   if (!config_.poses_file.empty())
     return command.answer({false, "poses are given by poses_file, which know no saved map"});
   using map_commands::MapCommands;
-  const auto take_over = [this](SavedMap saved) -> service::CommandOutcome {
+  const auto begin_with = [this](SavedMap saved) -> service::CommandOutcome {
     start_ = std::move(saved);
     reset();
     return {true, fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes(), map_epoch_)};
   };
   map_commands_.load(
       command,
-      [config = config_.tracker, take_over](const map_file::Folder& map, const map_file::FileLimits& limits)
-          -> tl::expected<MapCommands::TakeOver, std::string> {
+      [config = config_.tracker, begin_with](const map_file::Folder& map, const map_file::FileLimits& limits)
+          -> tl::expected<MapCommands::Completion, std::string> {
         const auto sections = map_file::read_saved_map(map, kNeededSections, limits);
         if (!sections) return tl::unexpected(sections.error());
         auto start = to_start(*sections, config, map.path());
         if (!start) return tl::unexpected(start.error());
         const auto read = std::make_shared<SavedMap>(std::move(*start));
-        return [read, take_over] { return take_over(std::move(*read)); };
+        return [read, begin_with] { return begin_with(std::move(*read)); };
       });
 }
 

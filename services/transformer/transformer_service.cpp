@@ -5,6 +5,7 @@
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/possible_poses.hpp"
+#include "common/topics/endpoints.hpp"
 
 namespace rds::transformer {
 namespace {
@@ -22,16 +23,17 @@ TransformerService::TransformerService(service::ServiceContext& context,
       detections_inbox_(mailbox_, kMaxWaiting),
       poses_inbox_(mailbox_, kMaxWaiting),
       camera_inbox_(mailbox_, 1),
-      boxes_(context.bus.advertise<vision_msgs::msg::Detection3DArray>("rds/boxes", bus::kBoxes)) {
-  subscriptions_.push_back(context.bus.subscribe<vision_msgs::msg::Detection2DArray>(
-      "rds/detections", bus::kStream, [this](Detections m) { detections_inbox_.push(std::move(m)); }));
-  subscriptions_.push_back(subscribe_to_instances<rds_msgs::msg::KeyFramePoses>(
-      "rds/keyframe/poses", bus::kLatchedEvery, [this](Poses m) {
+      boxes_(topics::advertise(context.bus, topics::kBoxes, topics::kTransformer)) {
+  subscriptions_.push_back(topics::subscribe(context.bus, topics::kDetections, topics::kTransformer,
+                                             [this](Detections m) { detections_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(
+      subscribe_to_instances(topics::kKeyframePoses, topics::kTransformer, [this](Poses m) {
         if (m->source() == kLocal && service::is_possible(*m, context_.diagnostics))
           poses_inbox_.push(std::move(m));
       }));
-  subscriptions_.push_back(context.bus.subscribe<sensor_msgs::msg::CameraInfo>(
-      config.camera_info_topic, bus::kSensor, [this](Info m) { camera_inbox_.push(std::move(m)); }));
+  subscriptions_.push_back(topics::subscribe(context.bus, topics::kCameraInfo.named(config.camera_info_topic),
+                                             topics::kTransformer,
+                                             [this](Info m) { camera_inbox_.push(std::move(m)); }));
 }
 
 void TransformerService::run(const std::stop_token& stop) {
@@ -58,15 +60,18 @@ void TransformerService::take_camera() {
 }
 
 void TransformerService::take_pose_messages() {
-  while (const auto message = poses_inbox_.try_pop()) guarded("rds/keyframe/poses", [&] { take(*message); });
+  while (const auto message = poses_inbox_.try_pop())
+    guarded(topics::kKeyframePoses.name, [&] { take(*message); });
 }
 
 void TransformerService::take(const Poses& message) {
   const auto poses = messages::to_keyframe_poses(*message);
   if (!poses)
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kInvalid, poses.error());
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
+                                       poses.error());
   if (!tracker_.accept(message->instance(), message->map_epoch() == map_epoch_))
-    return context_.diagnostics.reject("rds/keyframe/poses", service::Rejection::kForeign, "another tracker");
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kForeign,
+                                       "another tracker");
   if (message->map_epoch() != map_epoch_) poses_.clear();
   map_epoch_ = message->map_epoch();
   poses_.take(*poses);
@@ -75,7 +80,7 @@ void TransformerService::take(const Poses& message) {
 void TransformerService::take_detections() {
   while (auto detections = detections_inbox_.try_pop()) waiting_.push_back(std::move(*detections));
   while (waiting_.size() > kMaxWaiting) {
-    context_.diagnostics.reject("rds/detections", service::Rejection::kUnexpected,
+    context_.diagnostics.reject(topics::kDetections.name, service::Rejection::kUnexpected,
                                 "the keyframe's pose or the camera never came");
     waiting_.pop_front();
   }
@@ -86,7 +91,7 @@ void TransformerService::lift_what_is_complete() {
   std::erase_if(waiting_, [this](const Detections& detections) {
     const auto map_from_camera = poses_.of(messages::to_nanoseconds(detections->header().stamp()));
     if (!map_from_camera) return false;
-    guarded("rds/detections", [&] { lift(detections, *map_from_camera); });
+    guarded(topics::kDetections.name, [&] { lift(detections, *map_from_camera); });
     return true;
   });
 }
@@ -94,7 +99,7 @@ void TransformerService::lift_what_is_complete() {
 void TransformerService::lift(const Detections& detections, const geometry::Pose& map_from_camera) {
   const auto found = messages::to_detections(*detections);
   if (!found)
-    return context_.diagnostics.reject("rds/detections", service::Rejection::kInvalid, found.error());
+    return context_.diagnostics.reject(topics::kDetections.name, service::Rejection::kInvalid, found.error());
   std::vector<messages::SpatialDetection> boxes;
   for (const auto& detection : *found) {
     const auto volume = box_in_map(detection.box, detection.depth_m, detection.label, map_from_camera,

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/geometry/camera_model.hpp"
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "sensor_msgs/msg/CameraInfo.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Time of each stage of the tracker, on a frame of 7scenes_kitchen, in the map that the tracker made of the
 // frames before it. Skipped, with the reason, without that recording in RDS_SHARED.
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 #include "services/tracker/core/feature_alignment.hpp"
 #include "services/tracker/core/map_building.hpp"
 #include "services/tracker/core/mapping_exchange.hpp"
@@ -29,7 +29,7 @@ void orb_extraction(benchmark::State& state) {
 BENCHMARK(orb_extraction)->Unit(benchmark::kMicrosecond);
 
 void orb_extraction_with_helper(benchmark::State& state) {
-  concurrency::HelperThread helper;
+  concurrency::ParallelFor helper;
   OrbExtractor extractor(ExtractionConfig{},
                          [&](std::size_t count, const auto& part) { helper.run(count, part); });
   std::vector<Feature> features;
@@ -59,7 +59,7 @@ void point_following(benchmark::State& state) {
 BENCHMARK(point_following)->Unit(benchmark::kMicrosecond);
 
 void point_following_with_helper(benchmark::State& state) {
-  concurrency::HelperThread helper;
+  concurrency::ParallelFor helper;
   const RunParts on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   measure(state, [&](Scene& s) { return s.follow(s.points, s.next, *s.next_images, on_both); });
 }

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "tests/integration/run_support.hpp"
-#include "tools/rds/run/service_commands.hpp"
+#include "tools/rds/run/services/service_commands.hpp"
 
 namespace rds::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "tests/faults/fault_table.hpp"
-#include "tools/rds/run/commander.hpp"
-#include "tools/rds/run/fleet.hpp"
+#include "tools/rds/commander/commander.hpp"
+#include "tools/rds/run/services/fleet.hpp"
 
 namespace rds::test {
 

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/true_stamps.hpp"
+#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/play/decode_ahead.hpp"
-#include "tools/rds/run/run_files.hpp"
-#include "tools/rds/run/service_commands.hpp"
-#include "tools/rds/run/topology.hpp"
+#include "tools/rds/run/results/run_files.hpp"
+#include "tools/rds/run/services/service_commands.hpp"
 
 namespace rds::test {
 namespace {

@@ -11,9 +11,9 @@
 #include "common/image/tum_dataset.hpp"
 #include "tests/faults/faulty_camera.hpp"
 #include "tests/faults/process_fault.hpp"
-#include "tools/rds/run/domain_lock.hpp"
-#include "tools/rds/run/recorder.hpp"
-#include "tools/rds/run/run_options.hpp"
+#include "tools/rds/run/results/recorder.hpp"
+#include "tools/rds/run/services/domain_lock.hpp"
+#include "tools/rds/run/services/run_options.hpp"
 
 namespace rds::test {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "tools/rds/run/recording.hpp"
+#include "tools/rds/run/results/recording.hpp"
 
 namespace rds::test {
 

@@ -8,8 +8,8 @@
 #include "common/bus/participant.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/run/commander.hpp"
-#include "tools/rds/run/topology.hpp"
+#include "tools/rds/commander/commander.hpp"
+#include "tools/rds/commander/topology.hpp"
 
 namespace rds::test {
 namespace {

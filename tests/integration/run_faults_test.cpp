@@ -10,7 +10,7 @@
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/run/commander.hpp"
+#include "tools/rds/commander/commander.hpp"
 
 namespace rds::test {
 namespace {

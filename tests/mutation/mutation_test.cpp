@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "rds_msgs/message_fields.hpp"
 #include "rds_msgs/msg/Command.h"
@@ -26,7 +26,7 @@
 #include "tests/soak/process_sample.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
-#include "tools/rds/run/commander.hpp"
+#include "tools/rds/commander/commander.hpp"
 #include "vision_msgs/message_fields.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 #include "vision_msgs/msg/Detection3DArray.h"

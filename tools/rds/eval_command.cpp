@@ -12,7 +12,7 @@
 #include "tools/evaluation/run_score.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 #include "tools/evaluation/trajectory_plot.hpp"
-#include "tools/rds/exit.hpp"
+#include "tools/rds/cli/exit.hpp"
 
 namespace rds::tools {
 namespace {

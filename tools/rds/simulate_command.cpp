@@ -15,9 +15,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/rds/exit.hpp"
+#include "tools/rds/cli/exit.hpp"
 #include "tools/simulator/dataset_writer.hpp"
-#include "tools/simulator/lens.hpp"
+#include "tools/simulator/rendering/lens.hpp"
 
 namespace rds::tools {
 namespace {

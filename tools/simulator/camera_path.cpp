@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/rendering/random.hpp"
 
 namespace rds::simulator {
 namespace {

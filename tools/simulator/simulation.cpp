@@ -6,8 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "tools/simulator/room.hpp"
-#include "tools/simulator/silhouette.hpp"
+#include "tools/simulator/rendering/silhouette.hpp"
+#include "tools/simulator/world/room.hpp"
 
 namespace rds::simulator {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "common/geometry/box.hpp"
 #include "tools/simulator/camera_path.hpp"
-#include "tools/simulator/color_sensor.hpp"
-#include "tools/simulator/depth_sensor.hpp"
-#include "tools/simulator/person.hpp"
-#include "tools/simulator/renderer.hpp"
-#include "tools/simulator/scene.hpp"
-#include "tools/simulator/walk.hpp"
+#include "tools/simulator/people/person.hpp"
+#include "tools/simulator/people/walk.hpp"
+#include "tools/simulator/rendering/renderer.hpp"
+#include "tools/simulator/sensors/color_sensor.hpp"
+#include "tools/simulator/sensors/depth_sensor.hpp"
+#include "tools/simulator/world/scene.hpp"
 
 namespace rds::simulator {
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "services/detector/core/input_transform.hpp"
-#include "services/detector/core/label_names.hpp"
 #include "services/detector/core/non_maximum_suppression.hpp"
 
 namespace rds::detector {
@@ -56,7 +55,7 @@ Detector::Detector(const NetworkDescription& description, std::unique_ptr<Infere
       config_(config),
       backend_(std::move(backend)),
       decoder_(make_decoder(description)) {
-  for (std::string& label : description_.labels) label = canonical_label(label);
+  for (std::string& label : description_.labels) label = config_.labels.name_of(label);
   if (config_.score_threshold <= 0) config_.score_threshold = description_.score_threshold;
   check_outputs();
 }

@@ -15,6 +15,7 @@ void read(config::ConfigReader& reader, DetectorConfig& config) {
   reader.value("other_label_iou", config.other_label_iou, 0.0, 1.0);
   reader.value("max_boxes", config.max_boxes, 1, 10000);
   read(reader.section("depth"), config.depth);
+  labels::read(reader, config.labels);
 }
 
 }  // namespace rds::detector

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/config/config_reader.hpp"
+#include "common/labels/table.hpp"
 #include "services/detector/core/box_depth.hpp"
 
 namespace rds::detector {
@@ -19,6 +20,7 @@ struct DetectorConfig {
       0.85;  // of two boxes with different labels that overlap by more, the worse is dropped; 1: never
   int max_boxes = 100;  // per picture, the best
   BoxDepthConfig depth;
+  labels::Table labels;  // the one spelling of each label
 
   bool operator==(const DetectorConfig&) const = default;
 };

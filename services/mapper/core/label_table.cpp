@@ -3,22 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "common/labels/table.hpp"
 
 namespace rds::mapper {
 namespace {
-
-const std::map<std::string, Rgb>& known_colors() {
-  static const std::map<std::string, Rgb> kColors = {
-      {"person", {214, 39, 40}},        {"chair", {31, 119, 180}},        {"sofa", {148, 103, 189}},
-      {"couch", {148, 103, 189}},       {"diningtable", {255, 127, 14}},  {"dining table", {255, 127, 14}},
-      {"table", {255, 127, 14}},        {"tvmonitor", {23, 190, 207}},    {"tv", {23, 190, 207}},
-      {"monitor", {23, 190, 207}},      {"bottle", {44, 160, 44}},        {"pottedplant", {106, 191, 75}},
-      {"potted plant", {106, 191, 75}}, {"laptop", {227, 119, 194}},      {"keyboard", {188, 189, 34}},
-      {"book", {140, 86, 75}},          {"shelf", {140, 86, 75}},         {"box", {196, 156, 90}},
-      {"cup", {240, 200, 40}},          {"refrigerator", {90, 110, 200}}, {"sink", {0, 140, 140}}};
-  return kColors;
-}
 
 Rgb color_of_hue(double hue, double lightness) {
   const auto channel = [&](double shift) {
@@ -32,8 +21,8 @@ Rgb color_of_hue(double hue, double lightness) {
 
 Rgb label_color(const std::string& label) {
   if (label.empty()) return {255, 255, 255};
-  const auto known = known_colors().find(label);
-  if (known != known_colors().end()) return known->second;
+  static const labels::Table kTable;
+  if (const auto& color = kTable[label].color) return {(*color)[0], (*color)[1], (*color)[2]};
   std::uint32_t hash = 2166136261U;  // FNV-1a
   for (const char c : label) hash = (hash ^ static_cast<std::uint8_t>(c)) * 16777619U;
   return color_of_hue((hash % 97) / 97.0, 0.75 + 0.25 * ((hash >> 8 & 255) / 255.0));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/mapper_config.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -48,11 +47,6 @@ void read(ConfigReader& r, SegmentationConfig& c) {
 }
 
 void read(ConfigReader& r, ObjectConfig& c) {
-  r.value("class_radius_m", c.class_radius_m);
-  for (const auto& [label, radius] : c.class_radius_m)
-    if (!(radius > 0 && radius <= 10))
-      r.violation("class_radius_m." + label, fmt::format("{}", radius), "expected 0 … 10 m");
-  r.value("default_radius_m", c.default_radius_m, 0.01, 10.0, "m");
   r.value("min_observations", c.min_observations, 1, 100);
   r.value("min_score_sum", c.min_score_sum, 0.0, 100.0);
   r.value("flush_min_score", c.flush_min_score, 0.0, 1.0);
@@ -101,11 +95,11 @@ void read(ConfigReader& r, GridConfig& c) {
 }  // namespace
 
 bool MapperConfig::is_movable(const std::string& label) const {
-  return std::ranges::find(movable_labels, label) != movable_labels.end();
+  return objects.labels[label].movable;
 }
 
 void read(ConfigReader& reader, MapperConfig& config) {
-  reader.value("movable_labels", config.movable_labels);
+  labels::read(reader, config.objects.labels);
   read(reader.section("sampling"), config.sampling);
   read(reader.section("region"), config.region);
   read(reader.section("confirmation"), config.confirmation);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "common/config/config_reader.hpp"
+#include "common/labels/table.hpp"
 
 namespace rds::mapper {
 
@@ -58,9 +58,7 @@ struct SegmentationConfig {
 };
 
 struct ObjectConfig {
-  std::map<std::string, double> class_radius_m = {
-      {"bottle", 0.06}, {"chair", 0.5}, {"person", 0.35}, {"tvmonitor", 0.25}, {"tv", 0.25}};
-  double default_radius_m = 0.6;
+  labels::Table labels;          // radius within which two sightings are one object; what is movable is none
   int min_observations = 2;      // an object is reported from here on …
   double min_score_sum = 1.0;    // … if the detector was so sure of it in all
   double flush_min_score = 0.7;  // what does not stand out of its wall is an object from here on
@@ -109,7 +107,6 @@ struct GridConfig {
 };
 
 struct MapperConfig {
-  std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
   SamplingConfig sampling;
   RegionConfig region;
   ConfirmationConfig confirmation;

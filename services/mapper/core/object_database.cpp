@@ -80,8 +80,7 @@ void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& l
 
 bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const {
-  const auto known = config_.class_radius_m.find(label);
-  const double radius = known != config_.class_radius_m.end() ? known->second : config_.default_radius_m;
+  const double radius = config_.labels[label].radius_m;
   return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap || a.contains(b.center()) ||
          b.contains(a.center());
 }

@@ -28,7 +28,7 @@ std::optional<geometry::OrientedBox> box_in_map(const geometry::Box2& box, doubl
   geometry::OrientedBox result;
   result.map_from_box = map_from_camera * Eigen::Translation3d((top_left + bottom_right) / 2);
   result.size = bottom_right - top_left;
-  result.size.z() = thickness_m(config, label);
+  result.size.z() = config.labels[label].thickness_m;
   if (!geometry::is_valid(result)) return std::nullopt;
   return result;
 }

@@ -16,7 +16,7 @@
 #include "services/mapper/core/tree_bytes.hpp"
 #include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
-#include "tools/rds/map_picture.hpp"
+#include "tools/rds/picture/map_picture.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "tools/rds/doctor/dataset_check.hpp"
+#include "tools/rds/cli/exit.hpp"
+#include "tools/rds/doctor/checks/dataset_check.hpp"
 #include "tools/rds/doctor/host_check.hpp"
-#include "tools/rds/exit.hpp"
 
 namespace rds::doctor {
 namespace {

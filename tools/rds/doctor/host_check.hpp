@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
-#include "tools/rds/doctor/finding.hpp"
+#include "tools/rds/doctor/checks/finding.hpp"
 
 namespace rds::doctor {
 

@@ -9,11 +9,12 @@
 
 #include "common/concurrency/mailbox.hpp"
 #include "common/messages/conversions.hpp"
+#include "common/topics/endpoints.hpp"
 #include "rds_msgs/msg/TrackingState.h"
-#include "tools/rds/bus_options.hpp"
-#include "tools/rds/interrupt.hpp"
+#include "tools/rds/cli/bus_options.hpp"
+#include "tools/rds/cli/interrupt.hpp"
+#include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/play/player.hpp"
-#include "tools/rds/rate_option.hpp"
 
 namespace rds::play {
 namespace {
@@ -33,9 +34,9 @@ class Acknowledgements {
  public:
   explicit Acknowledgements(bus::Participant& bus)
       : stamps_(mailbox_, 1000),
-        subscription_(bus.subscribe<rds_msgs::msg::TrackingState>(
-            "rds/tracking_state", bus::kStream,
-            [this](const auto& m) { stamps_.push(messages::to_nanoseconds(m->header().stamp())); })) {}
+        subscription_(topics::subscribe(bus, topics::kTrackingState, topics::kPlayer, [this](const auto& m) {
+          stamps_.push(messages::to_nanoseconds(m->header().stamp()));
+        })) {}
 
   /// @return false if no acknowledgement of this frame or a later one came in time.
   bool wait(std::int64_t stamp_ns, const std::stop_token& stop) {

@@ -10,6 +10,7 @@
 #include "common/concurrency/mailbox.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
+#include "common/topics/endpoints.hpp"
 #include "tools/rds/play/decode_ahead.hpp"
 
 namespace rds::play {
@@ -45,10 +46,9 @@ void check_first_frame(const image::TumDataset& dataset, std::size_t start) {
 Player::Player(bus::Participant& bus, const image::TumDataset& dataset, const PlayerOptions& options)
     : dataset_(dataset),
       options_(options),
-      color_(bus.advertise<sensor_msgs::msg::Image>("camera/color/image_raw", bus::kSensor)),
-      camera_info_(bus.advertise<sensor_msgs::msg::CameraInfo>("camera/color/camera_info", bus::kSensor)),
-      depth_(
-          bus.advertise<sensor_msgs::msg::Image>("camera/aligned_depth_to_color/image_raw", bus::kSensor)) {}
+      color_(topics::advertise(bus, topics::kColor, topics::kPlayer)),
+      camera_info_(topics::advertise(bus, topics::kCameraInfo, topics::kPlayer)),
+      depth_(topics::advertise(bus, topics::kDepth, topics::kPlayer)) {}
 
 std::size_t Player::frame_count() const {
   const std::size_t all = dataset_.frames().size();

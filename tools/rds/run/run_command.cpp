@@ -11,11 +11,11 @@
 #include "common/config/config_reader.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/core/map_files.hpp"
-#include "tools/rds/interrupt.hpp"
-#include "tools/rds/rate_option.hpp"
-#include "tools/rds/run/run_options.hpp"
+#include "tools/rds/cli/interrupt.hpp"
+#include "tools/rds/cli/rate_option.hpp"
+#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/run/services/run_options.hpp"
 #include "tools/rds/run/session.hpp"
-#include "tools/rds/run/topology.hpp"
 
 namespace rds::run {
 namespace {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tools/rds/run/results.hpp"
-#include "tools/rds/run/service_commands.hpp"
-#include "tools/rds/run/topology.hpp"
+#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/run/results/results.hpp"
+#include "tools/rds/run/services/service_commands.hpp"
 
 namespace rds::run {
 namespace {

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "common/image/tum_dataset.hpp"
+#include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
-#include "tools/rds/run/commander.hpp"
-#include "tools/rds/run/domain_lock.hpp"
-#include "tools/rds/run/fleet.hpp"
-#include "tools/rds/run/output_folder.hpp"
-#include "tools/rds/run/overlay_writer.hpp"
-#include "tools/rds/run/recorder.hpp"
-#include "tools/rds/run/run_options.hpp"
+#include "tools/rds/run/output/output_folder.hpp"
+#include "tools/rds/run/results/overlay_writer.hpp"
+#include "tools/rds/run/results/recorder.hpp"
+#include "tools/rds/run/services/domain_lock.hpp"
+#include "tools/rds/run/services/fleet.hpp"
+#include "tools/rds/run/services/run_options.hpp"
 
 namespace rds::run {
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/secure/roles.hpp"
 
+#include "common/topics/table.hpp"
+#include "common/topics/topics.hpp"
+
 namespace rds::secure {
 namespace {
 
@@ -11,31 +14,29 @@ Topics operator+(Topics left, const Topics& right) {
   return left;
 }
 
-/// What every service says and reads: services trust each other's pictures and maps, but none writes for
-/// another.
-Role service(const std::string& name, const Topics& publishes, const Topics& reads_besides = {}) {
-  return {name, publishes + Topics{"rds/services", "rds/command_result", "diagnostics"},
-          Topics{"rds/*", "diagnostics"} + reads_besides};
+/// A service writes what the table of topics says, and reads all: services trust each other's pictures and
+/// maps, but none writes for another.
+Role service(const std::string& name, topics::Process process, const Topics& reads_besides = {}) {
+  return {name, topics::written_by(process), Topics{"rds/*", topics::kDiagnostics.name} + reads_besides};
 }
 
 }  // namespace
 
 std::vector<Role> roles(const Topics& camera_topics) {
+  const Topics diagnostics{topics::kDiagnostics.name};
+  const Topics poses{topics::kOdometry.name, topics::kTransforms.name, topics::kTrackingState.name};
   return {
-      service("tracker",
-              {"rds/odometry", "tf", "rds/tracking_state", "rds/predicted_boxes", "rds/features",
-               "rds/keyframe/images", "rds/keyframe/features", "rds/keyframe/poses"},
-              camera_topics),
-      service("detector", {"rds/detections"}),
-      service("transformer", {"rds/boxes"}, camera_topics),
-      service("mapper", {"rds/map/*"}),
-      service("loop-closer", {"rds/keyframe/poses"}),
-      {"operator", Topics{"rds/command"} + camera_topics,
-       Topics{"rds/*", "tf", "diagnostics"} + camera_topics},
+      service("tracker", topics::kTracker, camera_topics),
+      service("detector", topics::kDetector),
+      service("transformer", topics::kTransformer, camera_topics),
+      service("mapper", topics::kMapper),
+      service("loop-closer", topics::kLoopCloser),
+      {"operator", Topics{topics::kCommand.name} + camera_topics,
+       Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
       {"reader",
        {},
-       {"rds/map/*", "rds/odometry", "rds/tracking_state", "rds/boxes", "rds/services", "tf", "diagnostics"}},
-      {"player", camera_topics, {"rds/tracking_state"}},
+       Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
+      {"player", camera_topics, {topics::kTrackingState.name}},
       {"camera", camera_topics, {}},
   };
 }

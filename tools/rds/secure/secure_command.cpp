@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/rds/exit.hpp"
+#include "tools/rds/cli/exit.hpp"
 #include "tools/rds/secure/secure_folder.hpp"
 
 namespace rds::secure {

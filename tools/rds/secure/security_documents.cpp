@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/security.hpp"
+#include "common/topics/topics.hpp"
 
 namespace rds::secure {
 namespace {
@@ -17,10 +18,14 @@ std::string all_domains() {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else
+      result += c;
   }
   return result;
 }
@@ -32,7 +37,8 @@ std::string date(std::chrono::system_clock::time_point time) {
 
 /// Every participant takes part in ROS 2's graph.
 std::string topics(const std::string& element, const std::vector<std::string>& names) {
-  std::string text = "      <" + element + ">\n        <topics>\n          <topic>ros_discovery_info</topic>\n";
+  std::string text =
+      "      <" + element + ">\n        <topics>\n          <topic>ros_discovery_info</topic>\n";
   for (const std::string& name : names) text += "          <topic>rt/" + escaped(name) + "</topic>\n";
   return text + "        </topics>\n      </" + element + ">\n";
 }
@@ -54,7 +60,7 @@ std::string topic_rule(const std::string& expression, const std::string& metadat
 
 /// The first rule that fits holds.
 std::string topic_rules(std::vector<std::string> pictures) {
-  pictures.emplace_back("rds/keyframe/images");
+  pictures.emplace_back(topics::kKeyframeImages.name);
   std::string rules;
   for (const std::string& topic : pictures) rules += topic_rule("rt/" + topic, "NONE", "ENCRYPT");
   return rules + topic_rule("*", "ENCRYPT", "NONE");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/prediction/prediction_config.hpp"
 
-#include <algorithm>
 
 namespace rds::tracker::prediction {
 namespace {
@@ -40,7 +39,6 @@ void read(config::ConfigReader& reader, RegionConfig& config) {
 
 void read(config::ConfigReader& reader, PredictionConfig& config) {
   reader.choice("algorithm", config.algorithm, {"paper", "kalman3d"});
-  reader.value("movable_labels", config.movable_labels);
   reader.value("min_score", config.min_score, 0.0, 1.0);
   reader.value("reach_share", config.reach_share, 0.0, 1.0);
   reader.value("duplicate_overlap", config.duplicate_overlap, 0.01, 1.0);
@@ -53,7 +51,7 @@ void read(config::ConfigReader& reader, PredictionConfig& config) {
 }
 
 bool is_movable(const PredictionConfig& config, std::string_view label) {
-  return std::ranges::find(config.movable_labels, label) != config.movable_labels.end();
+  return config.labels[label].movable;
 }
 
 }  // namespace rds::tracker::prediction

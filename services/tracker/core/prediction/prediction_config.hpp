@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/config_reader.hpp"
+#include "common/labels/table.hpp"
 
 namespace rds::tracker::prediction {
 
@@ -50,7 +51,7 @@ struct RegionConfig {
 
 struct PredictionConfig {
   std::string algorithm = "kalman3d";  // or "paper"
-  std::vector<std::string> movable_labels = {"person", "cat", "dog", "bird", "horse", "sheep", "cow"};
+  labels::Table labels;            // which of them are movable
   double min_score = 0.35;         // detections with less are ignored
   double duplicate_overlap = 0.7;  // share of the smaller box: two boxes of one object
   double doubtful_share = 0.9;     // a box of more of the picture than this …

@@ -30,7 +30,7 @@ class MapCommandsTest : public ::testing::Test {
   void load(const std::string& name) {
     commands->load(command("load", name),
                    [this](const map_file::Folder& map, const map_file::FileLimits& limits)
-                       -> tl::expected<MapCommands::TakeOver, std::string> {
+                       -> tl::expected<MapCommands::Completion, std::string> {
                      if (block.valid()) block.wait();
                      const auto saved = map_file::read_saved_map(map, {"mapper"}, limits);
                      if (!saved) return tl::unexpected(saved.error());
@@ -130,7 +130,7 @@ TEST_F(MapCommandsTest, WhileADiskHangsTheWorkerGoesOnAndAnswersInTime) {
 TEST_F(MapCommandsTest, AnExceptionIsAnAnswer) {
   std::filesystem::create_directories(maps / "kitchen");
   commands->load(command("load", "kitchen"),
-                 [](const auto&, const auto&) -> tl::expected<MapCommands::TakeOver, std::string> {
+                 [](const auto&, const auto&) -> tl::expected<MapCommands::Completion, std::string> {
                    throw std::runtime_error("spoiled");
                  });
   work(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/service/election.hpp"
+#include "common/service/peers/election.hpp"
 
 #include <vector>
 

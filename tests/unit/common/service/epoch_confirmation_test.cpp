@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/service/epoch_confirmation.hpp"
+#include "common/service/peers/epoch_confirmation.hpp"
 
 #include <gtest/gtest.h>
 

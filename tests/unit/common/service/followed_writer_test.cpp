@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "common/service/peers.hpp"
+#include "common/service/peers/peers.hpp"
+#include "common/topics/topics.hpp"
 
 namespace rds::service {
 namespace {
@@ -34,7 +35,7 @@ class Followed : public ::testing::Test {
 
   std::unique_ptr<bus::Participant> services_ = join("services");
   bus::Publisher<ServiceStatus> publisher_ =
-      services_->advertise<ServiceStatus>(kServicesTopic, bus::kLatchedEvery);
+      services_->advertise<ServiceStatus>(topics::kServiceStatus.name, bus::kLatchedEvery);
   std::unique_ptr<bus::Participant> reader_ = join("reader");
   Peers seen_{*reader_};
   FollowedWriter followed_{*reader_};

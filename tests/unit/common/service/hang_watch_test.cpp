@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/service/hang_watch.hpp"
+#include "common/service/process/hang_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/service/instance_owners.hpp"
+#include "common/service/peers/instance_owners.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/service/printable.hpp"
+#include "common/service/process/printable.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "common/service/stop_signals.hpp"
+#include "common/service/process/stop_signals.hpp"
 
 namespace rds::service {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/frame_pairer.hpp"
+#include "services/tracker/input/frame_pairer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/pose_file.hpp"
+#include "services/tracker/input/pose_file.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/run/fleet.hpp"
+#include "tools/rds/run/services/fleet.hpp"
 
 #include <csignal>
 #include <thread>

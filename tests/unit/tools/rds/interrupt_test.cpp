@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/interrupt.hpp"
+#include "tools/rds/cli/interrupt.hpp"
 
 #include <csignal>
 #include <cstdlib>

@@ -10,9 +10,9 @@
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/tree_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/live_map.hpp"
-#include "tools/rds/map_command.hpp"
-#include "tools/rds/topic_reader.hpp"
+#include "tools/rds/map/live_map.hpp"
+#include "tools/rds/map/map_command.hpp"
+#include "tools/rds/topic/topic_reader.hpp"
 
 namespace rds::tools {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/map_diff.hpp"
+#include "tools/rds/map/map_diff.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include "services/mapper/core/map_files.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/map_command.hpp"
-#include "tools/rds/map_export.hpp"
+#include "tools/rds/map/map_command.hpp"
+#include "tools/rds/map/map_export.hpp"
 
 namespace rds::tools {
 namespace {

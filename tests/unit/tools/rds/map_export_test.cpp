@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/map_export.hpp"
+#include "tools/rds/map/map_export.hpp"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/map_picture.hpp"
+#include "tools/rds/picture/map_picture.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/run/output_folder.hpp"
+#include "tools/rds/run/output/output_folder.hpp"
 
 #include <gtest/gtest.h>
 

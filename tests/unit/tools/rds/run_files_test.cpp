@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/run/run_files.hpp"
+#include "tools/rds/run/results/run_files.hpp"
 
 #include <gmock/gmock.h>
 
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/run/mjpeg_avi.hpp"
-#include "tools/rds/run/result_file.hpp"
+#include "tools/rds/run/output/result_file.hpp"
+#include "tools/rds/run/results/mjpeg_avi.hpp"
 
 namespace rds::run {
 namespace {

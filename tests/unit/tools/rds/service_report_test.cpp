@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/service_report.hpp"
+#include "tools/rds/status/service_report.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/topic_report.hpp"
+#include "tools/rds/topic/topic_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/gait.hpp"
+#include "tools/simulator/people/gait.hpp"
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/lens.hpp"
+#include "tools/simulator/rendering/lens.hpp"
 
 #include <stdexcept>
 

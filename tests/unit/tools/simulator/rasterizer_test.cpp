@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/rasterizer.hpp"
+#include "tools/simulator/rendering/rasterizer.hpp"
 
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "tools/simulator/silhouette.hpp"
+#include "tools/simulator/rendering/silhouette.hpp"
 
 namespace rds::simulator {
 namespace {

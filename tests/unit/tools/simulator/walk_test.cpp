@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/walk.hpp"
+#include "tools/simulator/people/walk.hpp"
 
 #include <gtest/gtest.h>
 

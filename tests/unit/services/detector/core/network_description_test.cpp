@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "services/detector/core/label_names.hpp"
 
 namespace rds::detector {
 namespace {
@@ -69,17 +68,6 @@ TEST(NetworkDescription, RejectsWhatCannotBe) {
   EXPECT_THAT(with("decoder", "{kind: ssd, cells: [19], min_sizes: [60, 70]}"), HasSubstr("decoder.cells"));
   EXPECT_THAT(with("decoder", "{kind: magic}"), HasSubstr("decoder.kind"));
   EXPECT_THAT(with("typo", "1"), HasSubstr("typo: unknown key"));
-}
-
-TEST(CanonicalLabel, IsVocsSpellingOfWhatVocAndCocoShare) {
-  EXPECT_EQ(canonical_label("tv"), "tvmonitor");
-  EXPECT_EQ(canonical_label("couch"), "sofa");
-  EXPECT_EQ(canonical_label("potted plant"), "pottedplant");
-  EXPECT_EQ(canonical_label("dining table"), "diningtable");
-  EXPECT_EQ(canonical_label("motorcycle"), "motorbike");
-  EXPECT_EQ(canonical_label("airplane"), "aeroplane");
-  EXPECT_EQ(canonical_label("person"), "person");
-  EXPECT_EQ(canonical_label("teddy bear"), "teddy bear");
 }
 
 }  // namespace

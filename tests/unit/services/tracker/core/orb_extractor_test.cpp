@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker {
@@ -52,7 +52,7 @@ TEST(OrbExtractor, GivesTheSameBytesWhateverTheNumberOfThreads) {
 }
 
 TEST(OrbExtractor, GivesTheSameBytesWithAHelper) {
-  concurrency::HelperThread helper;
+  concurrency::ParallelFor helper;
   OrbExtractor helped(ExtractionConfig{},
                       [&](std::size_t count, const auto& part) { helper.run(count, part); });
   const auto left = [](const Eigen::Vector2f& px) { return px.x() < 120; };

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/concurrency/helper_thread.hpp"
+#include "common/concurrency/parallel_for.hpp"
 #include "services/tracker/core/map_building.hpp"
 #include "services/tracker/core/orb_extractor.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
@@ -97,7 +97,7 @@ TEST_F(PointFollowing, CorrectsAPoseThatIsTwoPixelsOff) {
 }
 
 TEST_F(PointFollowing, FindsTheSameWithAHelper) {
-  concurrency::HelperThread helper;
+  concurrency::ParallelFor helper;
   const auto with_helper = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   const MovableMask movable = test::mask_of({50, 60, 80, 140});
   for (const int points : {0, 30, 130, 400}) {

@@ -41,8 +41,7 @@ TEST(BoxTransform, PutsTheTwoCornerPointsIntoTheMiddlePlaneOfTheBox) {
 
 TEST(BoxTransform, GivesTheThicknessOfTheLabelOrTheDefault) {
   TransformerConfig config;
-  config.thickness_m = {{"dog", 0.33}};
-  config.default_thickness_m = 0.44;
+  config.labels = labels::Table({{"dog", {.thickness_m = 0.33}}}, {.thickness_m = 0.44});
   EXPECT_EQ(box_in_map({0, 0, 9, 9}, 1, "dog", tilted(), pinhole(), config)->size.z(), 0.33);
   EXPECT_EQ(box_in_map({0, 0, 9, 9}, 1, "cat", tilted(), pinhole(), config)->size.z(), 0.44);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/camera_check.hpp"
+#include "tools/rds/doctor/checks/camera_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

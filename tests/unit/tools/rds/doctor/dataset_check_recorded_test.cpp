@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/shared_data.hpp"
-#include "tools/rds/doctor/dataset_check.hpp"
+#include "tools/rds/doctor/checks/dataset_check.hpp"
 
 namespace rds::doctor {
 namespace {

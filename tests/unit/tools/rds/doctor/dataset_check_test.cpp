@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/dataset_check.hpp"
+#include "tools/rds/doctor/checks/dataset_check.hpp"
 
 #include <algorithm>
 #include <cmath>

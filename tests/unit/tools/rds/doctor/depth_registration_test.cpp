@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/depth_registration.hpp"
+#include "tools/rds/doctor/registration/depth_registration.hpp"
 
 #include <cstdint>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/finding.hpp"
+#include "tools/rds/doctor/checks/finding.hpp"
 
 #include <gtest/gtest.h>
 

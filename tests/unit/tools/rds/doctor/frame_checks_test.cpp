@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/rds/doctor/color_checks.hpp"
-#include "tools/rds/doctor/depth_checks.hpp"
+#include "tools/rds/doctor/checks/color_checks.hpp"
+#include "tools/rds/doctor/checks/depth_checks.hpp"
 
 namespace rds::doctor {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/frame_look.hpp"
+#include "tools/rds/doctor/checks/frame_look.hpp"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/list_checks.hpp"
+#include "tools/rds/doctor/checks/list_checks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -103,7 +103,7 @@ TEST_P(ObjectPredictorOf, RefusesDetectionsThatAreNotNewer) {
 TEST_P(ObjectPredictorOf, MarksOnlyConfiguredLabelsAsMovable) {
   PredictionConfig config;
   config.algorithm = GetParam();
-  config.movable_labels = {"robot"};
+  config.labels = labels::Table({{"robot", {.movable = true}}});
   ObjectPredictor p(config);
   p.update(nanoseconds(1), std::vector{person_at(-0.5), person_at(0.5, "robot")});
   const auto objects = p.predict(nanoseconds(1));

@@ -11,15 +11,15 @@ using ::testing::HasSubstr;
 
 TEST(PredictionConfig, ReadsWhatIsGivenAndKeepsTheOtherDefaults) {
   config::ConfigReader reader(
-      YAML::Load("{algorithm: paper, movable_labels: [dog, robot], paper: {max_age_s: 2.0}}"), "test.yaml");
+      YAML::Load("{algorithm: paper, paper: {max_age_s: 2.0}}"), "test.yaml");
   PredictionConfig config;
   read(reader, config);
   reader.finish();
   EXPECT_EQ(config.algorithm, "paper");
   EXPECT_EQ(config.paper.max_age_s, 2);
   EXPECT_EQ(config.kalman3d.max_age_s, Kalman3dConfig().max_age_s);
-  EXPECT_TRUE(is_movable(config, "robot"));
-  EXPECT_FALSE(is_movable(config, "person"));
+  EXPECT_TRUE(is_movable(config, "person"));
+  EXPECT_FALSE(is_movable(config, "chair"));
 }
 
 TEST(PredictionConfig, NamesEveryViolation) {

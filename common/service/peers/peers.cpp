@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/service/peers/peers.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/topics/topics.hpp"
+
+namespace rds::service {
+namespace {
+
+using rds_msgs::msg::ServiceStatus;
+namespace Role = rds_msgs::msg::ServiceStatus_Constants;
+
+constexpr std::size_t kMaxPeers = 256;
+
+}  // namespace
+
+Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qos& qos)
+    : changed_(std::move(changed)),
+      subscription_(
+          bus.subscribe<ServiceStatus>(topics::kServiceStatus.name, qos, [this](const auto& status, const auto& writer) {
+            if (owners_.owns(writer, status->instance())) take(*status);
+          })) {}
+
+void Peers::take(const ServiceStatus& status) {
+  bool changed = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = peers_.find(status.instance());
+    if (known == peers_.end()) forget_silent();
+    if (known == peers_.end() && peers_.size() >= kMaxPeers) return;
+    changed = known == peers_.end() || known->second.status.role() != status.role();
+    peers_[status.instance()] = {status, Clock::now()};
+  }
+  if (changed && changed_) changed_();
+}
+
+void Peers::forget_silent() {
+  const auto now = Clock::now();
+  std::erase_if(peers_, [&](const auto& entry) { return now - entry.second.heard > kGoneAfter; });
+}
+
+bool Peers::is_there(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  const auto peer = peers_.find(instance);
+  return peer != peers_.end() && peer->second.status.role() == Role::ACTIVE &&
+         Clock::now() - peer->second.heard <= kGoneAfter;
+}
+
+std::optional<Peers::Clock::duration> Peers::silent_for(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  const auto peer = peers_.find(instance);
+  return peer == peers_.end() ? std::nullopt : std::optional(Clock::now() - peer->second.heard);
+}
+
+bool Peers::has_left(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  const auto peer = peers_.find(instance);
+  return peer != peers_.end() && peer->second.status.role() != Role::ACTIVE;
+}
+
+std::vector<Peer> Peers::present() const {
+  std::vector<Peer> present;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    for (const auto& [instance, peer] : peers_)
+      if (peer.status.role() != Role::STOPPED && now - peer.heard <= kGoneAfter) present.push_back(peer);
+  }
+  std::ranges::sort(present, {},
+                    [](const Peer& p) { return std::pair(p.status.service(), p.status.instance()); });
+  return present;
+}
+
+bool FollowedWriter::accept(std::uint64_t instance, bool same_map) {
+  if (follows_ && instance != followed_ && !same_map && !is_gone(instance)) return false;
+  follows_ = true;
+  followed_ = instance;
+  last_used_ = Peers::Clock::now();
+  return true;
+}
+
+/// Who tells no status is gone when it writes no more, or when a service comes that does.
+bool FollowedWriter::is_gone(std::uint64_t newcomer) const {
+  if (peers_.has_left(followed_)) return true;
+  const auto told = peers_.silent_for(followed_);
+  const bool service_comes = peers_.is_there(newcomer);
+  if (!told && service_comes) return true;
+  const auto silent = told.value_or(Peers::Clock::now() - last_used_);
+  return silent > Peers::kGoneAfter || (service_comes && silent > Peers::kReplacedAfter);
+}
+
+}  // namespace rds::service

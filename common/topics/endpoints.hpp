@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <type_traits>
+
+#include "common/bus/participant.hpp"
+#include "common/topics/topics.hpp"
+
+namespace rds::topics {
+
+/// Writes a topic as this process does. @throws bus::BusError; std::logic_error if it is no writer of it.
+template <class Message>
+bus::Publisher<Message> advertise(bus::Participant& bus, const Topic<Message>& topic, Process process) {
+  return bus.advertise<Message>(topic.name, qos_of(process, topic.writers, topic.name));
+}
+
+/// Reads a topic as this process does. @throws bus::BusError; std::logic_error if it is no reader of it.
+template <class Message>
+bus::Subscription subscribe(
+    bus::Participant& bus, const Topic<Message>& topic, Process process,
+    std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
+  return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
+}
+
+/// For readers that ask who wrote a message.
+template <class Message>
+bus::Subscription subscribe(
+    bus::Participant& bus, const Topic<Message>& topic, Process process,
+    std::type_identity_t<std::function<void(std::shared_ptr<const Message>, const bus::ParticipantId&)>>
+        callback) {
+  return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
+}
+
+}  // namespace rds::topics

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tuple>
+
+#include "common/topics/topic.hpp"
+
+namespace diagnostic_msgs::msg {
+class DiagnosticArray;
+}
+namespace nav_msgs::msg {
+class OccupancyGrid;
+class Odometry;
+}  // namespace nav_msgs::msg
+namespace octomap_msgs::msg {
+class Octomap;
+}
+namespace rds_msgs::msg {
+class Command;
+class CommandResult;
+class FrameFeatures;
+class KeyFrameFeatures;
+class KeyFrameImages;
+class KeyFramePoses;
+class MapInfo;
+class OctreeDelta;
+class PredictedBoxes;
+class ServiceStatus;
+class TrackingState;
+}  // namespace rds_msgs::msg
+namespace sensor_msgs::msg {
+class CameraInfo;
+class Image;
+class PointCloud2;
+}  // namespace sensor_msgs::msg
+namespace tf2_msgs::msg {
+class TFMessage;
+}
+namespace vision_msgs::msg {
+class Detection2DArray;
+class Detection3DArray;
+}  // namespace vision_msgs::msg
+namespace visualization_msgs::msg {
+class MarkerArray;
+}
+
+/// The table of topics: every endpoint of this project comes from here, and so do the links that `rds run`
+/// waits for and the permissions of `rds secure`. Tests compare the READMEs with it.
+namespace rds::topics {
+
+// The camera. Names where the settings say no others (tracker: camera, transformer: camera_info_topic).
+inline constexpr Topic<sensor_msgs::msg::Image> kColor{
+    "camera/color/image_raw", {{kPlayer, bus::kSensor}}, {{kTracker, bus::kSensor}}};
+inline constexpr Topic<sensor_msgs::msg::CameraInfo> kCameraInfo{
+    "camera/color/camera_info", {{kPlayer, bus::kSensor}}, {{kTracker | kTransformer, bus::kSensor}}};
+inline constexpr Topic<sensor_msgs::msg::Image> kDepth{
+    "camera/aligned_depth_to_color/image_raw", {{kPlayer, bus::kSensor}}, {{kTracker, bus::kSensor}}};
+
+// Each frame.
+inline constexpr Topic<nav_msgs::msg::Odometry> kOdometry{"rds/odometry", {{kTracker, bus::kStream}}, {}};
+inline constexpr Topic<tf2_msgs::msg::TFMessage> kTransforms{"tf", {{kTracker, bus::kTransform}}, {}};
+inline constexpr Topic<rds_msgs::msg::TrackingState> kTrackingState{
+    "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+inline constexpr Topic<rds_msgs::msg::PredictedBoxes> kPredictedBoxes{
+    "rds/predicted_boxes", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+inline constexpr Topic<rds_msgs::msg::FrameFeatures> kFeatures{
+    "rds/features", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+
+// Each keyframe.
+inline constexpr Topic<rds_msgs::msg::KeyFrameImages> kKeyframeImages{
+    "rds/keyframe/images", {{kTracker, bus::kKeyframeImages}}, {{kDetector | kMapper, bus::kKeyframeImages}}};
+inline constexpr Topic<rds_msgs::msg::KeyFrameFeatures> kKeyframeFeatures{
+    "rds/keyframe/features", {{kTracker, bus::kKeyframeFeatures}}, {{kLoopCloser, bus::kKeyframeFeatures}}};
+inline constexpr Topic<rds_msgs::msg::KeyFramePoses> kKeyframePoses{
+    "rds/keyframe/poses",
+    {{kTracker, bus::kPoses}, {kLoopCloser, bus::kLatched}},
+    {{kTracker | kTransformer | kMapper | kPlayer, bus::kLatchedEvery}}};
+inline constexpr Topic<vision_msgs::msg::Detection2DArray> kDetections{
+    "rds/detections", {{kDetector, bus::kStream}}, {{kTransformer | kPlayer, bus::kStream}}};
+inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
+    "rds/boxes",
+    {{kTransformer, bus::kBoxes}},
+    {{kTracker, bus::kStream}, {kMapper, bus::kBoxes}}};  // old boxes are of no use to a tracker
+
+// The map.
+inline constexpr Topic<rds_msgs::msg::OctreeDelta> kMapDelta{"rds/map/delta", {{kMapper, bus::kDelta}}, {}};
+inline constexpr Topic<octomap_msgs::msg::Octomap> kMapFull{
+    "rds/map/full", {{kMapper, bus::kLatched}}, {{kTool, bus::kLatched}}};
+inline constexpr Topic<octomap_msgs::msg::Octomap> kMapBinary{
+    "rds/map/binary", {{kMapper, bus::kLatched}}, {}};
+inline constexpr Topic<sensor_msgs::msg::PointCloud2> kMapPoints{
+    "rds/map/points", {{kMapper, bus::kLatched}}, {}};
+inline constexpr Topic<rds_msgs::msg::MapInfo> kMapInfo{
+    "rds/map/info", {{kMapper, bus::kLatchedEvery}}, {{kPlayer | kTool, bus::kLatched}}};
+inline constexpr Topic<vision_msgs::msg::Detection3DArray> kMapObjects{
+    "rds/map/objects", {{kMapper, bus::kLatched}}, {}};
+inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
+    "rds/map/markers", {{kMapper, bus::kLatched}}, {}};
+inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{"rds/map/grid", {{kMapper, bus::kLatched}}, {}};
+
+// Every service.
+inline constexpr Topic<rds_msgs::msg::Command> kCommand{
+    "rds/command", {{kPlayer | kTool, bus::kCommand}}, {{kServices, bus::kCommand}}};
+inline constexpr Topic<rds_msgs::msg::CommandResult> kCommandResult{
+    "rds/command_result", {{kServices, bus::kCommand}}, {{kPlayer | kTool, bus::kCommand}}};
+inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
+    "rds/services",
+    {{kServices, bus::kLatched}},
+    {{kServices | kPlayer, bus::kLatchedEvery}, {kTool, bus::kStream}}};  // rds status: what is said now
+inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
+    "diagnostics", {{kServices, bus::kStream}}, {}};
+
+inline constexpr std::tuple kAllTopics{
+    kColor,         kCameraInfo,     kDepth,         kOdometry,       kTransforms,
+    kTrackingState, kPredictedBoxes, kFeatures,      kKeyframeImages, kKeyframeFeatures,
+    kKeyframePoses, kDetections,     kBoxes,         kMapDelta,       kMapFull,
+    kMapBinary,     kMapPoints,      kMapInfo,       kMapObjects,     kMapMarkers,
+    kMapGrid,       kCommand,        kCommandResult, kServiceStatus,  kDiagnostics};
+
+}  // namespace rds::topics

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/keyframe_answers.hpp"
+
+#include "common/messages/conversions.hpp"
+#include "common/topics/topics.hpp"
+
+namespace rds::tracker {
+namespace {
+constexpr std::size_t kMaxAnswers = 100;
+}
+
+KeyframeAnswers::KeyframeAnswers(service::ServiceContext& context, concurrency::Mailbox& mailbox,
+                                 const LockstepConfig& lockstep)
+    : diagnostics_(context.diagnostics),
+      loop_closer_(context.bus),
+      lockstep_(lockstep),
+      boxes_inbox_(mailbox, kMaxAnswers),
+      poses_inbox_(mailbox, kMaxAnswers),
+      mapping_inbox_(mailbox, 2) {}
+
+bool KeyframeAnswers::locked_ready() const {
+  return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+}
+
+void KeyframeAnswers::sort_in(std::uint64_t map_epoch) {
+  while (auto boxes = boxes_inbox_.try_pop()) {
+    const auto stamp = static_cast<std::uint64_t>(messages::to_nanoseconds((*boxes)->header().stamp()));
+    if (!boxes_.arrive(stamp, std::move(*boxes)))
+      diagnostics_.reject(topics::kBoxes.name, service::Rejection::kUnexpected,
+                          "their keyframe waits for none");
+  }
+  while (auto poses = poses_inbox_.try_pop()) {
+    const std::uint64_t answered = (*poses)->answered_keyframe_id();
+    if ((*poses)->map_epoch() != map_epoch)
+      diagnostics_.reject(topics::kKeyframePoses.name, service::Rejection::kOutdated, "another map epoch");
+    else if (!loop_closer_.accept((*poses)->instance(), false))
+      diagnostics_.reject(topics::kKeyframePoses.name, service::Rejection::kForeign, "another loop closer");
+    else
+      poses_.arrive_through(answered, *poses);
+  }
+  while (auto result = mapping_inbox_.try_pop()) {
+    const std::uint64_t keyframe = result->keyframe;
+    mappings_.arrive(keyframe, std::move(*result));
+  }
+}
+
+void KeyframeAnswers::ask_for_boxes(std::int64_t stamp_ns, const KeyframeSnapshot& snapshot,
+                                    std::uint64_t frame) {
+  boxes_.ask(static_cast<std::uint64_t>(stamp_ns), frame + lockstep_.detection_latency_frames);
+  snapshots_.insert_or_assign(stamp_ns, snapshot);
+  while (snapshots_.size() > kMaxAnswers) snapshots_.erase(snapshots_.begin());
+}
+
+void KeyframeAnswers::ask_for_poses(std::uint64_t keyframe, std::uint64_t frame) {
+  poses_.ask(keyframe, frame + lockstep_.loop_latency_frames);
+}
+
+void KeyframeAnswers::ask_for_mapping(std::uint64_t keyframe, std::uint64_t frame) {
+  mappings_.ask(keyframe, frame + lockstep_.mapping_latency_frames);
+}
+
+bool KeyframeAnswers::complete(std::uint64_t frame) const {
+  return boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame);
+}
+
+bool KeyframeAnswers::empty() const {
+  return boxes_.empty() && poses_.empty() && mappings_.empty();
+}
+
+std::optional<KeyframeSnapshot> KeyframeAnswers::take_snapshot(std::int64_t stamp_ns) {
+  const auto snapshot = snapshots_.extract(stamp_ns);
+  return snapshot ? std::optional(snapshot.mapped()) : std::nullopt;
+}
+
+void KeyframeAnswers::forget_boxes() {
+  boxes_.clear();
+  snapshots_.clear();
+}
+
+void KeyframeAnswers::clear() {
+  forget_boxes();
+  poses_.clear();
+  mappings_.clear();
+}
+
+}  // namespace rds::tracker

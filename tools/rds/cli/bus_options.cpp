@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/cli/bus_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace rds {
+
+void add_bus_options(CLI::App& command, BusOptions& options) {
+  command.add_option("--bus", options.vendor, "fastdds or cyclonedds")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds"}))
+      ->capture_default_str();
+  command.add_option("--domain", options.domain, "DDS domain (default: ROS_DOMAIN_ID or 0)")
+      ->envname("ROS_DOMAIN_ID")
+      ->check(CLI::Range(0, 232));
+  command.add_flag("--loopback", options.loopback_only, "this machine only");
+  add_secure_options(command, options.secure);
+}
+
+}  // namespace rds

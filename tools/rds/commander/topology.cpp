@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/commander/topology.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "common/topics/table.hpp"
+#include "common/topics/topics.hpp"
+
+namespace rds::run {
+namespace {
+
+/// A process and the name it reports under.
+struct Member {
+  topics::Process process;
+  const std::string& name;
+};
+
+const std::array<Member, 6>& members() {
+  static const std::array<Member, 6> kMembers{{{topics::kPlayer, kPlayer},
+                                               {topics::kTracker, kTracker},
+                                               {topics::kDetector, kDetector},
+                                               {topics::kTransformer, kTransformer},
+                                               {topics::kMapper, kMapper},
+                                               {topics::kLoopCloser, kLoopCloser}}};
+  return kMembers;
+}
+
+/// Names of processes that write a topic, or read it.
+struct Link {
+  std::string topic;
+  std::set<std::string> writers;
+  std::set<std::string> readers;
+};
+
+std::vector<Link> links() {
+  std::vector<Link> links;
+  for (const topics::Row& row : topics::table()) {
+    if (row.name == topics::kServiceStatus.name) continue;  // said every second: nothing is lost
+    Link& link = links.emplace_back(row.name);
+    for (const auto& [process, name] : members()) {
+      if (row.is_written_by(process)) link.writers.insert(name);
+      if (row.is_read_by(process)) link.readers.insert(name);
+    }
+  }
+  return links;
+}
+
+std::size_t count_running(const std::set<std::string>& processes, const std::set<std::string>& running) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(processes, [&](const std::string& name) { return running.contains(name); }));
+}
+
+}  // namespace
+
+std::string part_of(const std::string& service) {
+  std::string part = service.substr(std::string("rds-").size());
+  std::ranges::replace(part, '-', '_');
+  return part;
+}
+
+std::vector<std::string> missing_links(const std::set<std::string>& running,
+                                       const std::map<std::string, std::vector<Endpoint>>& endpoints,
+                                       bool localize_only) {
+  std::vector<std::string> missing;
+  const auto check = [&](const std::string& process, const Link& link, bool publisher) {
+    const auto reported = endpoints.find(process);
+    if (!running.contains(process)) return;
+    if (reported == endpoints.end()) {
+      if (std::ranges::find(missing, process + " does not answer") == missing.end())
+        missing.push_back(process + " does not answer");
+      return;
+    }
+    const std::size_t expected = count_running(publisher ? link.readers : link.writers, running);
+    const auto endpoint = std::ranges::find_if(reported->second, [&](const Endpoint& e) {
+      return e.topic == link.topic && e.publisher == publisher;
+    });
+    const int matched = endpoint == reported->second.end() ? 0 : endpoint->matched;
+    if (matched < static_cast<int>(expected))
+      missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads",
+                                    link.topic, matched, expected, publisher ? "readers" : "writers"));
+  };
+  static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kKeyframeFeatures.name,
+                                             topics::kBoxes.name};
+  for (Link& link : links()) {
+    if (localize_only && kMapped.contains(link.topic))
+      std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
+    for (const std::string& writer : link.writers) check(writer, link, true);
+    for (const std::string& reader : link.readers) check(reader, link, false);
+  }
+  return missing;
+}
+
+}  // namespace rds::run

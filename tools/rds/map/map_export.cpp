@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/map/map_export.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "common/map_file/atomic_file.hpp"
+#include "services/mapper/core/gravity.hpp"
+#include "services/mapper/core/label_table.hpp"
+#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/tree_bytes.hpp"
+
+namespace rds::tools {
+namespace {
+using octomap::ColorOcTree;
+using octomap::ColorOcTreeNode;
+using Result = tl::expected<void, std::string>;
+
+bool is_occupied(const ColorOcTreeNode& node) {
+  return node.getLogOdds() > 0;
+}
+
+/// True if the tree has a voxel for the point; false for NaN.
+bool is_inside(const ColorOcTree& tree, const Eigen::Vector3d& point) {
+  constexpr double kHalfWidthVoxels = 32767;  // 16 levels, and one voxel for rounding
+  return (point.array().abs() <= kHalfWidthVoxels * tree.getResolution()).all();
+}
+
+/// Voxels at the finest resolution inside a leaf.
+double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf) {
+  const double side = 1U << (tree.getTreeDepth() - leaf.getDepth());
+  return side * side * side;
+}
+
+template <class Value>
+void append(std::string& bytes, Value value) {
+  std::array<char, sizeof(Value)> raw;
+  std::memcpy(raw.data(), &value, sizeof(Value));
+  bytes.append(raw.data(), raw.size());
+}
+
+struct Points {
+  std::string bytes;
+  std::size_t count = 0;
+};
+
+/// Centres of occupied leaves as three floats, each followed by what `append_color` writes.
+template <class AppendColor>
+Points occupied_points(const ColorOcTree& tree, AppendColor append_color) {
+  Points points;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    if (!is_occupied(*leaf)) continue;
+    for (const double coordinate : {leaf.getX(), leaf.getY(), leaf.getZ()})
+      append(points.bytes, static_cast<float>(coordinate));
+    append_color(points.bytes, leaf->getColor());
+    ++points.count;
+  }
+  return points;
+}
+
+std::string to_ply(const ColorOcTree& tree) {
+  const Points points = occupied_points(tree, [](std::string& bytes, const ColorOcTreeNode::Color& color) {
+    for (const std::uint8_t channel : {color.r, color.g, color.b}) append(bytes, channel);
+  });
+  return fmt::format(
+             "ply\nformat binary_little_endian 1.0\ncomment occupied voxels of {} m\nelement vertex {}\n"
+             "property float x\nproperty float y\nproperty float z\n"
+             "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+             tree.getResolution(), points.count) +
+         points.bytes;
+}
+
+std::string to_pcd(const ColorOcTree& tree) {
+  const Points points = occupied_points(tree, [](std::string& bytes, const ColorOcTreeNode::Color& color) {
+    append(bytes, static_cast<std::uint32_t>(color.r << 16 | color.g << 8 | color.b));
+  });
+  return fmt::format(
+             "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
+             "{0}\n"
+             "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+             points.count) +
+         points.bytes;
+}
+
+/// Nodes of the tree that binary bytes describe: the root, and two bits that are not 0 for every other.
+std::size_t count_nodes(std::span<const std::uint8_t> bytes) {
+  std::size_t nodes = bytes.empty() ? 0 : 1;
+  for (const std::uint8_t byte : bytes)
+    for (int shift = 0; shift < 8; shift += 2) nodes += (byte >> shift & 3) != 0 ? 1U : 0U;
+  return nodes;
+}
+
+std::string to_bt(const ColorOcTree& tree) {
+  std::ostringstream out;  // the header that octomap::AbstractOccupancyOcTree::writeBinary makes
+  const auto nodes = mapper::to_binary_bytes(tree);
+  out << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line as "
+         "it is!)\n#\n"
+      << "id OcTree\nsize " << count_nodes(nodes) << "\nres " << tree.getResolution() << "\ndata\n"
+      << std::string(nodes.begin(), nodes.end());
+  return out.str();
+}
+
+Result write_pgm(const ColorOcTree& tree, const std::filesystem::path& file, const std::string& up) {
+  const auto grid = mapper::make_grid(tree, mapper::axis_of(up), mapper::GridConfig());
+  auto yaml = file;
+  yaml.replace_extension(".yaml");
+  if (auto written = map_file::write_atomically(file, mapper::to_pgm(grid)); !written) return written;
+  return map_file::write_atomically(yaml, mapper::to_map_server_yaml(grid, file.filename().string()));
+}
+
+}  // namespace
+
+std::string format_of(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  for (const char* format : kMapFormats)
+    if (ending == std::string(".") + format) return format;
+  return "";
+}
+
+Result export_map(const ColorOcTree& tree, const std::string& format, const std::filesystem::path& file,
+                  const std::string& up) {
+  if (format == "ot") return mapper::write_tree(file, tree);
+  if (format == "bt") return map_file::write_atomically(file, to_bt(tree));
+  if (format == "ply") return map_file::write_atomically(file, to_ply(tree));
+  if (format == "pcd") return map_file::write_atomically(file, to_pcd(tree));
+  if (format == "pgm") return write_pgm(tree, file, up);
+  return tl::unexpected(fmt::format("{}: format '{}', expected one of {}", file.string(), format,
+                                    fmt::join(std::begin(kMapFormats), std::end(kMapFormats), ", ")));
+}
+
+nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
+  double occupied = 0;
+  double free = 0;
+  std::size_t leaves = 0;
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d high = -low;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    ++leaves;
+    (is_occupied(*leaf) ? occupied : free) += voxels_of(tree, leaf);
+    if (!is_occupied(*leaf)) continue;
+    const Eigen::Array3d center(leaf.getX(), leaf.getY(), leaf.getZ());
+    low = low.min(center - leaf.getSize() / 2);
+    high = high.max(center + leaf.getSize() / 2);
+  }
+  const double voxel_m = tree.getResolution();
+  nlohmann::ordered_json json{{"type", tree.getTreeType()},
+                              {"resolution", voxel_m},
+                              {"nodes", tree.size()},
+                              {"leaves", leaves},
+                              {"occupied_voxels", static_cast<std::uint64_t>(occupied)},
+                              {"free_voxels", static_cast<std::uint64_t>(free)},
+                              {"occupied_m3", occupied * voxel_m * voxel_m * voxel_m}};
+  if (occupied > 0) {
+    json["bounds_min"] = {low.x(), low.y(), low.z()};
+    json["bounds_max"] = {high.x(), high.y(), high.z()};
+  }
+  return json;
+}
+
+nlohmann::ordered_json query_map(const ColorOcTree& tree, const Eigen::Vector3d& point,
+                                 std::span<const std::string> labels) {
+  nlohmann::ordered_json json{{"point", {point.x(), point.y(), point.z()}}};
+  const ColorOcTreeNode* node =
+      is_inside(tree, point) ? tree.search(point.x(), point.y(), point.z()) : nullptr;
+  if (node == nullptr) {
+    json["state"] = "unknown";
+    return json;
+  }
+  const auto color = node->getColor();
+  const mapper::Rgb rgb{color.r, color.g, color.b};
+  json["state"] = is_occupied(*node) ? "occupied" : "free";
+  json["probability"] = node->getOccupancy();
+  json["color"] = rgb;
+  const auto label = std::ranges::find_if(
+      labels, [&](const std::string& name) { return !name.empty() && mapper::label_color(name) == rgb; });
+  if (label != labels.end()) json["label"] = *label;
+  return json;
+}
+
+}  // namespace rds::tools

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/map/map_source.hpp"
+
+#include "common/map_file/saved_map.hpp"
+#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/semantic_mapper.hpp"
+#include "tools/rds/cli/exit.hpp"
+#include "tools/rds/cli/interrupt.hpp"
+
+namespace rds::tools {
+namespace {
+
+LiveMap load_live(const MapSource& source) {
+  const Interrupt interrupt;
+  try {
+    const auto participant = bus::Participant::create(source.bus.participant("rds_map"));
+    auto map =
+        take_live_map(*participant, std::chrono::duration<double>(source.timeout_s), interrupt.token());
+    if (!map) exit_with(kExitFault, map.error());
+    return std::move(*map);
+  } catch (const bus::BusError& e) {
+    exit_with(kExitFault, e.what());
+  }
+}
+
+}  // namespace
+
+void add_live_options(CLI::App& command, MapSource& source) {
+  command.add_option("--timeout", source.timeout_s, "Wait so long for the live map [s]")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  add_bus_options(command, source.bus);
+}
+
+LiveMap load_file(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path / "map.ot") && !std::filesystem::exists(path / map_file::kMapFile))
+    return load_file(path / "map.ot");
+  if (mapper::looks_like_tree(path)) return {value_or_exit(mapper::read_tree(path)), 0, 0, {}};
+  const auto sections = value_or_exit(map_file::read_saved_map(path, {map_file::kMapper}));
+  auto saved = mapper::tree_from_map_bytes(sections.at(map_file::kMapper));
+  if (!saved) exit_with(kExitBadInput, fmt::format("{}: is damaged: {}", path.string(), saved.error()));
+  return {std::move(saved->tree), 0, 0, std::move(saved->labels)};
+}
+
+LiveMap load(const MapSource& source) {
+  return source.is_live() ? load_live(source) : load_file(source.file);
+}
+
+}  // namespace rds::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/bus/participant.hpp"
+#include "tools/rds/cli/secure_options.hpp"
+
+namespace rds::run {
+
+/// What the user asked `rds run` for.
+struct RunOptions {
+  std::filesystem::path dataset;
+  std::filesystem::path out;
+  std::map<std::string, bus::Vendor> vendors;  // by process name; absent: default_vendor
+  bus::Vendor default_vendor = bus::Vendor::kFastDds;
+  double rate = 1.0;  // 0: max
+  bool dynamics = true;
+  std::string model;      // empty: the detector's default
+  std::string model_dir;  // empty: the detector's search path
+  std::filesystem::path config;
+  std::size_t start = 0;
+  std::size_t frames = std::numeric_limits<std::size_t>::max();
+  std::filesystem::path detections;
+  std::filesystem::path poses;  // empty: estimated
+  std::filesystem::path map;    // saved map to start from, or an octree alone; empty: none
+  bool map_is_octree = false;
+  bool localize_only = false;
+  std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
+  bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
+  SecureOptions secure{.identities = {"operator"}};
+  bool video = false;
+  bool force = false;
+
+  [[nodiscard]] bool lockstep() const { return rate == 0; }
+  [[nodiscard]] bus::Vendor vendor_of(const std::string& process) const {
+    const auto found = vendors.find(process);
+    return found == vendors.end() ? default_vendor : found->second;
+  }
+};
+
+}  // namespace rds::run

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/map_file/geometry_bytes.hpp"
-#include "services/tracker/core/map_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/saved_start.hpp"
 #include "services/tracker/tracker_service.hpp"
 

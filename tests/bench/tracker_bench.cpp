@@ -2,10 +2,10 @@
 // Time of each stage of the tracker, on a frame of 7scenes_kitchen, in the map that the tracker made of the
 // frames before it. Skipped, with the reason, without that recording in RDS_SHARED.
 #include "common/concurrency/helper_thread.hpp"
-#include "services/tracker/core/feature_alignment.hpp"
-#include "services/tracker/core/map_building.hpp"
-#include "services/tracker/core/mapping_exchange.hpp"
-#include "services/tracker/core/sparse_image_alignment.hpp"
+#include "services/tracker/core/mapping/map_building.hpp"
+#include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/pose/feature_alignment.hpp"
+#include "services/tracker/core/pose/sparse_image_alignment.hpp"
 #include "tests/bench/tracker_bench_scene.hpp"
 
 namespace {
@@ -98,7 +98,8 @@ BENCHMARK(association_with_local_map)->Unit(benchmark::kMicrosecond);
 
 void local_map_selection(benchmark::State& state) {
   std::uint64_t mark = 2'000'000'000;
-  measure(state, [&](Scene& s) { return select_local_map(*s.map, s.last_followed, s.config.map, ++mark); });
+  measure(state,
+          [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, s.config.map, ++mark); });
 }
 BENCHMARK(local_map_selection)->Unit(benchmark::kMicrosecond);
 

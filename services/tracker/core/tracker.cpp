@@ -5,7 +5,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/relocalization/relocalization.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -119,7 +119,7 @@ void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) 
 /// The points that the frame should see, if it is where the last one was.
 void Tracker::look_around(Surroundings& around) {
   if (!last_ || !(follows_points() || removes_by_depth())) return;
-  const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
+  const LocalMap local = select_local_map(map_, last_->frame.points, config_.map, ++mark_);
   around.reference = local.reference;
   std::ranges::copy_if(last_->frame.points, std::back_inserter(around.points),
                        [&](PointId id) { return map_.point(id) != nullptr; });

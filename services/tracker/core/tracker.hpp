@@ -14,18 +14,19 @@
 #include "common/image/rgbd_frame.hpp"
 #include "common/time/continuous_time.hpp"
 #include "common/vision/place_index.hpp"
-#include "services/tracker/core/association.hpp"
-#include "services/tracker/core/keyframe_policy.hpp"
-#include "services/tracker/core/local_map.hpp"
-#include "services/tracker/core/local_mapping.hpp"
-#include "services/tracker/core/map_checkpoint.hpp"
-#include "services/tracker/core/orb_extractor.hpp"
-#include "services/tracker/core/point_following.hpp"
+#include "services/tracker/core/calibration/self_calibration.hpp"
+#include "services/tracker/core/features/orb_extractor.hpp"
+#include "services/tracker/core/map/local_map.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
+#include "services/tracker/core/map/map_checkpoint.hpp"
+#include "services/tracker/core/map/slam_map.hpp"
+#include "services/tracker/core/mapping/keyframe_policy.hpp"
+#include "services/tracker/core/mapping/local_mapping.hpp"
+#include "services/tracker/core/motion/rolling_shutter.hpp"
+#include "services/tracker/core/motion/se3.hpp"
+#include "services/tracker/core/pose/association.hpp"
+#include "services/tracker/core/pose/point_following.hpp"
 #include "services/tracker/core/removal/movable_cut.hpp"
-#include "services/tracker/core/rolling_shutter.hpp"
-#include "services/tracker/core/se3.hpp"
-#include "services/tracker/core/self_calibration.hpp"
-#include "services/tracker/core/slam_map.hpp"
 #include "services/tracker/core/tracker_config.hpp"
 #include "services/tracker/core/tracking_types.hpp"
 
@@ -34,12 +35,6 @@ namespace rds::tracker {
 /// map_from_camera at a time [ns], known from elsewhere (a robot's odometry, a motion capture); nullopt where
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
-
-/// A map to go on in, and the camera it was made with.
-struct SavedMap {
-  SlamMap map;
-  KnownCamera camera;
-};
 
 /// RGB-D tracking against a map of ORB features that it builds.
 ///

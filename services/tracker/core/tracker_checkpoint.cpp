@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Tracker that tells its map as a checkpoint, and goes on from one.
 #include "common/map_file/byte_reader.hpp"
-#include "services/tracker/core/feature_bytes.hpp"
+#include "services/tracker/core/features/feature_bytes.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Tracker that depth alone tells the pose for a moment, where pictures show too little: blurred
 // by a fast turn, or with people in front of nearly everything.
-#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/relocalization/relocalization.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {

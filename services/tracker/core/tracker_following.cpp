@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bitset>
 
-#include "services/tracker/core/sparse_image_alignment.hpp"
+#include "services/tracker/core/pose/sparse_image_alignment.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "services/tracker/core/map_building.hpp"
-#include "services/tracker/core/mapping_exchange.hpp"
-#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/mapping/map_building.hpp"
+#include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/relocalization/relocalization.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {

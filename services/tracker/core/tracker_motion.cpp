@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "services/tracker/core/local_map.hpp"
-#include "services/tracker/core/relocalization.hpp"
-#include "services/tracker/core/se3.hpp"
+#include "services/tracker/core/map/local_map.hpp"
+#include "services/tracker/core/motion/se3.hpp"
+#include "services/tracker/core/relocalization/relocalization.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
@@ -132,7 +132,7 @@ bool Tracker::estimate_from_keyframe(TrackedFrame& frame) {
 
 int Tracker::refine_with_local_map(TrackedFrame& frame, double window_factor) {
   const ObservationModel model(frame.features->camera(), config_.depth);
-  const LocalMap local = select_local_map(map_, frame, config_.map, ++mark_);
+  const LocalMap local = select_local_map(map_, frame.points, config_.map, ++mark_);
   if (local.reference == kNoId) return 0;
   for (const PointId id : frame.points)
     if (MapPoint* point = map_.point(id)) ++point->visible;

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "services/tracker/core/map/slam_map.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
-#include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker {
 

@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/depth_alignment.hpp"
+#include "services/tracker/core/pose/depth_alignment.hpp"
 #include "services/tracker/core/removal/box_cut.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 

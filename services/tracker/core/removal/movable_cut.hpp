@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "common/geometry/pose.hpp"
-#include "services/tracker/core/movable_region.hpp"
 #include "services/tracker/core/removal/background.hpp"
 #include "services/tracker/core/removal/motion_evidence.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
+#include "services/tracker/core/removal/movable_region.hpp"
 #include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {

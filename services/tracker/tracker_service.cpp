@@ -28,6 +28,10 @@ constexpr std::size_t kLiveFrames =
 constexpr std::size_t kMaxAnswers = 100;
 constexpr std::uint8_t kLoop = 1;
 
+std::int64_t now_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
+}
+
 std::uint32_t microseconds_since(Clock::time_point start) {
   return static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
@@ -45,8 +49,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       config_(config),
       map_epoch_(service::random_id()),
       loop_closer_(context.bus),
-      tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               [this](std::size_t count, const auto& part) { helper_.run(count, part); }),
+      tracker_(
+          config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
+          [this](std::size_t count, const auto& part) { helper_.run(count, part); }, now_us),
       lasting_(
           keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
           config.maps.checkpoint_s),
@@ -141,7 +146,7 @@ void TrackerService::begin_after_break() {
 
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (resume_.is_looking() && frame.camera.is_valid() &&
-      frame.camera.fx != tracker_.known_camera().given_fx) {
+      frame.camera.fx != tracker_.calibration().given_fx()) {
     spdlog::warn("the map of the checkpoint was made with another camera");
     reset();
   }

@@ -50,10 +50,11 @@ void TrackerService::save_checkpoint() {
 
 map_file::MapPart TrackerService::map_part() const {
   const SlamMap& map = tracker_.map();
-  return {map_file::kTracker,
-          {{map_file::kTracker, to_bytes(map, tracker_.known_camera(), config_.tracker.extraction)},
-           {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}},
-          {}};
+  return {
+      map_file::kTracker,
+      {{map_file::kTracker, to_bytes(map, tracker_.calibration().known_camera(), config_.tracker.extraction)},
+       {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}},
+      {}};
 }
 
 /// Begins a new map epoch with a saved map; after a fault everything is as before.

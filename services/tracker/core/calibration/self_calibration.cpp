@@ -118,6 +118,31 @@ void SelfCalibration::begin_with_focal_scale(double scale) {
   belief_.focal_is_wrong = std::abs(scale - 1) > config_.tolerated_focal_error;
 }
 
+geometry::CameraModel SelfCalibration::calibrated(const geometry::CameraModel& given) {
+  if (given.fx != given_fx_) belief_ = SelfCalibration(config_).belief_;
+  given_fx_ = given.fx;
+  geometry::CameraModel camera = given;
+  camera.fx *= focal_scale();
+  camera.fy *= focal_scale();
+  return camera;
+}
+
+void SelfCalibration::begin_with(const KnownCamera& camera) {
+  given_fx_ = camera.given_fx;
+  begin_with_focal_scale(camera.focal_scale);
+}
+
+void SelfCalibration::begin_with(double given_fx, const ImagingBelief& belief) {
+  given_fx_ = given_fx;
+  belief_ = belief;
+}
+
+void SelfCalibration::update(std::uint64_t keyframe, const ImagingEstimate& estimate) {
+  if (newest_keyframe_ && keyframe <= *newest_keyframe_) return;
+  newest_keyframe_ = keyframe;
+  update(estimate);
+}
+
 void SelfCalibration::update(const ImagingEstimate& estimate) {
   if (!estimate.value.allFinite() || !estimate.information.allFinite()) return;
   const bool believed = is_believable_focal(estimate);

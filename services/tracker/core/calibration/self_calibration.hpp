@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
 
+#include "common/geometry/camera_model.hpp"
 #include "services/tracker/core/calibration/self_calibration_config.hpp"
 
 namespace rds::tracker {
@@ -69,6 +72,12 @@ class SelfCalibration {
  public:
   explicit SelfCalibration(const SelfCalibrationConfig& config);
 
+  /// The camera with the focal length that is known by now. Another given one is another camera, of which
+  /// nothing is known.
+  [[nodiscard]] geometry::CameraModel calibrated(const geometry::CameraModel& given);
+  /// Focal length that the camera came with [px]; 0 before the first picture.
+  [[nodiscard]] double given_fx() const { return given_fx_; }
+  [[nodiscard]] KnownCamera known_camera() const { return {given_fx_, focal_scale()}; }
   /// The given readout time until it is known to be wrong.
   [[nodiscard]] double readout_s() const {
     return belief_.readout_is_wrong ? belief_.value(0) : config_.readout_s;
@@ -77,15 +86,21 @@ class SelfCalibration {
   [[nodiscard]] double focal_scale() const { return belief_.focal_is_wrong ? belief_.value(1) : 1; }
   /// Goes on from what was known when a map was saved; ignored if no camera can be off by that much.
   void begin_with_focal_scale(double scale);
+  /// The same, of a camera with this given focal length [px].
+  void begin_with(const KnownCamera& camera);
   /// Goes on from what another one believed.
-  void begin_with(const ImagingBelief& belief) { belief_ = belief; }
+  void begin_with(double given_fx, const ImagingBelief& belief);
   [[nodiscard]] const ImagingBelief& belief() const { return belief_; }
   /// A bundle that knows the focal length badly, or claims an impossible one, tells the readout time only.
   void update(const ImagingEstimate& estimate);
+  /// The same with the bundle around a keyframe, once for each: older keyframes than the newest are ignored.
+  void update(std::uint64_t keyframe, const ImagingEstimate& estimate);
 
  private:
   SelfCalibrationConfig config_;
   ImagingBelief belief_;
+  double given_fx_ = 0;
+  std::optional<std::uint64_t> newest_keyframe_;  // that was learned from
 };
 
 }  // namespace rds::tracker

@@ -53,4 +53,8 @@ void OrbExtractor::extract(const cv::Mat& gray, const MovableTest& is_movable,
   for (const auto& of_level : features_) features.insert(features.end(), of_level.begin(), of_level.end());
 }
 
+std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config, RunParts run_parts) {
+  return std::make_unique<OrbExtractor>(config, std::move(run_parts));
+}
+
 }  // namespace rds::tracker

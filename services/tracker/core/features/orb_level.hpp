@@ -2,20 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 
-#include "services/tracker/core/features/extraction_config.hpp"
-#include "services/tracker/core/features/feature.hpp"
+#include "services/tracker/core/features/feature_extractor.hpp"
 #include "services/tracker/core/features/keypoint_spread.hpp"
 
 namespace rds::tracker {
-
-/// Tells by place in the picture what lies on a movable object. May be called by several threads.
-using MovableTest = std::function<bool(const Eigen::Vector2f& image_px)>;
 
 /// Extracts the ORB features of one pyramid level; its buffers are kept between pictures.
 class OrbLevel {

@@ -8,6 +8,8 @@ namespace rds::tracker {
 namespace {
 
 constexpr std::size_t kNeighboursEach = 3;
+constexpr std::size_t kStableObservers = 3;  // keyframes and …
+constexpr std::uint32_t kStableFound = 8;    // frames that found a stable point
 
 std::vector<CovisibleKeyframe> keyframes_that_share_points(const SlamMap& map,
                                                            std::span<const PointId> seen) {
@@ -50,6 +52,19 @@ LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, const Map
       local.points.push_back(p);
     }
   return local;
+}
+
+std::vector<Eigen::Vector3f> stable_points(const SlamMap& map, std::span<const PointId> points,
+                                           const Pose& camera_from_map) {
+  std::vector<Eigen::Vector3f> stable;
+  for (const PointId id : points) {
+    const MapPoint& point = *map.point(id);
+    if (point.observations.size() < kStableObservers || point.found < kStableFound ||
+        2 * point.found < point.visible)
+      continue;
+    stable.push_back((camera_from_map * point.position).cast<float>());
+  }
+  return stable;
 }
 
 }  // namespace rds::tracker

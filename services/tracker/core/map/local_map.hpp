@@ -23,4 +23,8 @@ struct LocalMap {
 LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, const MapConfig& config,
                           std::uint64_t mark);
 
+/// Those of the points, in the camera frame, that many keyframes and frames have found in their place.
+std::vector<Eigen::Vector3f> stable_points(const SlamMap& map, std::span<const PointId> points,
+                                           const Pose& camera_from_map);
+
 }  // namespace rds::tracker

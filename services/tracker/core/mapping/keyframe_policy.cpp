@@ -8,8 +8,6 @@ namespace {
 
 constexpr double kUrgentShare = 0.4;  // of scarce_inliers
 constexpr double kUsualDepth = 2;     // m, that max_translation_m is meant for
-constexpr double kForgetting = 0.1;   // of the running mean
-constexpr int kMinExpected = 50;      // fewer points say nothing about a change
 
 }  // namespace
 
@@ -33,14 +31,6 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   const bool looked_just_now = facts.frames_since_last < config.movable_interval_frames;
   if (facts.since_last_s < longest - kJitter || looked_just_now) return KeyframeNeed::kNone;
   return scarce ? KeyframeNeed::kMap : KeyframeNeed::kLook;
-}
-
-double FoundShare::update(int expected, int found) {
-  if (expected < kMinExpected) return 1;
-  const double share = static_cast<double>(found) / expected;
-  const double relative = mean_ > 0 ? share / mean_ : 1;
-  mean_ = mean_ > 0 ? mean_ + kForgetting * (share - mean_) : share;
-  return relative;
 }
 
 }  // namespace rds::tracker

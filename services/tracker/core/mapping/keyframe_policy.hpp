@@ -38,16 +38,4 @@ enum class KeyframeNeed : std::uint8_t {
 /// §III-E; the paper, §III-A (keyframes allocate the detector's time).
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config);
 
-/// The share of expected map points that is found. It drops when something enters the picture or covers the
-/// lens, and where a pose is wrong.
-class FoundShare {
- public:
-  /// @param expected, found  map points that should show in the frame, and those that did.
-  /// @return the share found relative to its running mean; 1 where too few are expected to tell.
-  double update(int expected, int found);
-
- private:
-  double mean_ = 0;  // 0: nothing known yet
-};
-
 }  // namespace rds::tracker

@@ -47,17 +47,6 @@ struct Neighbours {
 
 }  // namespace
 
-int TrackedFrame::matches() const {
-  return static_cast<int>(std::ranges::count_if(points, [](PointId p) { return p != kNoId; }));
-}
-
-int TrackedFrame::static_matches() const {
-  int matches = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    matches += points[i] != kNoId && !(*features)[i].movable ? 1 : 0;
-  return matches;
-}
-
 std::optional<std::uint32_t> best_in_window(const FeatureSet& features, std::span<const PointId> taken,
                                             const ObservationModel& model, const Descriptor& descriptor,
                                             const SearchWindow& window, int max_distance, double ratio) {
@@ -236,7 +225,7 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
       continue;
     }
     observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid),
-                            frame.movable_there ? trust(map, *point) : 1});
+                            frame.movable_in_view ? trust(map, *point) : 1});
     feature.push_back(i);
   }
   const OptimizedPose optimized = frame.pose_is_given

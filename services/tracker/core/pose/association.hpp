@@ -8,30 +8,10 @@
 #include <vector>
 
 #include "services/tracker/core/map/slam_map.hpp"
-#include "services/tracker/core/motion/rolling_shutter.hpp"
 #include "services/tracker/core/pose/observation_model.hpp"
+#include "services/tracker/core/pose/tracked_frame.hpp"
 
 namespace rds::tracker {
-
-/// A frame while it is tracked.
-struct TrackedFrame {
-  std::int64_t stamp_ns = 0;
-  std::int64_t time_ns = 0;  // of the tracker's ContinuousTime
-  std::shared_ptr<const FeatureSet> features;
-  std::vector<PointId> points;  // per feature: the map point it sees; kNoId
-  Pose camera_from_map = Pose::Identity();
-  ShutterMotion motion;        // that px and depth of the features are compensated for
-  double given_fx = 0;         // px, before calibration changed the camera; 0: it is as it is
-  bool pose_is_given = false;  // and not to be estimated
-  bool movable_there = false;  // something that can move is in view: points that are new may be its
-  bool held_by_depth = false;  // and by nothing else
-  double found_share = 1;      // of the expected map points, relative to the usual (FoundShare)
-
-  [[nodiscard]] int matches() const;
-  /// Matches of features that are not on movable objects; only these may carry a keyframe.
-  [[nodiscard]] int static_matches() const;
-  void clear_matches() { points.assign(features->size(), kNoId); }
-};
 
 /// Where and how a feature is searched.
 struct SearchWindow {
@@ -79,13 +59,12 @@ int match_last_frame(const SlamMap& map, const TrackedFrame& last, const Observa
 int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingConfig& config,
                    TrackedFrame& frame);
 
-/// Adds matches of points that the frame does not see yet.
-/// @param window_factor  times 2.5 px (seen from its usual direction) or 4 px, times the level's scale.
-/// Counts `visible` of points that should show.
 struct PointMatches {
   int expected = 0;  // points that should show
   int found = 0;     // new matches
 };
+/// Adds matches of points that the frame does not see yet; counts `visible` of those that should show.
+/// @param window_factor  times 2.5 px (seen from its usual direction) or 4 px, times the level's scale.
 PointMatches match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
                           const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
                           TrackedFrame& frame);

@@ -140,7 +140,7 @@ std::size_t PointSearch::batch_end(std::size_t begin, std::size_t wanted) const 
   return std::min(expected_.size(), begin + wanted);
 }
 
-std::optional<Feature> PointSearch::look_for(const Expected& expected) const {
+std::optional<Feature> PointSearch::align(const Expected& expected) const {
   const MapPoint& point = *expected.point;
   const Observation* seen = nearest_view(map_, point, camera_in_map_);
   if (seen == nullptr) return std::nullopt;
@@ -158,15 +158,15 @@ std::optional<Feature> PointSearch::look_for(const Expected& expected) const {
   return feature;
 }
 
-void PointSearch::look_at(Expected& expected) const {
-  if (!expected.hidden && !expected.looked_for) expected.found = look_for(expected);
+void PointSearch::align_once(Expected& expected) const {
+  if (!expected.hidden && !expected.looked_for) expected.found = align(expected);
   expected.looked_for = true;
 }
 
-void PointSearch::look_ahead(const std::atomic<bool>& enough) {
+void PointSearch::prefetch(const std::atomic<bool>& enough) {
   const auto wanted = static_cast<std::size_t>(config_.points);
   const std::size_t likely = batch_end(batch_end(0, wanted), wanted);  // also in place of those not found
-  for (std::size_t i = 0; i < likely && !enough; ++i) look_at(expected_[i]);
+  for (std::size_t i = 0; i < likely && !enough; ++i) align_once(expected_[i]);
 }
 
 FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run_parts) {
@@ -177,7 +177,7 @@ FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run
     const std::size_t end = batch_end(i, wanted);
     run_parts(parts_of(end - i), [&](std::size_t part) {
       const std::size_t first = i + part * kPointsPerPart;
-      for (std::size_t k = first; k < std::min(end, first + kPointsPerPart); ++k) look_at(expected_[k]);
+      for (std::size_t k = first; k < std::min(end, first + kPointsPerPart); ++k) align_once(expected_[k]);
     });
     for (; i < end; ++i) {
       const Expected& e = expected_[i];

@@ -42,7 +42,7 @@ class PointSearch {
   /// Looks for the points that come first, before it is known what is movable. What find() says does not
   /// depend on it.
   /// @param enough  set, by another thread, when the result is waited for.
-  void look_ahead(const std::atomic<bool>& enough);
+  void prefetch(const std::atomic<bool>& enough);
   /// @param movable  where static points are hidden.
   FollowedPoints find(const MovableMask& movable, const RunParts& run_parts = run_in_turn);
 
@@ -59,8 +59,8 @@ class PointSearch {
   void expect(std::span<const PointId> points, const ObservationModel& model);
   void spread();
   void hide(const MovableMask& movable);
-  void look_at(Expected& expected) const;
-  [[nodiscard]] std::optional<Feature> look_for(const Expected& expected) const;
+  void align_once(Expected& expected) const;
+  [[nodiscard]] std::optional<Feature> align(const Expected& expected) const;
   [[nodiscard]] std::size_t batch_end(std::size_t begin, std::size_t wanted) const;
 
   const SlamMap& map_;

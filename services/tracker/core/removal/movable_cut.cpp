@@ -6,7 +6,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/pose/depth_alignment.hpp"
 #include "services/tracker/core/removal/box_cut.hpp"
 #include "services/tracker/core/removal/surface_growth.hpp"
 
@@ -108,16 +107,6 @@ void MovableCut::remember(const geometry::Pose& map_from_camera, bool sure) {
   if (past_.size() == static_cast<std::size_t>(config_.references)) past_.erase(past_.begin());
   past_.emplace_back(now_.cells.depth_m, now_.widened.cells(), grid_, map_from_camera);
   newest_past_ns_ = now_.stamp_ns;
-}
-
-std::optional<geometry::Pose> MovableCut::pose_by_depth(const geometry::Pose& guess) const {
-  if (!last_.map_from_camera) return std::nullopt;
-  const cv::Mat1b& movable = last_.widened.cells();
-  const cv::Mat1b standing =
-      movable.empty() ? cv::Mat1b(grid_.size(), std::uint8_t{255}) : cv::Mat1b(movable == 0);
-  const EarlierView before{{last_.cells.depth_m, movable, grid_, *last_.map_from_camera},
-                           {last_.cells.depth_m, standing, grid_, *last_.map_from_camera}};
-  return align_depth(before, now_.cells.depth_m, grid_, guess);
 }
 
 MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {

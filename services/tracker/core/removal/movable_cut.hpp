@@ -38,9 +38,9 @@ class MovableCut {
   void remember(const geometry::Pose& map_from_camera, bool sure);
   /// What cut_late() needs of the picture that was cut last, when its boxes come.
   [[nodiscard]] const PictureCells& latest() const { return now_.cells; }
-  /// Where the picture's depth has the camera, laid on that of the picture before.
-  /// @param guess  camera_from_map. @return the same; nullopt where depth does not tell.
-  [[nodiscard]] std::optional<geometry::Pose> pose_by_depth(const geometry::Pose& guess) const;
+  /// Cells of the same picture, not 0 where something movable shows; empty if there is nothing.
+  [[nodiscard]] const cv::Mat1b& latest_mask() const { return now_.widened.cells(); }
+  [[nodiscard]] const GridGeometry& grid() const { return grid_; }
   /// The objects in late boxes of an earlier picture.
   [[nodiscard]] MovableMask cut_late(const PictureCells& picture,
                                      std::span<const MovableRegion> regions) const;

@@ -170,12 +170,12 @@ TEST_F(SavedTracker, WhatIsKnownOfTheCameraIsKnownAgainUnlessItIsAnother) {
   Tracker tracker(small_config());
   tracker.start_from(std::move(*saved));
   step(tracker, 6, 0);
-  EXPECT_EQ(tracker.known_camera().focal_scale, 0.97);
+  EXPECT_EQ(tracker.calibration().known_camera().focal_scale, 0.97);
   image::RgbdFrame of_another = test::picture_of_wall(truth(7), kFrameNs);
   of_another.camera.fx *= 1.05;
   tracker.track(of_another, {});
-  EXPECT_EQ(tracker.known_camera().given_fx, of_another.camera.fx);
-  EXPECT_EQ(tracker.known_camera().focal_scale, 1);
+  EXPECT_EQ(tracker.calibration().known_camera().given_fx, of_another.camera.fx);
+  EXPECT_EQ(tracker.calibration().known_camera().focal_scale, 1);
 }
 
 TEST_F(SavedTracker, KeyframesOfAnotherCameraKeepTheirs) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/tracker/core/pose/found_share.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker {

@@ -38,11 +38,11 @@ class FramePose : public testing::Test {
   }
 
   /// How far off is the pose of a still camera when all but the standing points have moved on? [m]
-  double error_m(bool movable_there) {
+  double error_m(bool movable_in_view) {
     std::vector<Eigen::Vector3d> seen = points;
     for (std::size_t i = kStanding; i < kPoints; ++i) seen[i].x() += kMoved_m;
     TrackedFrame frame = frame_of(seen);
-    frame.movable_there = movable_there;
+    frame.movable_in_view = movable_in_view;
     const ObservationModel model(frame.features->camera(), DepthConfig{});
     optimize_frame(map, model, pyramid, PoseOptimizationConfig{}, frame);
     return frame.camera_from_map.translation().norm();

@@ -106,7 +106,7 @@ TEST_F(PointFollowing, FindsTheSameWithAHelper) {
     expect_same(alone, follow(movable, with_helper));
     PointSearch ahead = search();
     std::atomic<bool> enough = false;
-    std::jthread other([&] { ahead.look_ahead(enough); });
+    std::jthread other([&] { ahead.prefetch(enough); });
     enough = points == 30;
     other.join();
     expect_same(alone, ahead.find(movable, with_helper));

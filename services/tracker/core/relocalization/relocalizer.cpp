@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/relocalization/relocalization.hpp"
+#include "services/tracker/core/relocalization/relocalizer.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <iterator>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
@@ -77,27 +78,7 @@ std::vector<PointId> not_seen(std::vector<PointId> points, const TrackedFrame& f
   return points;
 }
 
-}  // namespace
-
-bool relocalize_against(SlamMap& map, KeyframeId id, const RelocalizationTools& tools, TrackedFrame& frame) {
-  const Keyframe* keyframe = map.keyframe(id);
-  if (keyframe == nullptr) return false;
-  if (match_keyframe(map, *keyframe, tools.matching, frame) < tools.config.min_matches) return false;
-  if (!solve_pnp(map, tools.config, frame)) return false;
-  if (optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame) < kMinRefined) return false;
-  localize_around(map, *keyframe, tools, frame);
-  return frame.static_matches() >= tools.config.min_inliers;
-}
-
-void localize_around(SlamMap& map, const Keyframe& keyframe, const RelocalizationTools& tools,
-                     TrackedFrame& frame) {
-  const auto points = points_around(map, keyframe);
-  for (const double window : {kWideWindow, kNarrowWindow}) {
-    match_points(map, not_seen(points, frame), tools.model, tools.pyramid, tools.matching, window, frame);
-    optimize_frame(map, tools.model, tools.pyramid, tools.pose, frame);
-  }
-}
-
+/// Descriptors of the features that are not movable, N×32 CV_8U.
 cv::Mat static_descriptors(const FeatureSet& features) {
   cv::Mat descriptors(0, static_cast<int>(sizeof(Descriptor)), CV_8UC1);
   descriptors.reserve(features.size());
@@ -106,6 +87,53 @@ cv::Mat static_descriptors(const FeatureSet& features) {
       descriptors.push_back(cv::Mat(1, static_cast<int>(sizeof(Descriptor)), CV_8UC1,
                                     const_cast<std::uint8_t*>(f.descriptor.data())));
   return descriptors;
+}
+
+int optimize(const TrackingContext& context, TrackedFrame& frame) {
+  const PoseSettings& settings = context.settings;
+  return optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
+}
+
+}  // namespace
+
+bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) const {
+  const auto candidates =
+      places_.query(static_descriptors(*frame.features), static_cast<std::size_t>(config_.candidates));
+  return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
+    return localize_against(context, candidate.id, frame);
+  });
+}
+
+bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) const {
+  const Keyframe* keyframe = context.map.keyframe(id);
+  if (keyframe == nullptr) return false;
+  if (match_keyframe(context.map, *keyframe, context.settings.matching, frame) < config_.min_matches)
+    return false;
+  if (!solve_pnp(context.map, config_, frame)) return false;
+  if (optimize(context, frame) < kMinRefined) return false;
+  localize_near(context, *keyframe, frame);
+  return frame.static_matches() >= config_.min_inliers;
+}
+
+void Relocalizer::localize_near(const TrackingContext& context, const Keyframe& keyframe,
+                                TrackedFrame& frame) {
+  const PoseSettings& settings = context.settings;
+  const auto points = points_around(context.map, keyframe);
+  for (const double window : {kWideWindow, kNarrowWindow}) {
+    match_points(context.map, not_seen(points, frame), context.model, settings.pyramid, settings.matching,
+                 window, frame);
+    optimize(context, frame);
+  }
+}
+
+void Relocalizer::index_pending(const SlamMap& map) {
+  if (const Keyframe* keyframe = map.keyframe(std::exchange(pending_, kNoId)))
+    places_.add(keyframe->id, static_descriptors(*keyframe->features));
+}
+
+void Relocalizer::index_all(const SlamMap& map) {
+  map.all_keyframes().for_each(
+      [this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
 }
 
 }  // namespace rds::tracker

@@ -146,11 +146,16 @@ void place_query(benchmark::State& state) {
 BENCHMARK(place_query)->Unit(benchmark::kMicrosecond);
 
 void relocalisation_by_a_keyframe(benchmark::State& state) {
-  measure(state, [](Scene& s) {
+  Relocalizer relocalizer{RelocalizationConfig{}};
+  measure(state, [&](Scene& s) {
+    if (relocalizer.places() == 0) {
+      relocalizer.add(s.newest);
+      relocalizer.index_pending(*s.map);
+    }
+    const PoseSettings settings{s.pyramid, s.config.depth, s.config.matching, s.config.pose, s.config.map};
+    const TrackingContext context{*s.map, settings, s.next, s.model, {}, {}};
     TrackedFrame frame = s.extracted;
-    const RelocalizationTools tools{s.model, s.pyramid, s.config.matching, s.config.pose,
-                                    s.config.relocalization};
-    return relocalize_against(*s.map, s.newest, tools, frame);
+    return relocalizer.localize(context, frame);
   });
 }
 BENCHMARK(relocalisation_by_a_keyframe)->Unit(benchmark::kMicrosecond);

@@ -8,8 +8,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "services/tracker/core/features/orb_extractor.hpp"
 #include "services/tracker/core/map/local_map.hpp"
-#include "services/tracker/core/relocalization/relocalization.hpp"
+#include "services/tracker/core/relocalization/relocalizer.hpp"
 #include "tests/support/tracker_sequence.hpp"
 
 namespace rds::tracker {

@@ -78,17 +78,6 @@ std::vector<PointId> not_seen(std::vector<PointId> points, const TrackedFrame& f
   return points;
 }
 
-/// Descriptors of the features that are not movable, N×32 CV_8U.
-cv::Mat static_descriptors(const FeatureSet& features) {
-  cv::Mat descriptors(0, static_cast<int>(sizeof(Descriptor)), CV_8UC1);
-  descriptors.reserve(features.size());
-  for (const Feature& f : features.all())
-    if (!f.movable)
-      descriptors.push_back(cv::Mat(1, static_cast<int>(sizeof(Descriptor)), CV_8UC1,
-                                    const_cast<std::uint8_t*>(f.descriptor.data())));
-  return descriptors;
-}
-
 int optimize(const TrackingContext& context, TrackedFrame& frame) {
   const PoseSettings& settings = context.settings;
   return optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
@@ -134,6 +123,16 @@ void Relocalizer::index_pending(const SlamMap& map) {
 void Relocalizer::index_all(const SlamMap& map) {
   map.all_keyframes().for_each(
       [this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+}
+
+cv::Mat static_descriptors(const FeatureSet& features) {
+  cv::Mat descriptors(0, static_cast<int>(sizeof(Descriptor)), CV_8UC1);
+  descriptors.reserve(features.size());
+  for (const Feature& f : features.all())
+    if (!f.movable)
+      descriptors.push_back(cv::Mat(1, static_cast<int>(sizeof(Descriptor)), CV_8UC1,
+                                    const_cast<std::uint8_t*>(f.descriptor.data())));
+  return descriptors;
 }
 
 }  // namespace rds::tracker

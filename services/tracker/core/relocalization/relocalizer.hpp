@@ -38,4 +38,7 @@ class Relocalizer {
   KeyframeId pending_ = kNoId;
 };
 
+/// Descriptors of the features that are not movable, N×32 CV_8U.
+cv::Mat static_descriptors(const FeatureSet& features);
+
 }  // namespace rds::tracker

@@ -287,7 +287,7 @@ void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometr
     boxes_.ask(static_cast<std::uint64_t>(keyframe.stamp_ns),
                frame_index_ + lockstep.detection_latency_frames);
     keyframes_with_boxes_due_.insert_or_assign(
-        keyframe.stamp_ns, KeyframeView{keyframe.id, keyframe.map_from_camera.inverse(), camera});
+        keyframe.stamp_ns, KeyframeAwaitingBoxes{keyframe.id, keyframe.map_from_camera.inverse(), camera});
     while (keyframes_with_boxes_due_.size() > kMaxAnswers)
       keyframes_with_boxes_due_.erase(keyframes_with_boxes_due_.begin());
   }

@@ -45,7 +45,7 @@ class TrackerService : public service::Service {
   using PosesMessage = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
 
   /// What late boxes of a keyframe need.
-  struct KeyframeView {
+  struct KeyframeAwaitingBoxes {
     std::uint64_t id;
     geometry::Pose
         camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
@@ -92,10 +92,10 @@ class TrackerService : public service::Service {
   concurrency::Inbox<BoxesMessage> boxes_inbox_;
   concurrency::Inbox<PosesMessage> poses_inbox_;
   concurrency::Inbox<LocalMappingResult> mapping_inbox_;
-  DelayedValues<BoxesMessage> boxes_;                              // by keyframe stamp
-  std::map<std::int64_t, KeyframeView> keyframes_with_boxes_due_;  // by stamp
-  DelayedValues<PosesMessage> loop_answers_;                       // by keyframe id
-  DelayedValues<LocalMappingResult> mappings_;                     // by keyframe id; at most one
+  DelayedValues<BoxesMessage> boxes_;                                       // by keyframe stamp
+  std::map<std::int64_t, KeyframeAwaitingBoxes> keyframes_with_boxes_due_;  // by stamp
+  DelayedValues<PosesMessage> loop_answers_;                                // by keyframe id
+  DelayedValues<LocalMappingResult> mappings_;                              // by keyframe id; at most one
   std::uint64_t frame_index_ = 0;
   std::uint64_t box_sets_used_ = 0;
   LoopState loops_;

@@ -60,7 +60,7 @@ BENCHMARK(point_following)->Unit(benchmark::kMicrosecond);
 
 void point_following_with_helper(benchmark::State& state) {
   concurrency::HelperThread helper;
-  const RunParts on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
+  const ParallelFor on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   measure(state, [&](Scene& s) { return s.follow(s.points, s.next, *s.next_images, on_both); });
 }
 BENCHMARK(point_following_with_helper)->Unit(benchmark::kMicrosecond)->UseRealTime();

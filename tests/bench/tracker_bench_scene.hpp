@@ -63,9 +63,9 @@ struct Scene {
 
   [[nodiscard]] FollowedPoints follow(std::span<const PointId> ids, const image::RgbdFrame& frame,
                                       const ImagePyramid& images,
-                                      const RunParts& run_parts = run_in_turn) const {
+                                      const ParallelFor& parallel_for = serial_for) const {
     return PointSearch(*map, ids, {frame, images, last_camera_from_map, {}}, model, pyramid, config.following)
-        .find({}, run_parts);
+        .find({}, parallel_for);
   }
 
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {

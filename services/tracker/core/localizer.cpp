@@ -23,15 +23,15 @@ bool sees_enough(const TrackedFrame& frame, const QualityConfig& quality) {
 
 }  // namespace
 
-Localizer::Localizer(const TrackerConfig& config, const RunParts& run_parts, Stopwatch now_us,
+Localizer::Localizer(const TrackerConfig& config, const ParallelFor& parallel_for, Stopwatch now_us,
                      bool poses_are_given)
     : config_(config),
       settings_(pose_settings(config)),
       now_us_(std::move(now_us)),
       poses_are_given_(poses_are_given),
       follows_points_(config.following.enabled && !poses_are_given),
-      follower_(config.following, run_parts),
-      features_(make_feature_extractor(config.extraction, run_parts), config.relocalization.min_matches),
+      follower_(config.following, parallel_for),
+      features_(make_feature_extractor(config.extraction, parallel_for), config.relocalization.min_matches),
       relocalizer_(config.relocalization) {}
 
 void Localizer::guess(TrackingContext& context, State before) const {

@@ -29,7 +29,8 @@ struct PoseEstimate {
 class Localizer {
  public:
   /// @param poses_are_given  no pose is estimated: context.guess is the pose.
-  Localizer(const TrackerConfig& config, const RunParts& run_parts, Stopwatch now_us, bool poses_are_given);
+  Localizer(const TrackerConfig& config, const ParallelFor& parallel_for, Stopwatch now_us,
+            bool poses_are_given);
 
   [[nodiscard]] const PoseSettings& settings() const { return settings_; }
   /// Makes the image pyramid, and guesses the pose by sparse image alignment or by the motion model.

@@ -42,18 +42,19 @@ void describe(const TrackedFrame& frame, FrameResult& result) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts run_parts, Stopwatch now_us)
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, ParallelFor parallel_for,
+                 Stopwatch now_us)
     : config_(config),
-      ports_{std::move(given_poses), std::move(run_parts), std::move(now_us)},
+      ports_{std::move(given_poses), std::move(parallel_for), std::move(now_us)},
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth.max_depth_m),
-      localizer_(config, ports_.run_parts, ports_.now_us, ports_.given_poses != nullptr),
+      localizer_(config, ports_.parallel_for, ports_.now_us, ports_.given_poses != nullptr),
       keyframes_(config.keyframe, config.quality.min_inliers, config.localize_only),
       mapper_(localizer_.settings(), config.local_mapping, !config.localize_only) {}
 
 void Tracker::reset() {
-  *this =
-      Tracker(config_, std::move(ports_.given_poses), std::move(ports_.run_parts), std::move(ports_.now_us));
+  *this = Tracker(config_, std::move(ports_.given_poses), std::move(ports_.parallel_for),
+                  std::move(ports_.now_us));
 }
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
@@ -121,7 +122,7 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     if (const auto map_from_camera = ports_.given_poses(given.stamp_ns))
       context.guess = map_from_camera->inverse();
   run_both(
-      ports_.run_parts, [&] { localizer_.guess(context, state_); },
+      ports_.parallel_for, [&] { localizer_.guess(context, state_); },
       [&] {
         removal_.look_at(given);
         localizer_.select_local_map(context);
@@ -135,7 +136,7 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     context.movable = removal_.cut(regions, stable);
     is_cut = true;
   };
-  run_both(ports_.run_parts, cut, [&] { localizer_.search_early(context, state_, is_cut); });
+  run_both(ports_.parallel_for, cut, [&] { localizer_.search_early(context, state_, is_cut); });
   context.depth = {&removal_.grid(), removal_.latest().depth_m, removal_.latest_mask()};
   frame.movable_in_view = context.movable.any() || !regions.empty();
   frame.camera_from_map =
@@ -218,7 +219,7 @@ void Tracker::apply(const PoseGraphCorrection& correction) {
 
 void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
   if (const PictureCells* cells = mapper_.cells_of(keyframe_id))
-    mapper_.retract(keyframe_id, removal_.cut_late(*cells, regions));
+    mapper_.retract(keyframe_id, removal_.segment_late(*cells, regions));
 }
 
 }  // namespace rds::tracker

@@ -15,7 +15,7 @@
 #include "services/tracker/core/localizer.hpp"
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
-#include "services/tracker/core/removal/movable_cut.hpp"
+#include "services/tracker/core/removal/movable_segmenter.hpp"
 
 namespace rds::tracker {
 
@@ -35,10 +35,10 @@ using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
-  /// @param run_parts    runs what can be done at the same time.
+  /// @param parallel_for    runs what can be done at the same time.
   /// @param now_us       for the times in results, which are 0 without.
   explicit Tracker(
-      const TrackerConfig& config, GivenPoses given_poses = {}, RunParts run_parts = run_in_turn,
+      const TrackerConfig& config, GivenPoses given_poses = {}, ParallelFor parallel_for = serial_for,
       Stopwatch now_us = [] { return std::int64_t{0}; });
 
   /// Tracks the next picture.
@@ -103,14 +103,14 @@ class Tracker {
   /// What the tracker is given besides pictures.
   struct Ports {
     GivenPoses given_poses;
-    RunParts run_parts;
+    ParallelFor parallel_for;
     Stopwatch now_us;
   };
 
   TrackerConfig config_;
   Ports ports_;
   SelfCalibration calibration_;
-  MovableCut removal_;
+  MovableSegmenter removal_;
   MotionModel motion_;
   Localizer localizer_;
   KeyframeSelector keyframes_;

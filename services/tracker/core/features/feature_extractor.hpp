@@ -9,7 +9,7 @@
 
 #include "services/tracker/core/features/extraction_config.hpp"
 #include "services/tracker/core/features/feature.hpp"
-#include "services/tracker/core/features/run_parts.hpp"
+#include "services/tracker/core/features/parallel_for.hpp"
 
 namespace rds::tracker {
 
@@ -34,7 +34,8 @@ class FeatureExtractor {
                        std::vector<Feature>& features) = 0;
 };
 
-/// The extractor that the tracker uses. @param run_parts  runs what is independent.
-std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config, RunParts run_parts);
+/// The extractor that the tracker uses. @param parallel_for  runs what is independent.
+std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config,
+                                                         ParallelFor parallel_for);
 
 }  // namespace rds::tracker

@@ -129,7 +129,7 @@ tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t>
   for (std::size_t i = 0; i < points && reader.ok(); ++i) get_point(reader, map);
   if (const auto read = reader.finish(); !read) return tl::unexpected(read.error());
   map.update_all_covisibility();
-  map.hold_keyframes();
+  map.fix_keyframes();
   return SavedMap{std::move(map), camera};
 }
 

@@ -128,13 +128,13 @@ class SlamMap {
   /// as the configuration says: a known place is seen for ever.
   KeyframeId add_passing(std::int64_t stamp_ns, const Pose& map_from_camera, KeyframeId anchor);
   /// Makes the keyframes there are so far the gauge: they are never moved nor culled.
-  void hold_keyframes() { held_ = records_.next_id(); }
-  /// The id of the first keyframe that hold_keyframes() did not find, and of the one that is made next.
+  void fix_keyframes() { held_ = records_.next_id(); }
+  /// The id of the first keyframe that fix_keyframes() did not find, and of the one that is made next.
   [[nodiscard]] KeyframeId first_free_keyframe() const { return held_; }
   [[nodiscard]] KeyframeId next_keyframe_id() const { return records_.next_id(); }
   /// Uses up the ids below this one: somebody may know them.
   void skip_keyframe_ids(KeyframeId next);
-  [[nodiscard]] bool is_held(KeyframeId id) const { return id < held_; }
+  [[nodiscard]] bool is_fixed(KeyframeId id) const { return id < held_; }
   /// A new point seen by this feature. @throws std::out_of_range for an unknown keyframe.
   MapPoint& add_point(const Eigen::Vector3d& position, KeyframeId keyframe, std::uint32_t feature);
 

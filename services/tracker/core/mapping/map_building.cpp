@@ -105,7 +105,7 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
   if (around.size() > kConsidered) around.resize(kConsidered);
   for (const CovisibleKeyframe& c : around) {
     const Keyframe* keyframe = map.keyframe(c.id);
-    if (keyframe == nullptr || c.id == 0 || map.is_held(c.id) || c.id + kKeptNewest > newest) continue;
+    if (keyframe == nullptr || c.id == 0 || map.is_fixed(c.id) || c.id + kKeptNewest > newest) continue;
     if (!is_redundant(map, *keyframe, depth, config)) continue;
     map.cull_keyframe(c.id);
     culled.push_back(c.id);

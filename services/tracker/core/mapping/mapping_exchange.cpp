@@ -51,7 +51,7 @@ LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId id, const LocalM
   if (centre == nullptr) return job;
   std::set<KeyframeId> free{id};
   for (const CovisibleKeyframe& c : centre->covisible)
-    if (!map.is_held(c.id) && free.size() < static_cast<std::size_t>(config.free_keyframes))
+    if (!map.is_fixed(c.id) && free.size() < static_cast<std::size_t>(config.free_keyframes))
       free.insert(c.id);
   const auto points = points_of(map, free, config.max_points);
   const auto fixed = holders(map, points, free, config.fixed_keyframes);
@@ -102,12 +102,12 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
 void apply_correction(SlamMap& map, std::span<const KeyframePose> corrected) {
   std::map<KeyframeId, Pose> corrected_from_before;
   for (const KeyframePose& k : corrected)
-    if (map.knows(k.id) && !map.is_held(k.id) && geometry::is_finite(k.map_from_camera))
+    if (map.knows(k.id) && !map.is_fixed(k.id) && geometry::is_finite(k.map_from_camera))
       corrected_from_before[k.id] = k.map_from_camera * map.pose_of(k.id).inverse();
   if (corrected_from_before.empty()) return;
   const Pose still = Pose::Identity();
   const auto motion = [&](KeyframeId id) -> const Pose& {
-    if (map.is_held(id)) return still;
+    if (map.is_fixed(id)) return still;
     auto next = corrected_from_before.upper_bound(id);
     return next == corrected_from_before.begin() ? next->second : std::prev(next)->second;
   };

@@ -47,7 +47,7 @@ std::optional<FollowedFrame> PointFollower::follow(const TrackingContext& contex
   FollowedFrame result{context.frame, {}};
   TrackedFrame& frame = result.frame;
   frame.camera_from_map = guess;
-  FollowedPoints followed = search.find(context.movable, run_parts_);
+  FollowedPoints followed = search.find(context.movable, parallel_for_);
   frame.features = complete_feature_set(context, std::move(followed.features));
   frame.points = std::move(followed.points);
   result.expected = std::move(followed.looked_for);

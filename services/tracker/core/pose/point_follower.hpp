@@ -19,8 +19,8 @@ struct FollowedFrame {
 /// Source: Forster, Pizzoli & Scaramuzza 2014 (SVO), §IV.
 class PointFollower {
  public:
-  PointFollower(const FollowingConfig& config, RunParts run_parts)
-      : config_(config), run_parts_(std::move(run_parts)) {}
+  PointFollower(const FollowingConfig& config, ParallelFor parallel_for)
+      : config_(config), parallel_for_(std::move(parallel_for)) {}
 
   /// Levels that an ImagePyramid needs.
   [[nodiscard]] int pyramid_levels() const { return config_.coarsest_level + 1; }
@@ -43,7 +43,7 @@ class PointFollower {
                                                     const Pose& guess) const;
 
   FollowingConfig config_;
-  RunParts run_parts_;
+  ParallelFor parallel_for_;
   FoundShare found_share_;
 };
 

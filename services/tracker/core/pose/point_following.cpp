@@ -169,13 +169,13 @@ void PointSearch::prefetch(const std::atomic<bool>& enough) {
   for (std::size_t i = 0; i < likely && !enough; ++i) align_once(expected_[i]);
 }
 
-FollowedPoints PointSearch::find(const MovableMask& movable, const RunParts& run_parts) {
+FollowedPoints PointSearch::find(const MovableMask& movable, const ParallelFor& parallel_for) {
   hide(movable);
   FollowedPoints followed;
   auto wanted = static_cast<std::size_t>(config_.points);
   for (std::size_t i = 0; i < expected_.size() && wanted > 0;) {
     const std::size_t end = batch_end(i, wanted);
-    run_parts(parts_of(end - i), [&](std::size_t part) {
+    parallel_for(parts_of(end - i), [&](std::size_t part) {
       const std::size_t first = i + part * kPointsPerPart;
       for (std::size_t k = first; k < std::min(end, first + kPointsPerPart); ++k) align_once(expected_[k]);
     });

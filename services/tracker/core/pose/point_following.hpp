@@ -8,7 +8,7 @@
 
 #include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/features/image_pyramid.hpp"
-#include "services/tracker/core/features/run_parts.hpp"
+#include "services/tracker/core/features/parallel_for.hpp"
 #include "services/tracker/core/pose/association.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 
@@ -44,7 +44,7 @@ class PointSearch {
   /// @param enough  set, by another thread, when the result is waited for.
   void prefetch(const std::atomic<bool>& enough);
   /// @param movable  where static points are hidden.
-  FollowedPoints find(const MovableMask& movable, const RunParts& run_parts = run_in_turn);
+  FollowedPoints find(const MovableMask& movable, const ParallelFor& parallel_for = serial_for);
 
  private:
   struct Expected {  // a map point that the picture should show

@@ -85,7 +85,7 @@ TEST(TrackerTime, AMapOfTheFutureIsGoneOnIn) {
   Tracker first(small_config());
   for (int i = 0; i < 30; ++i) step_at(first, i, kStart + i * kFrameNs);
   SlamMap saved = first.map();
-  saved.hold_keyframes();
+  saved.fix_keyframes();
   Tracker second(small_config());
   second.start_from({std::move(saved), first.calibration().known_camera()});
   const std::size_t known = second.map().keyframes();

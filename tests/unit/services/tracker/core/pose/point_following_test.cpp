@@ -47,8 +47,8 @@ class PointFollowing : public ::testing::Test {
     map.all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
   }
 
-  FollowedPoints follow(const MovableMask& movable = {}, const RunParts& run_parts = run_in_turn) {
-    return search().find(movable, run_parts);
+  FollowedPoints follow(const MovableMask& movable = {}, const ParallelFor& parallel_for = serial_for) {
+    return search().find(movable, parallel_for);
   }
 
   PointSearch search() {

@@ -20,9 +20,10 @@ namespace rds::tracker {
 /// Three sources: the objects in predicted boxes, cut out by depth; what stands where nothing stood before
 /// (a mover that no network knows, an arm out of its box); and what was cut from the last picture, carried to
 /// this one, for as long as carry_s without support by the others. For one thread at a time.
-class MovableCut {
+class MovableSegmenter {
  public:
-  MovableCut(const RemovalConfig& config, double max_depth_m) : config_(config), max_depth_m_(max_depth_m) {}
+  MovableSegmenter(const RemovalConfig& config, double max_depth_m)
+      : config_(config), max_depth_m_(max_depth_m) {}
 
   /// First: takes in a picture's depth.
   void look_at(const image::RgbdFrame& picture);
@@ -31,30 +32,30 @@ class MovableCut {
   /// only.
   void compare(const geometry::Pose& camera_from_map);
   /// @param regions  predicted boxes with their depth intervals.
-  /// @param lasting  points, in the camera frame, that have stood still for long: what shows them is static.
-  MovableMask cut(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> lasting);
+  /// @param stable  points, in the camera frame, that have stood still for long: what shows them is static.
+  MovableMask cut(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> stable);
   /// The pose of the picture that was cut last. Later ones are compared with pictures whose pose is sure
   /// only.
   void remember(const geometry::Pose& map_from_camera, bool sure);
-  /// What cut_late() needs of the picture that was cut last, when its boxes come.
+  /// What segment_late() needs of the picture that was cut last, when its boxes come.
   [[nodiscard]] const PictureCells& latest() const { return now_.cells; }
   /// Cells of the same picture, not 0 where something movable shows; empty if there is nothing.
   [[nodiscard]] const cv::Mat1b& latest_mask() const { return now_.widened.cells(); }
   [[nodiscard]] const GridGeometry& grid() const { return grid_; }
   /// The objects in late boxes of an earlier picture.
-  [[nodiscard]] MovableMask cut_late(const PictureCells& picture,
-                                     std::span<const MovableRegion> regions) const;
+  [[nodiscard]] MovableMask segment_late(const PictureCells& picture,
+                                         std::span<const MovableRegion> regions) const;
   /// The map has moved: earlier pictures say nothing any more.
   void forget();
 
  private:
-  using Things = std::vector<std::vector<cv::Point>>;
+  using Objects = std::vector<std::vector<cv::Point>>;
 
   struct Now {
     std::int64_t stamp_ns = 0;
     PictureCells cells;
     std::optional<geometry::Pose> camera_from_map;  // as it was guessed
-    Things moved;
+    Objects moved;
     cv::Mat1b mask;                                 // without rim
     cv::Mat1f unsupported_s;                        // for how long, where the mask is set
     MovableMask widened;                            // with rim; empty where nothing is set
@@ -63,7 +64,7 @@ class MovableCut {
   };
 
   void mark(std::span<const MovableRegion> regions);
-  void mark_lasting(std::span<const Eigen::Vector3f> lasting);
+  void mark_stable(std::span<const Eigen::Vector3f> stable);
   void carry(const Background& background);
   [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;

@@ -8,17 +8,17 @@ namespace rds::tracker {
 
 /// Calls part(0) … part(count − 1), each once, in any order, also at the same time, and returns when all are
 /// done. Parts are independent of each other, so that results do not depend on who runs them where.
-using RunParts = std::function<void(std::size_t count, const std::function<void(std::size_t)>& part)>;
+using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& part)>;
 
-/// RunParts on the calling thread.
-inline void run_in_turn(std::size_t count, const std::function<void(std::size_t)>& part) {
+/// ParallelFor on the calling thread.
+inline void serial_for(std::size_t count, const std::function<void(std::size_t)>& part) {
   for (std::size_t i = 0; i < count; ++i) part(i);
 }
 
 /// Calls both, also at the same time.
-inline void run_both(const RunParts& run_parts, const std::function<void()>& first,
+inline void run_both(const ParallelFor& parallel_for, const std::function<void()>& first,
                      const std::function<void()>& second) {
-  run_parts(2, [&](std::size_t part) { part == 0 ? first() : second(); });
+  parallel_for(2, [&](std::size_t part) { part == 0 ? first() : second(); });
 }
 
 }  // namespace rds::tracker

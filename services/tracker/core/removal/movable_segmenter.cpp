@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/movable_cut.hpp"
+#include "services/tracker/core/removal/movable_segmenter.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,12 +13,12 @@ namespace rds::tracker {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-constexpr int kLastingCells = 2;  // around a lasting point
-constexpr double kLastingStepM = 0.03;
+constexpr int kStableCells = 2;  // around a stable point
+constexpr double kStableStepM = 0.03;
 
 }  // namespace
 
-void MovableCut::look_at(const image::RgbdFrame& picture) {
+void MovableSegmenter::look_at(const image::RgbdFrame& picture) {
   if (picture.camera != grid_.camera()) {
     forget();
     grid_ = GridGeometry(picture.camera);
@@ -28,27 +28,28 @@ void MovableCut::look_at(const image::RgbdFrame& picture) {
   now_.cells.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
 }
 
-void MovableCut::compare(const geometry::Pose& camera_from_map) {
+void MovableSegmenter::compare(const geometry::Pose& camera_from_map) {
   if (config_.method != "depth" || !last_.sure) return;
   now_.camera_from_map = camera_from_map;
   if (!config_.motion) return;
   const cv::Mat1f& depth_m = now_.cells.depth_m;
-  now_.moved = arrivals(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_, config_), config_);
+  now_.moved =
+      moving_objects(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_, config_), config_);
 }
 
-MovableMask MovableCut::cut(std::span<const MovableRegion> regions,
-                            std::span<const Eigen::Vector3f> lasting) {
+MovableMask MovableSegmenter::cut(std::span<const MovableRegion> regions,
+                                  std::span<const Eigen::Vector3f> stable) {
   if (config_.method == "off") return {};
   if (config_.method == "box") return whole_boxes(regions);
   now_.mask = cv::Mat1b(grid_.size(), std::uint8_t{0});
   now_.unsupported_s = cv::Mat1f(grid_.size(), 0.0F);
-  mark_lasting(lasting);
+  mark_stable(stable);
   if (!regions.empty() || !now_.moved.empty() || last_.widened.any()) mark(regions);
   if (cv::countNonZero(now_.mask) > 0) now_.widened = widened(now_.cells.depth_m, now_.mask);
   return now_.widened;
 }
 
-void MovableCut::mark(std::span<const MovableRegion> regions) {
+void MovableSegmenter::mark(std::span<const MovableRegion> regions) {
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
   fill_boxes(grid_, regions, suspect);
   for (const auto& cells : now_.moved) suspect(cv::boundingRect(cells)).setTo(255);
@@ -60,24 +61,24 @@ void MovableCut::mark(std::span<const MovableRegion> regions) {
 }
 
 /// Marks the surfaces right around points that show where they have always been.
-void MovableCut::mark_lasting(std::span<const Eigen::Vector3f> lasting) {
+void MovableSegmenter::mark_stable(std::span<const Eigen::Vector3f> stable) {
   const cv::Mat1f& depth_m = now_.cells.depth_m;
-  now_.cells.lasting = cv::Mat1b(grid_.size(), std::uint8_t{0});
+  now_.cells.stable = cv::Mat1b(grid_.size(), std::uint8_t{0});
   const cv::Rect inside({0, 0}, grid_.size());
-  for (const Eigen::Vector3f& p : lasting) {
+  for (const Eigen::Vector3f& p : stable) {
     const cv::Point middle = grid_.cell_of(p);
     if (middle.x < 0) continue;
-    for (int dy = -kLastingCells; dy <= kLastingCells; ++dy)
-      for (int dx = -kLastingCells; dx <= kLastingCells; ++dx) {
+    for (int dy = -kStableCells; dy <= kStableCells; ++dy)
+      for (int dx = -kStableCells; dx <= kStableCells; ++dx) {
         const cv::Point cell = middle + cv::Point(dx, dy);
         if (!inside.contains(cell) || !(depth_m(cell) > 0)) continue;
-        if (one_surface(depth_m(cell), p.z(), kLastingStepM)) now_.cells.lasting(cell) = 255;
+        if (one_surface(depth_m(cell), p.z(), kStableStepM)) now_.cells.stable(cell) = 255;
       }
   }
 }
 
 /// Where the parts that were cut from the last picture show now, if they have not moved.
-void MovableCut::carry(const Background& background) {
+void MovableSegmenter::carry(const Background& background) {
   const auto passed_s =
       static_cast<float>(static_cast<double>(now_.stamp_ns - last_.stamp_ns) / kNsPerSecond);
   const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_.map_from_camera).cast<float>();
@@ -98,7 +99,7 @@ void MovableCut::carry(const Background& background) {
     }
 }
 
-void MovableCut::remember(const geometry::Pose& map_from_camera, bool sure) {
+void MovableSegmenter::remember(const geometry::Pose& map_from_camera, bool sure) {
   now_.map_from_camera = map_from_camera;
   now_.sure = sure;
   if (!sure || now_.cells.depth_m.empty() || config_.method != "depth") return;
@@ -109,7 +110,8 @@ void MovableCut::remember(const geometry::Pose& map_from_camera, bool sure) {
   newest_past_ns_ = now_.stamp_ns;
 }
 
-MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const MovableRegion> regions) const {
+MovableMask MovableSegmenter::segment_late(const PictureCells& picture,
+                                           std::span<const MovableRegion> regions) const {
   if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
   if (config_.method == "box") return whole_boxes(regions);
   cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
@@ -121,19 +123,19 @@ MovableMask MovableCut::cut_late(const PictureCells& picture, std::span<const Mo
   return widened(picture.depth_m, mask);
 }
 
-MovableMask MovableCut::whole_boxes(std::span<const MovableRegion> regions) const {
+MovableMask MovableSegmenter::whole_boxes(std::span<const MovableRegion> regions) const {
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
   fill_boxes(grid_, regions, mask);
   return {mask, grid_.cell_px()};
 }
 
-MovableMask MovableCut::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const {
+MovableMask MovableSegmenter::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const {
   cv::Mat1b wide = mask.clone();
   close_and_widen(depth_m, wide);
   return {wide, grid_.cell_px()};
 }
 
-void MovableCut::forget() {
+void MovableSegmenter::forget() {
   past_.clear();
   now_ = Now();
   last_ = Now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/movable_cut.hpp"
+#include "services/tracker/core/removal/movable_segmenter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr std::int64_t kFrameNs = 100'000'000;
 
 class MovableCutting : public testing::Test {
  protected:
-  static MovableMask look(MovableCut& cut, const image::RgbdFrame& picture,
+  static MovableMask look(MovableSegmenter& cut, const image::RgbdFrame& picture,
                           const std::vector<MovableRegion>& regions) {
     cut.look_at(picture);
     cut.compare(Pose::Identity());
@@ -31,7 +31,7 @@ class MovableCutting : public testing::Test {
   }
 
   RemovalConfig config;
-  MovableCut cut{config, kMaxDepth_m};
+  MovableSegmenter cut{config, kMaxDepth_m};
 };
 
 TEST_F(MovableCutting, CutsSomebodyOutOfHisBox) {
@@ -60,7 +60,7 @@ TEST_F(MovableCutting, NoBoxesNothing) {
 
 TEST_F(MovableCutting, WholeBoxesIfAskedFor) {
   config.method = "box";
-  cut = MovableCut(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, kMaxDepth_m);
   const MovableMask mask = look(room(), {{{60, 20, 200, 200}, 0, 1}});
   EXPECT_TRUE(mask.covers({61, 21}));
   EXPECT_TRUE(mask.covers({199, 199}));
@@ -69,7 +69,7 @@ TEST_F(MovableCutting, WholeBoxesIfAskedFor) {
 
 TEST_F(MovableCutting, NothingIfSwitchedOff) {
   config.method = "off";
-  cut = MovableCut(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, kMaxDepth_m);
   EXPECT_FALSE(look(room({0.2, 1.8}), {region_of({0.2, 1.8})}).any());
 }
 
@@ -83,7 +83,7 @@ TEST_F(MovableCutting, SeesWhoeverEntersWithoutAnyBox) {
 
 TEST_F(MovableCutting, WithoutMotionOnlyBoxesCount) {
   config.motion = false;
-  cut = MovableCut(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, kMaxDepth_m);
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   EXPECT_FALSE(look(room({-0.3, 1.8}, 8 * kFrameNs)).any());
 }
@@ -112,14 +112,14 @@ TEST_F(MovableCutting, APoseThatIsWrongShowsNoMotion) {
 TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
   const Somebody shelf{0.2, 1.8};
   const image::RgbdFrame picture = room(shelf);
-  std::vector<Eigen::Vector3f> lasting;
+  std::vector<Eigen::Vector3f> stable;
   for (int y = 0; y < picture.camera.height; y += 4)
     for (int x = 0; x < picture.camera.width; x += 4)
       if (test::shows(picture, x, y))
-        lasting.push_back(picture.depth.at(x, y) *
-                          picture.camera.ray({static_cast<double>(x), static_cast<double>(y)}).cast<float>());
+        stable.push_back(picture.depth.at(x, y) *
+                         picture.camera.ray({static_cast<double>(x), static_cast<double>(y)}).cast<float>());
   cut.look_at(picture);
-  const MovableMask mask = cut.cut(std::vector{region_of(shelf)}, lasting);
+  const MovableMask mask = cut.cut(std::vector{region_of(shelf)}, stable);
   EXPECT_LT(compare(mask, picture).of_somebody, 0.1);
 }
 
@@ -129,10 +129,10 @@ TEST_F(MovableCutting, LateBoxesAreCutFromThePictureTheyBelongTo) {
   look(picture);
   const PictureCells cells = cut.latest();
   look(room({}, kFrameNs));
-  const auto marked = compare(cut.cut_late(cells, std::vector{region_of(somebody)}), picture);
+  const auto marked = compare(cut.segment_late(cells, std::vector{region_of(somebody)}), picture);
   EXPECT_GT(marked.of_somebody, 0.95);
   EXPECT_LT(marked.of_the_rest, 0.05);
-  EXPECT_FALSE(cut.cut_late({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
+  EXPECT_FALSE(cut.segment_late({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
       << "of another camera";
 }
 
@@ -146,7 +146,7 @@ TEST_F(MovableCutting, APictureWithoutDepthHidesTheWholeBox) {
 
 TEST_F(MovableCutting, SameCallsSameMask) {
   const Somebody somebody{0.2, 1.8};
-  MovableCut other(config, kMaxDepth_m);
+  MovableSegmenter other(config, kMaxDepth_m);
   for (int i = 0; i < 5; ++i) {
     const image::RgbdFrame picture = room({0.1 * i, 1.8}, i * kFrameNs);
     const std::vector<MovableRegion> regions{region_of(somebody, 5)};

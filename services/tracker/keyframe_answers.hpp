@@ -13,7 +13,7 @@
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
-#include "services/tracker/core/local_mapping.hpp"
+#include "services/tracker/core/mapping/local_mapping.hpp"
 #include "services/tracker/delayed_values.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"

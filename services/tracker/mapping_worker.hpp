@@ -6,7 +6,7 @@
 
 #include "common/concurrency/mailbox.hpp"
 #include "common/concurrency/priority.hpp"
-#include "services/tracker/core/local_mapping.hpp"
+#include "services/tracker/core/mapping/local_mapping.hpp"
 
 namespace rds::tracker {
 

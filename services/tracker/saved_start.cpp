@@ -18,7 +18,7 @@ tl::expected<SavedMap, std::string> to_start(const map_file::Sections& sections,
   };
   const auto poses = map_file::keyframe_poses_from_bytes(sections.at(map_file::kKeyframePoses));
   if (!poses) return refuse(poses.error());
-  auto map = map_from_bytes(sections.at(map_file::kTracker), *poses, config);
+  auto map = map_from_bytes(sections.at(map_file::kTracker), *poses, config.map, config.extraction);
   if (!map) return refuse(map.error());
   return map;
 }

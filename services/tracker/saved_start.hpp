@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "common/map_file/saved_map.hpp"
-#include "services/tracker/core/map_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 
 namespace rds::tracker {

@@ -28,6 +28,10 @@ constexpr std::size_t kLiveFrames =
     5;  // waiting while one is processed (as the topic keeps); older ones are dropped
 constexpr std::uint8_t kLoop = 1;
 
+std::int64_t now_us() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
+}
+
 std::uint32_t microseconds_since(Clock::time_point start) {
   return static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
@@ -44,8 +48,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       map_epoch_(service::random_id()),
-      tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               [this](std::size_t count, const auto& part) { parallel_for_.run(count, part); }),
+      tracker_(
+          config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
+          [this](std::size_t count, const auto& part) { parallel_for_.run(count, part); }, now_us),
       checkpoints_(
           keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
           config.maps.checkpoint_s),
@@ -136,7 +141,7 @@ void TrackerService::begin_after_break() {
 
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (resume_.is_looking() && frame.camera.is_valid() &&
-      frame.camera.fx != tracker_.known_camera().given_fx) {
+      frame.camera.fx != tracker_.calibration().given_fx()) {
     spdlog::warn("the map of the checkpoint was made with another camera");
     reset();
   }

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/map_file/geometry_bytes.hpp"
-#include "services/tracker/core/map_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/saved_start.hpp"
 #include "services/tracker/tracker_service.hpp"
 
@@ -50,10 +50,11 @@ void TrackerService::save_checkpoint() {
 
 map_file::MapPart TrackerService::map_part() const {
   const SlamMap& map = tracker_.map();
-  return {map_file::kTracker,
-          {{map_file::kTracker, to_bytes(map, tracker_.known_camera(), config_.tracker.extraction)},
-           {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}},
-          {}};
+  return {
+      map_file::kTracker,
+      {{map_file::kTracker, to_bytes(map, tracker_.calibration().known_camera(), config_.tracker.extraction)},
+       {map_file::kKeyframePoses, map_file::to_bytes(map.keyframe_poses())}},
+      {}};
 }
 
 /// Begins a new map epoch with a saved map; after a fault everything is as before.

@@ -2,10 +2,10 @@
 // Time of each stage of the tracker, on a frame of 7scenes_kitchen, in the map that the tracker made of the
 // frames before it. Skipped, with the reason, without that recording in RDS_SHARED.
 #include "common/concurrency/parallel_for.hpp"
-#include "services/tracker/core/feature_alignment.hpp"
-#include "services/tracker/core/map_building.hpp"
-#include "services/tracker/core/mapping_exchange.hpp"
-#include "services/tracker/core/sparse_image_alignment.hpp"
+#include "services/tracker/core/mapping/map_building.hpp"
+#include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/pose/feature_alignment.hpp"
+#include "services/tracker/core/pose/sparse_image_alignment.hpp"
 #include "tests/bench/tracker_bench_scene.hpp"
 
 namespace {
@@ -60,7 +60,7 @@ BENCHMARK(point_following)->Unit(benchmark::kMicrosecond);
 
 void point_following_with_helper(benchmark::State& state) {
   concurrency::ParallelFor helper;
-  const RunParts on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
+  const ParallelFor on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   measure(state, [&](Scene& s) { return s.follow(s.points, s.next, *s.next_images, on_both); });
 }
 BENCHMARK(point_following_with_helper)->Unit(benchmark::kMicrosecond)->UseRealTime();
@@ -98,7 +98,8 @@ BENCHMARK(association_with_local_map)->Unit(benchmark::kMicrosecond);
 
 void local_map_selection(benchmark::State& state) {
   std::uint64_t mark = 2'000'000'000;
-  measure(state, [&](Scene& s) { return select_local_map(*s.map, s.last_followed, s.config.map, ++mark); });
+  measure(state,
+          [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, s.config.map, ++mark); });
 }
 BENCHMARK(local_map_selection)->Unit(benchmark::kMicrosecond);
 
@@ -145,11 +146,16 @@ void place_query(benchmark::State& state) {
 BENCHMARK(place_query)->Unit(benchmark::kMicrosecond);
 
 void relocalisation_by_a_keyframe(benchmark::State& state) {
-  measure(state, [](Scene& s) {
+  Relocalizer relocalizer{RelocalizationConfig{}};
+  measure(state, [&](Scene& s) {
+    if (relocalizer.places() == 0) {
+      relocalizer.add(s.newest);
+      relocalizer.index_pending(*s.map);
+    }
+    const PoseSettings settings{s.pyramid, s.config.depth, s.config.matching, s.config.pose, s.config.map};
+    const TrackingContext context{*s.map, settings, s.next, s.model, {}, {}};
     TrackedFrame frame = s.extracted;
-    const RelocalizationTools tools{s.model, s.pyramid, s.config.matching, s.config.pose,
-                                    s.config.relocalization};
-    return relocalize_against(*s.map, s.newest, tools, frame);
+    return relocalizer.localize(context, frame);
   });
 }
 BENCHMARK(relocalisation_by_a_keyframe)->Unit(benchmark::kMicrosecond);

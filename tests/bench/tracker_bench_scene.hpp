@@ -8,8 +8,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "services/tracker/core/local_map.hpp"
-#include "services/tracker/core/relocalization.hpp"
+#include "services/tracker/core/features/orb_extractor.hpp"
+#include "services/tracker/core/map/local_map.hpp"
+#include "services/tracker/core/relocalization/relocalizer.hpp"
 #include "tests/support/tracker_sequence.hpp"
 
 namespace rds::tracker {
@@ -47,7 +48,7 @@ struct Scene {
     std::vector<PointId> all;
     map->all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
     last_followed = followed(follow(all, last, *last_images), last);
-    local = select_local_map(*map, last_followed, config.map, 1'000'000'000);
+    local = select_local_map(*map, last_followed.points, config.map, 1'000'000'000);
     points = last_followed.points;
     points.insert(points.end(), local.points.begin(), local.points.end());
     next_followed = followed(follow(points, next, *next_images), next);
@@ -62,9 +63,9 @@ struct Scene {
 
   [[nodiscard]] FollowedPoints follow(std::span<const PointId> ids, const image::RgbdFrame& frame,
                                       const ImagePyramid& images,
-                                      const RunParts& run_parts = run_in_turn) const {
+                                      const ParallelFor& parallel_for = serial_for) const {
     return PointSearch(*map, ids, {frame, images, last_camera_from_map, {}}, model, pyramid, config.following)
-        .find({}, run_parts);
+        .find({}, parallel_for);
   }
 
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {

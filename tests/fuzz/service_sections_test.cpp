@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "services/loop_closer/core/loop_closer.hpp"
-#include "services/tracker/core/map_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 #include "tests/fuzz/allocation_watch.hpp"
 #include "tests/fuzz/feed.hpp"
 #include "tests/unit/services/loop_closer/core/synthetic_places.hpp"
@@ -25,7 +25,9 @@ TEST(SectionReaders, SectionOfTheTracker) {
   const std::vector<Bytes> seeds{tracker::to_bytes(tracker.map(), {fx, 1}, config.extraction)};
   feed(
       2, seeds, [](std::size_t bytes) { return kMemoryOfAnEmptyMap + 32 * bytes; },
-      [&](const Bytes& bytes) { return tracker::map_from_bytes(bytes, poses, config).has_value(); });
+      [&](const Bytes& bytes) {
+        return tracker::map_from_bytes(bytes, poses, config.map, config.extraction).has_value();
+      });
 }
 
 TEST(SectionReaders, SectionOfTheLoopCloser) {

@@ -2,6 +2,7 @@
 #include "tests/support/tracker_sequence.hpp"
 
 #include <array>
+#include <chrono>
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
@@ -40,6 +41,11 @@ std::vector<std::vector<MovableRegion>> read_truth_boxes(const std::filesystem::
   return all;
 }
 
+std::int64_t now_us() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
 double processor_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -50,7 +56,11 @@ double processor_ms() {
 
 TrackerSequence::TrackerSequence(const TrackerSequenceOptions& options, const image::TumDataset& dataset,
                                  const tracker::TrackerConfig& config)
-    : options_(options), dataset_(dataset), config_(config), tracker_(config), objects_({}) {
+    : options_(options),
+      dataset_(dataset),
+      config_(config),
+      tracker_(config, {}, tracker::serial_for, now_us),
+      objects_({}) {
   if (!options.detections.empty()) detections_ = read_detections(options.detections);
   if (options.truth_boxes || options.late_boxes) boxes_ = read_truth_boxes(dataset.folder());
 }

@@ -3,21 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-
-#include "services/tracker/core/relocalization.hpp"
+#include <utility>
 
 namespace rds::tracker {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kLastingObservers = 3;  // keyframes and …
-constexpr std::uint32_t kLastingFound = 8;    // frames that saw a point that lasts
-
-std::int64_t microseconds_since(Clock::time_point start) {
-  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
-}
+constexpr double kNsPerSecond = 1e9;
+constexpr double kLostForGoodS = 1;  // at least, before a young map is given up
 
 bool is_usable(const image::RgbdFrame& frame) {
   const cv::Size size(frame.camera.width, frame.camera.height);
@@ -40,214 +32,194 @@ std::vector<KeypointVerdict> verdicts(const TrackedFrame& frame) {
   return all;
 }
 
-}  // namespace
-
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, RunParts run_parts)
-    : config_(config),
-      given_poses_(std::move(given_poses)),
-      run_parts_(std::move(run_parts)),
-      pyramid_(config.extraction.levels, config.extraction.scale_factor),
-      extractor_(config.extraction, run_parts_),
-      cut_(config.removal, config.depth.max_depth_m),
-      map_(config.map, pyramid_),
-      calibration_(config.self_calibration) {}
-
-void Tracker::reset() {
-  *this = Tracker(config_, std::move(given_poses_), std::move(run_parts_));
-}
-
-void Tracker::start_from(SavedMap&& saved) {
-  reset();
-  map_ = std::move(saved.map);
-  if (map_.keyframes() == 0) return;
-  given_fx_ = saved.camera.given_fx;
-  calibration_.begin_with_focal_scale(saved.camera.focal_scale);
-  map_.all_keyframes().for_each([&](Keyframe& k) { k.time_ns = clock_.go_to(k.stamp_ns).time_ns; });
-  index_all_keyframes();
-  state_ = State::kLost;
-}
-
-void Tracker::extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
-                      FrameResult& result) {
-  const auto start = Clock::now();
-  std::vector<Feature> features;
-  features.reserve(static_cast<std::size_t>(config_.extraction.features));
-  MovableTest is_movable;
-  if (movable.any()) is_movable = [&](const Eigen::Vector2f& px) { return movable.covers(px); };
-  extractor_.extract(images_->level(0), is_movable, features);
-  frame.motion = shutter_motion(frame.time_ns);
-  set_features(picture, std::move(features), frame);
-  frame.clear_matches();
-  result.times.extract_us = microseconds_since(start);
-}
-
-/// Gives features what the camera model and the depth picture know of them.
-void Tracker::set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
-                           TrackedFrame& frame) const {
-  complete_features(picture.camera, picture.depth, config_.depth.max_depth_m, features);
-  remove_rolling_shutter(picture.camera, frame.motion, features);
-  frame.features = std::make_shared<const FeatureSet>(picture.camera, std::move(features));
-}
-
-/// The picture (its pixels shared) with the focal length that is known by now.
-image::RgbdFrame Tracker::calibrated(const image::RgbdFrame& given) {
-  if (given.camera.fx != given_fx_) calibration_ = SelfCalibration(config_.self_calibration);  // another one
-  given_fx_ = given.camera.fx;
-  image::RgbdFrame picture = given;
-  picture.camera.fx *= calibration_.focal_scale();
-  picture.camera.fy *= calibration_.focal_scale();
-  return picture;
-}
-
-/// Where the camera is by the last frame's points or by the motion model; unknown where neither says
-/// anything. Points that something moving has taken along are told by where they would have the camera.
-void Tracker::guess_pose(const image::RgbdFrame& picture, Surroundings& around) const {
-  if (given_poses_) {
-    if (const auto given = given_poses_(picture.stamp_ns)) around.camera_from_map = given->inverse();
-    return;
-  }
-  if (!last_ || !has_pose(state_)) return;
-  around.camera_from_map = expected_at(time_ns_);
-  if (!follows_points()) return;
-  const Pose aligned = align_with_last(picture);
-  if (last_->frame.movable_there && jerk(aligned, time_ns_) > 1)
-    around.aligned = aligned;
-  else
-    around.camera_from_map = aligned;
-}
-
-/// The points that the frame should see, if it is where the last one was.
-void Tracker::look_around(Surroundings& around) {
-  if (!last_ || !(follows_points() || removes_by_depth())) return;
-  const LocalMap local = select_local_map(map_, last_->frame, config_.map, ++mark_);
-  around.reference = local.reference;
-  std::ranges::copy_if(last_->frame.points, std::back_inserter(around.points),
-                       [&](PointId id) { return map_.point(id) != nullptr; });
-  around.points.insert(around.points.end(), local.points.begin(), local.points.end());
-}
-
-/// Those of the points around, in the camera frame, that have been found where they are for long.
-std::vector<Eigen::Vector3f> Tracker::lasting_points(const Surroundings& around) const {
-  std::vector<Eigen::Vector3f> lasting;
-  if (!removes_by_depth() || !around.camera_from_map) return lasting;
-  for (const PointId id : around.points) {
-    const MapPoint& point = *map_.point(id);
-    if (point.observations.size() < kLastingObservers || point.found < kLastingFound ||
-        2 * point.found < point.visible)
-      continue;
-    lasting.push_back((*around.camera_from_map * point.position).cast<float>());
-  }
-  return lasting;
-}
-
-/// Gets ready what a picture is searched with for points, and for what is movable.
-void Tracker::look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around) {
-  run_both(
-      run_parts_,
-      [&] {
-        look_at(picture);
-        guess_pose(picture, around);
-      },
-      [&] {
-        cut_.look_at(given);
-        look_around(around);
-      });
-}
-
-/// Where they can be followed, the points around are looked for beside.
-MovableMask Tracker::cut_movable(const image::RgbdFrame& picture, std::span<const MovableRegion> regions,
-                                 Surroundings& around) {
-  MovableMask movable;
-  std::atomic<bool> is_cut = false;
-  const auto cut = [&] {
-    if (around.camera_from_map) cut_.compare(*around.camera_from_map);
-    movable = cut_.cut(regions, lasting_points(around));
-    is_cut = true;
-  };
-  run_both(run_parts_, cut, [&] {
-    if (!can_follow(around)) return;
-    around.search.emplace(search_around(picture, around, *around.camera_from_map));
-    around.search->look_ahead(is_cut);
-  });
-  return movable;
-}
-
-FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
-  FrameResult result;
-  result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
-  index_newest_keyframe();
-  ++frames_since_keyframe_;
-  if (!is_usable(given)) return result;
-  const image::RgbdFrame picture = calibrated(given);
-  const auto start = Clock::now();
-  go_to(picture.stamp_ns);
-  Surroundings around;
-  look(given, picture, around);
-  const MovableMask movable = cut_movable(picture, regions, around);
-  TrackedFrame frame;
-  frame.stamp_ns = picture.stamp_ns;
-  frame.time_ns = time_ns_;
-  frame.given_fx = given_fx_;
-  frame.movable_there = movable.any() || !regions.empty();
-  const Pose guess = around.camera_from_map.value_or(expected_at(time_ns_));
-  frame.camera_from_map = around.aligned.value_or(guess);
-  const KeyframeNeed need = find_pose(picture, around, movable, frame, result);
-  result.state = state_;
+void describe(const TrackedFrame& frame, FrameResult& result) {
   result.features = static_cast<unsigned>(frame.features->size());
   result.dynamic_features =
       static_cast<unsigned>(std::ranges::count_if(frame.features->all(), &Feature::movable));
   result.verdicts = verdicts(frame);
-  if (has_pose(state_)) {
-    result.inliers = static_cast<unsigned>(frame.matches());
-    if (need != KeyframeNeed::kNone) add_keyframe(need, frame, result);
-    result.map_from_camera = frame.camera_from_map.inverse();
-    result.reference_keyframe_id = reference_;
-    result.reference_from_camera = map_.pose_of(reference_).inverse() * result.map_from_camera;
+  if (has_pose(result.state)) result.inliers = static_cast<unsigned>(frame.matches());
+}
+
+}  // namespace
+
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, ParallelFor parallel_for,
+                 Stopwatch now_us)
+    : config_(config),
+      ports_{std::move(given_poses), std::move(parallel_for), std::move(now_us)},
+      calibration_(config.self_calibration),
+      removal_(config.removal, config.depth.max_depth_m),
+      localizer_(config, ports_.parallel_for, ports_.now_us, ports_.given_poses != nullptr),
+      keyframes_(config.keyframe, config.quality.min_inliers, config.localize_only),
+      mapper_(localizer_.settings(), config.local_mapping, !config.localize_only) {}
+
+void Tracker::reset() {
+  *this = Tracker(config_, std::move(ports_.given_poses), std::move(ports_.parallel_for),
+                  std::move(ports_.now_us));
+}
+
+/// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
+FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
+  FrameResult result;
+  result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
+  localizer_.relocalizer().index_pending(mapper_.map());
+  keyframes_.begin_frame();
+  if (!is_usable(given)) return result;
+
+  image::RgbdFrame picture = given;
+  picture.camera = calibration_.calibrated(given.camera);
+  const std::int64_t started_us = ports_.now_us();
+  TrackingContext context{
+      mapper_.map(), localizer_.settings(), picture, ObservationModel(picture.camera, config_.depth), {}, {}};
+  prepare(given, regions, context);
+  PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
+  TrackedFrame& frame = estimate.frame;
+  result.state = state_ = estimate.state;
+
+  KeyframeNeed need = KeyframeNeed::kNone;
+  if (estimate.begins_map) {
+    make_keyframe(KeyframeNeed::kMap, frame, result);
+  } else if (state_ == State::kTracking || state_ == State::kRelocalised) {
+    const KeyframeSelector::Candidate candidate{context, frame, localizer_.features().reference(),
+                                                localizer_.scene_changed()};
+    need =
+        estimate.is_followed ? keyframes_.need_of_followed(candidate) : keyframes_.need_of_matched(candidate);
+    if (need == KeyframeNeed::kMap && estimate.is_followed && !localizer_.match_features(context, estimate))
+      need = KeyframeNeed::kNone;
   }
-  result.movable = movable;
-  remember(std::move(frame), state_);
-  result.times.track_us = microseconds_since(start) - result.times.extract_us;
+  describe(frame, result);
+  if (need != KeyframeNeed::kNone)
+    make_keyframe(config_.localize_only ? KeyframeNeed::kLook : need, frame, result);
+  if (has_pose(state_)) {
+    result.map_from_camera = frame.camera_from_map.inverse();
+    result.reference_keyframe_id = localizer_.features().reference();
+    result.reference_from_camera =
+        mapper_.map().pose_of(result.reference_keyframe_id).inverse() * result.map_from_camera;
+  }
+  result.movable = context.movable;
+  finish(context, std::move(frame));
+  result.times = {estimate.extract_us, ports_.now_us() - started_us - estimate.extract_us};
   return result;
 }
 
-/// Where stamps have gone back, the camera may be anywhere, and what moved before moves no more.
-void Tracker::go_to(std::int64_t stamp_ns) {
-  const auto [time_ns, went_back] = clock_.go_to(stamp_ns);
-  time_ns_ = time_ns;
-  if (!went_back) return;
-  cut_.forget();
-  velocity_.reset();
-  if (state_ != State::kNotInitialized) state_ = State::kLost;
+/// Fills in what is known before the pose is looked for: time, motion, a guess of the pose, the local map,
+/// what is movable, and the points that were found beside.
+void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegion> regions,
+                      TrackingContext& context) {
+  const auto [time_ns, went_back] = time_.go_to(given.stamp_ns);
+  if (went_back) {  // the camera may be anywhere, and what moved before moves no more
+    removal_.forget();
+    localizer_.depth_aligner().forget();
+    motion_.forget_velocity();
+    if (state_ != State::kNotInitialized) state_ = State::kLost;
+  }
+  context.motion = motion_.predict(last_map_from_camera(), time_ns);
+  TrackedFrame& frame = context.frame;
+  frame.stamp_ns = given.stamp_ns;
+  frame.time_ns = time_ns;
+  frame.given_fx = calibration_.given_fx();
+  frame.motion = {context.motion.velocity(), calibration_.readout_s()};
+  if (ports_.given_poses)
+    if (const auto map_from_camera = ports_.given_poses(given.stamp_ns))
+      context.guess = map_from_camera->inverse();
+  run_both(
+      ports_.parallel_for, [&] { localizer_.guess(context, state_); },
+      [&] {
+        removal_.look_at(given);
+        localizer_.select_local_map(context);
+      });
+  std::atomic<bool> is_cut = false;
+  const auto cut = [&] {
+    std::vector<Eigen::Vector3f> stable;
+    if (context.guess) removal_.compare(*context.guess);
+    if (context.guess && config_.removal.method == "depth")
+      stable = stable_points(context.map, context.local.points, *context.guess);
+    context.movable = removal_.cut(regions, stable);
+    is_cut = true;
+  };
+  run_both(ports_.parallel_for, cut, [&] { localizer_.search_early(context, state_, is_cut); });
+  context.depth = {&removal_.grid(), removal_.latest().depth_m, removal_.latest_mask()};
+  frame.movable_in_view = context.movable.any() || !regions.empty();
+  frame.camera_from_map =
+      context.alignment.value_or(context.guess.value_or(context.motion.camera_from_map()));
 }
 
-void Tracker::look_at(const image::RgbdFrame& picture) {
-  cv::Mat gray;
-  picture.color.to_gray(gray);
-  images_ =
-      std::make_shared<const ImagePyramid>(gray, follows_points() ? config_.following.coarsest_level + 1 : 1);
+/// @param need  kLook: for those who look at its picture; of it the map keeps the pose at most.
+void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {
+  if (need == KeyframeNeed::kMap) {
+    result.keyframe =
+        mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
+    localizer_.features().set_newest_keyframe(result.keyframe->id);
+    localizer_.relocalizer().add(result.keyframe->id);
+    keyframes_.note_in_map(result.keyframe->id, frame.time_ns);
+  } else {
+    const KeyframePose keyframe = mapper_.insert_pose_only(frame, localizer_.features().reference());
+    result.keyframe = KeyframeData{keyframe.id, keyframe.stamp_ns, keyframe.map_from_camera, {}, {}, false};
+    keyframes_.note_not_in_map(keyframe, frame.time_ns);
+  }
+  localizer_.begin_interval();
 }
 
-/// Extracts features and finds the pose from them. @return what else the frame is to become.
-KeyframeNeed Tracker::track_features(const image::RgbdFrame& picture, const MovableMask& movable,
-                                     TrackedFrame& frame, FrameResult& result) {
-  extract(picture, movable, frame, result);
-  if (given_poses_)
-    follow(frame, result);
-  else if (state_ == State::kNotInitialized)
-    initialize(frame, result);
-  else
-    state_ = track_motion(frame);
-  if (!has_pose(state_) || result.keyframe) return KeyframeNeed::kNone;
-  return keyframe_need(frame);
+/// What the frame tells those that come.
+void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
+  if (state_ == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.time_ns;
+  if (!has_pose(state_)) return localizer_.depth_aligner().forget();
+  lost_since_ns_.reset();
+  const Pose map_from_camera = frame.camera_from_map.inverse();
+  removal_.remember(map_from_camera, !frame.by_depth_only);
+  localizer_.depth_aligner().set_previous(context.depth, map_from_camera);
+  motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
+  if (frame.by_depth_only) return;  // later frames are still matched with the one before
+  motion_.start_from(frame.time_ns);
+  const KeyframeId reference = localizer_.features().reference();
+  const Pose reference_from_camera = mapper_.map().pose_of(reference).inverse() * map_from_camera;
+  localizer_.features().set_last({std::move(frame), reference, reference_from_camera});
 }
 
-void Tracker::initialize(TrackedFrame& frame, FrameResult& result) {
-  const auto with_depth = std::ranges::count_if(frame.features->all(),
-                                                [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
-  if (config_.localize_only || with_depth < config_.quality.min_features_to_start) return;
-  frame.camera_from_map = Pose::Identity();
-  state_ = State::kTracking;
-  make_keyframe(frame, result);
+Pose Tracker::last_map_from_camera() const {
+  const std::optional<LastFrame>& last = localizer_.features().last();
+  return last ? mapper_.map().pose_of(last->reference) * last->reference_from_camera : Pose::Identity();
+}
+
+Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
+  if (ports_.given_poses)
+    if (const auto given = ports_.given_poses(stamp_ns)) return given->inverse();
+  return motion_.predict(last_map_from_camera(), time_.at(stamp_ns).time_ns).camera_from_map();
+}
+
+bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
+  const Keyframe* first = mapper_.map().keyframe(0);
+  const std::optional<LastFrame>& last = localizer_.features().last();
+  const bool is_own =
+      mapper_.map().first_free_keyframe() == 0 && !config_.localize_only && !ports_.given_poses;
+  if (!lost_since_ns_ || !is_own || first == nullptr || !last) return false;
+  const double tracked_s = static_cast<double>(last->frame.time_ns - first->time_ns) / kNsPerSecond;
+  const double lost_s = static_cast<double>(time_.at(stamp_ns).time_ns - *lost_since_ns_) / kNsPerSecond;
+  return tracked_s < config_.quality.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
+}
+
+std::optional<LocalMappingJob> Tracker::take_mapping_job() {
+  localizer_.relocalizer().index_pending(mapper_.map());
+  return mapper_.take_job(calibration_);
+}
+
+void Tracker::apply(const LocalMappingResult& result) {
+  localizer_.relocalizer().index_pending(mapper_.map());
+  const auto culled = mapper_.apply(result);
+  if (!culled) return;
+  if (mapper_.is_mostly_static(result.keyframe)) calibration_.update(result.keyframe, result.imaging);
+  for (const KeyframeId keyframe : *culled) localizer_.relocalizer().remove(keyframe);
+}
+
+void Tracker::apply(const PoseGraphCorrection& correction) {
+  if (ports_.given_poses) return;
+  mapper_.correct(correction.poses);
+  removal_.forget();
+  localizer_.depth_aligner().forget();
+}
+
+void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
+  if (const PictureCells* cells = mapper_.cells_of(keyframe_id))
+    mapper_.retract(keyframe_id, removal_.segment_late(*cells, regions));
 }
 
 }  // namespace rds::tracker

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -13,33 +12,16 @@
 
 #include "common/image/rgbd_frame.hpp"
 #include "common/time/continuous_time.hpp"
-#include "common/vision/place_index.hpp"
-#include "services/tracker/core/association.hpp"
-#include "services/tracker/core/keyframe_policy.hpp"
-#include "services/tracker/core/local_map.hpp"
-#include "services/tracker/core/local_mapping.hpp"
-#include "services/tracker/core/map_checkpoint.hpp"
-#include "services/tracker/core/orb_extractor.hpp"
-#include "services/tracker/core/point_following.hpp"
-#include "services/tracker/core/removal/movable_cut.hpp"
-#include "services/tracker/core/rolling_shutter.hpp"
-#include "services/tracker/core/se3.hpp"
-#include "services/tracker/core/self_calibration.hpp"
-#include "services/tracker/core/slam_map.hpp"
-#include "services/tracker/core/tracker_config.hpp"
-#include "services/tracker/core/tracking_types.hpp"
+#include "services/tracker/core/localizer.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
+#include "services/tracker/core/mapping/local_mapper.hpp"
+#include "services/tracker/core/removal/movable_segmenter.hpp"
 
 namespace rds::tracker {
 
 /// map_from_camera at a time [ns], known from elsewhere (a robot's odometry, a motion capture); nullopt where
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
-
-/// A map to go on in, and the camera it was made with.
-struct SavedMap {
-  SlamMap map;
-  KnownCamera camera;
-};
 
 /// RGB-D tracking against a map of ORB features that it builds.
 ///
@@ -53,9 +35,11 @@ struct SavedMap {
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
-  /// @param run_parts    runs what can be done at the same time.
-  explicit Tracker(const TrackerConfig& config, GivenPoses given_poses = {},
-                   RunParts run_parts = run_in_turn);
+  /// @param parallel_for    runs what can be done at the same time.
+  /// @param now_us       for the times in results, which are 0 without.
+  explicit Tracker(
+      const TrackerConfig& config, GivenPoses given_poses = {}, ParallelFor parallel_for = serial_for,
+      Stopwatch now_us = [] { return std::int64_t{0}; });
 
   /// Tracks the next picture.
   ///
@@ -92,13 +76,12 @@ class Tracker {
 
   /// Every keyframe since the last reset, by id, also those that are culled, and of those that never were in
   /// the map the newer ones; without those of a map that it started from.
-  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
-  [[nodiscard]] const SlamMap& map() const { return map_; }
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return mapper_.keyframe_poses(); }
+  [[nodiscard]] const SlamMap& map() const { return mapper_.map(); }
   /// Keyframes that a lost camera can find itself by.
-  [[nodiscard]] std::size_t known_places() const { return places_.size() + (unindexed_ != kNoId ? 1 : 0); }
+  [[nodiscard]] std::size_t known_places() const { return localizer_.relocalizer().places(); }
   /// What is known of the camera beyond what it was given with.
   [[nodiscard]] const SelfCalibration& calibration() const { return calibration_; }
-  [[nodiscard]] KnownCamera known_camera() const { return {given_fx_, calibration_.focal_scale()}; }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
@@ -112,144 +95,29 @@ class Tracker {
   void reset();
 
  private:
-  static constexpr int kSureInliers = 80;  // with fewer a pose may be wrong, and another way to it find more
+  void prepare(const image::RgbdFrame& given, std::span<const MovableRegion> regions,
+               TrackingContext& context);
+  void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
+  void finish(const TrackingContext& context, TrackedFrame&& frame);
 
-  struct LastFrame {
-    TrackedFrame frame;
-    std::shared_ptr<const ImagePyramid> images;
-    KeyframeId reference = kNoId;
-    Pose reference_from_camera = Pose::Identity();
+  /// What the tracker is given besides pictures.
+  struct Ports {
+    GivenPoses given_poses;
+    ParallelFor parallel_for;
+    Stopwatch now_us;
   };
-  /// What a new frame should see.
-  struct Surroundings {
-    std::optional<Pose> camera_from_map;  // by the last frame's points or by the motion model
-    std::optional<Pose> aligned;          // by the last frame's points, where no hand would move it so
-    std::vector<PointId> points;          // of the last frame and of the local map around it
-    KeyframeId reference = kNoId;
-    std::optional<PointSearch> search;  // for the points, where they can be followed
-  };
-  struct FollowedFrame {
-    TrackedFrame frame;
-    std::vector<PointId> looked_for;
-    std::shared_ptr<const FeatureSet>
-        extracted;  // of the same picture, if it was looked at for features, too
-  };
-  struct KeyframeDepth {
-    KeyframeId keyframe = kNoId;
-    PictureCells cells;
-  };
-  struct KnownView {
-    KeyframeId keyframe = kNoId;
-    double change = std::numeric_limits<double>::infinity();  // from there, as view_change() says
-  };
-
-  /// False where poses are not estimated or nothing is to be followed.
-  [[nodiscard]] bool follows_points() const { return config_.following.enabled && !given_poses_; }
-  [[nodiscard]] bool removes_by_depth() const { return config_.removal.method == "depth"; }
-  [[nodiscard]] bool teaches_calibration(KeyframeId id) const;
-  [[nodiscard]] image::RgbdFrame calibrated(const image::RgbdFrame& given);
-  void go_to(std::int64_t stamp_ns);
-  void look_at(const image::RgbdFrame& picture);
-  void guess_pose(const image::RgbdFrame& picture, Surroundings& around) const;
-  void look_around(Surroundings& around);
-  [[nodiscard]] std::vector<Eigen::Vector3f> lasting_points(const Surroundings& around) const;
-  void look(const image::RgbdFrame& given, const image::RgbdFrame& picture, Surroundings& around);
-  [[nodiscard]] MovableMask cut_movable(const image::RgbdFrame& picture,
-                                        std::span<const MovableRegion> regions, Surroundings& around);
-  KeyframeNeed find_pose(const image::RgbdFrame& picture, Surroundings& around, const MovableMask& movable,
-                         TrackedFrame& frame, FrameResult& result);
-  KeyframeNeed track_features(const image::RgbdFrame& picture, const MovableMask& movable,
-                              TrackedFrame& frame, FrameResult& result);
-  void extract(const image::RgbdFrame& picture, const MovableMask& movable, TrackedFrame& frame,
-               FrameResult& result);
-  void set_features(const image::RgbdFrame& picture, std::vector<Feature>&& features,
-                    TrackedFrame& frame) const;
-  [[nodiscard]] Pose align_with_last(const image::RgbdFrame& picture) const;
-  [[nodiscard]] bool can_follow(const Surroundings& around) const;
-  [[nodiscard]] PointSearch search_around(const image::RgbdFrame& picture, const Surroundings& around,
-                                          const Pose& guess) const;
-  [[nodiscard]] std::optional<FollowedFrame> follow_points(const image::RgbdFrame& picture,
-                                                           PointSearch& search, const Pose& guess,
-                                                           const MovableMask& movable,
-                                                           const TrackedFrame& begun) const;
-  [[nodiscard]] std::optional<FollowedFrame> follow_map(const image::RgbdFrame& picture, Surroundings& around,
-                                                        const MovableMask& movable,
-                                                        const TrackedFrame& begun) const;
-  bool accept(FollowedFrame& followed, KeyframeId reference);
-  KeyframeNeed follow_with_keyframe(const image::RgbdFrame& picture, const MovableMask& movable,
-                                    std::shared_ptr<const FeatureSet> features, TrackedFrame& frame,
-                                    FrameResult& result);
-  void take_over(const TrackedFrame& followed, const image::RgbdFrame& picture, TrackedFrame& frame) const;
-  void initialize(TrackedFrame& frame, FrameResult& result);
-  void follow(TrackedFrame& frame, FrameResult& result);
-  void associate(TrackedFrame& frame);
-  State track_motion(TrackedFrame& frame);
-  int track_from_last(TrackedFrame& frame);
-  bool estimate_from_last_frame(TrackedFrame& frame);
-  bool estimate_from_keyframe(TrackedFrame& frame);
-  [[nodiscard]] std::optional<Twist> motion_to(const TrackedFrame& frame) const;
-  [[nodiscard]] bool has_jumped(const TrackedFrame& frame) const;
-  [[nodiscard]] double jerk(const TrackedFrame& frame) const;
-  [[nodiscard]] double jerk(const Pose& camera_from_map, std::int64_t time_ns) const;
-  [[nodiscard]] double support(const TrackedFrame& frame) const;
-  [[nodiscard]] std::optional<Pose> pose_by_depth(std::int64_t time_ns) const;
-  bool find_around(const Pose& by_depth, TrackedFrame& frame);
-  State hold(const Pose& by_depth, TrackedFrame& frame);
-  bool relocalize(TrackedFrame& frame);
-  int refine_with_local_map(TrackedFrame& frame, double window_factor);
-  void remember(TrackedFrame&& frame, State state);
-  [[nodiscard]] ShutterMotion shutter_motion(std::int64_t time_ns) const;
-  [[nodiscard]] Pose expected_at(std::int64_t time_ns) const;
-  [[nodiscard]] double since_last_s(std::int64_t time_ns) const;
-  void count_found(const TrackedFrame& frame);
-  void note_found(int expected, int found, FoundShare& share, TrackedFrame& frame);
-  [[nodiscard]] KeyframeNeed keyframe_need(const TrackedFrame& frame) const;
-  void add_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
-  void make_keyframe(TrackedFrame& frame, FrameResult& result);
-  void index_newest_keyframe();
-  void index_all_keyframes();
-  void show_keyframe(const TrackedFrame& frame, FrameResult& result);
-  [[nodiscard]] KnownView nearest_view(const TrackedFrame& frame) const;
-  void add_facts_of_map(const TrackedFrame& frame, KeyframeFacts& facts) const;
-  [[nodiscard]] KeyframeFacts keyframe_facts(const TrackedFrame& frame, double view_change) const;
 
   TrackerConfig config_;
-  GivenPoses given_poses_;
-  RunParts run_parts_;
-  ScalePyramid pyramid_;
-  OrbExtractor extractor_;
-  MovableCut cut_;
-  SlamMap map_;
-  MapCheckpoint map_checkpoint_;
+  Ports ports_;
   SelfCalibration calibration_;
-  double given_fx_ = 0;                 // px, of the newest picture; another one is another camera
-  KeyframeId calibrated_with_ = kNoId;  // the newest that calibration has learned from
-  vision::PlaceIndex places_;
-  FoundShare found_by_matching_;
-  FoundShare found_by_following_;
-  time::ContinuousTime clock_;
-  std::int64_t time_ns_ = 0;                    // on clock_, of the frame that is tracked
-  std::shared_ptr<const ImagePyramid> images_;  // of the frame that is tracked
-  std::optional<LastFrame> last_;               // the last frame with a pose
-  std::optional<Twist> velocity_;  // of the camera, per second: camera_from_map moves by exp(v·dt)
+  MovableSegmenter removal_;
+  MotionModel motion_;
+  Localizer localizer_;
+  KeyframeSelector keyframes_;
+  LocalMapper mapper_;
+  time::ContinuousTime time_;
   State state_ = State::kNotInitialized;
-  KeyframeId reference_ = kNoId;
-  KeyframeId newest_keyframe_ = kNoId;            // of those made here
-  std::deque<KeyframePose> shown_;                // keyframes that did not enter the map, by id; the newest
-  std::uint64_t shown_count_ = 0;                 // all
-  std::uint64_t revision_ = 0;                    // of the map's geometry, counts corrections
-  std::optional<std::int64_t> last_keyframe_ns_;  // time, of those shown too
-  int frames_since_keyframe_ = 0;
-  KeyframeId followed_view_ = kNoId;  // keyframe with the view nearest to the last followed frame's
-  int covered_at_view_ = 0;       // cells of the picture with followed points when that became the nearest
-  KeyframeId unindexed_ = kNoId;  // keyframe that is not in places_ yet
-  KeyframeId mapping_centre_ = kNoId;  // where local mapping is due
-  bool changed_ = false;
-  std::int64_t weak_since_ns_ = 0;
   std::optional<std::int64_t> lost_since_ns_;
-  std::uint64_t mark_ = 0;
-  std::deque<KeyframeDepth> depth_of_keyframes_;  // of those whose boxes may still come
-  std::vector<PointId> recent_points_;
 };
 
 }  // namespace rds::tracker

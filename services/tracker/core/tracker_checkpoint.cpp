@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of Tracker that tells its map as a checkpoint, and goes on from one.
+// The part of Tracker that goes on in a saved map, and writes and reads checkpoints.
 #include "common/map_file/byte_reader.hpp"
-#include "services/tracker/core/feature_bytes.hpp"
+#include "services/tracker/core/features/feature_bytes.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
@@ -49,12 +49,22 @@ CameraState get_camera_state(ByteReader& reader) {
 
 }  // namespace
 
+void Tracker::start_from(SavedMap&& saved) {
+  reset();
+  if (saved.map.keyframes() == 0) return mapper_.start_from(std::move(saved.map), false);
+  calibration_.begin_with(saved.camera);
+  saved.map.all_keyframes().for_each([&](Keyframe& k) { k.time_ns = time_.go_to(k.stamp_ns).time_ns; });
+  mapper_.start_from(std::move(saved.map), false);
+  localizer_.relocalizer().index_all(mapper_.map());
+  state_ = State::kLost;
+}
+
 std::vector<CheckpointRow> Tracker::checkpoint() {
   std::vector<CheckpointRow> rows;
-  map_checkpoint_.append_changes(map_, rows);
+  mapper_.append_checkpoint(rows);
   ByteWriter writer;
   put_pyramid(writer, config_.extraction);
-  put(writer, {given_fx_, calibration_.belief(), clock_.newest()});
+  put(writer, {calibration_.given_fx(), calibration_.belief(), time_.newest()});
   rows.push_back({kCamera, 0, writer.take()});
   return rows;
 }
@@ -71,16 +81,14 @@ tl::expected<void, std::string> Tracker::resume(const ReadRows& read) {
   });
   if (!done) return tl::unexpected(done.error());
   if (!fault.empty()) return tl::unexpected(fault);
-  auto map = map_from_rows(read, config_.map, pyramid_);
+  auto map = map_from_rows(read, config_.map, localizer_.settings().pyramid);
   if (!map) return tl::unexpected(map.error());
   reset();
-  map_ = std::move(*map);
-  map_checkpoint_.has_told(map_);
-  given_fx_ = camera.given_fx;
-  calibration_.begin_with(camera.belief);
-  clock_ = time::ContinuousTime(camera.clock);
-  index_all_keyframes();
-  if (map_.keyframes() > 0) state_ = State::kLost;
+  mapper_.start_from(std::move(*map), true);
+  calibration_.begin_with(camera.given_fx, camera.belief);
+  time_ = time::ContinuousTime(camera.clock);
+  localizer_.relocalizer().index_all(mapper_.map());
+  if (mapper_.map().keyframes() > 0) state_ = State::kLost;
   return {};
 }
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
-#include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker {
 
@@ -36,29 +36,6 @@ struct KeypointVerdict {
   enum class Use : std::uint8_t { kUnused = 0, kUsed = 1, kDynamic = 2 };
   Eigen::Vector2f image_px = Eigen::Vector2f::Zero();
   Use use = Use::kUnused;
-};
-
-/// A feature of a keyframe as other services see it.
-struct KeyframeFeature {
-  Feature feature;
-  Eigen::Vector3f point_in_camera = Eigen::Vector3f::Zero();  // m; NaN without depth
-  std::int64_t map_point_id = -1;                             // -1 where it sees none
-};
-
-struct CovisiblePose {
-  std::uint64_t id = 0;
-  int weight = 0;                           // shared map points
-  Pose map_from_camera = Pose::Identity();  // at the moment of the keyframe
-};
-
-/// A new keyframe.
-struct KeyframeData {
-  std::uint64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  Pose map_from_camera = Pose::Identity();
-  std::vector<KeyframeFeature> features;
-  std::vector<CovisiblePose> covisible;  // most shared points first
-  bool in_map = true;                    // false: for others to look at, the map does not know it
 };
 
 struct FrameResult {

@@ -9,7 +9,7 @@
 #include "common/geometry/box.hpp"
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/oriented_box.hpp"
-#include "services/tracker/core/movable_region.hpp"
+#include "services/tracker/core/removal/movable_region.hpp"
 
 namespace rds::tracker::prediction {
 

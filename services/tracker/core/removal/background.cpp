@@ -19,20 +19,22 @@ std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& suspect)
   samples.reserve(depth_m.total() / (kStride * kStride));
   for (int r = 0; r < depth_m.rows; r += kStride)
     for (int c = 0; c < depth_m.cols; c += kStride)
-      if (depth_m(r, c) > 0 && (suspect(r, c) == 0 || picture_.lasting(r, c) != 0))
+      if (depth_m(r, c) > 0 && (suspect(r, c) == 0 || picture_.stable(r, c) != 0))
         samples.push_back({surfaces_.point(c, r), surfaces_.normal(c, r)});
   return samples;
 }
 
 bool Background::shows(const cv::Point& cell, bool wide) const {
-  if (picture_.lasting(cell) != 0) return true;
+  if (picture_.stable(cell) != 0) return true;
   if (!(picture_.depth_m(cell) > 0)) return false;
   const Eigen::Vector3f p = surfaces_.point(cell.x, cell.y);
-  const auto may_show = [&](const Plane& plane) { return (plane.wide || !wide) && is_near(plane, p); };
+  const auto may_show = [&](const BackgroundPlane& plane) {
+    return (plane.wide || !wide) && is_near(plane, p);
+  };
   if (std::ranges::none_of(planes_, may_show)) return false;
   const Eigen::Vector3f n = surfaces_.normal(cell.x, cell.y);
-  return std::ranges::any_of(planes_,
-                             [&](const Plane& plane) { return may_show(plane) && is_parallel(plane, n); });
+  return std::ranges::any_of(
+      planes_, [&](const BackgroundPlane& plane) { return may_show(plane) && is_parallel(plane, n); });
 }
 
 }  // namespace rds::tracker

@@ -26,7 +26,7 @@ class Background {
 
   const PictureCells& picture_;
   SurfaceCells surfaces_;
-  std::vector<Plane> planes_;
+  std::vector<BackgroundPlane> planes_;
 };
 
 }  // namespace rds::tracker

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "services/tracker/core/movable_region.hpp"
 #include "services/tracker/core/removal/background.hpp"
+#include "services/tracker/core/removal/movable_region.hpp"
 #include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {

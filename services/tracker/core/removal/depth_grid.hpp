@@ -79,7 +79,7 @@ class GridGeometry {
 /// A picture in cells.
 struct PictureCells {
   cv::Mat1f depth_m;
-  cv::Mat1b lasting;  // 255 where something shows that has stood still for long
+  cv::Mat1b stable;  // 255 where something shows that has stood still for long
 };
 
 /// Depth [m] of what stands nearest in each cell; 0 where nothing was measured or all is beyond max_depth_m.

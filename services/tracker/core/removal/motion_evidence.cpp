@@ -88,8 +88,8 @@ MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& g
   return evidence;
 }
 
-std::vector<std::vector<cv::Point>> arrivals(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
-                                             const RemovalConfig& config) {
+std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
+                                                   const RemovalConfig& config) {
   cv::Mat1b arrived;
   cv::morphologyEx(evidence.arrived, arrived, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
   const int moved = cv::countNonZero(arrived);

@@ -37,7 +37,7 @@ MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& g
 
 /// The things that have arrived, as far as they were seen to arrive. What is small is noise; where too much
 /// of what can be judged has arrived the pose is wrong, and there is nothing.
-std::vector<std::vector<cv::Point>> arrivals(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
-                                             const RemovalConfig& config);
+std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
+                                                   const RemovalConfig& config);
 
 }  // namespace rds::tracker

@@ -22,7 +22,7 @@ constexpr float kNarrowM = 0.06F;  // standard deviation along the narrower side
 constexpr float kWideM = 0.16F;    // wider than 0.55 m
 constexpr float kMinSine = 0.2F;   // of the triangle that makes a hypothesis
 
-bool agrees(const Plane& plane, const SurfaceSample& sample) {
+bool agrees(const BackgroundPlane& plane, const SurfaceSample& sample) {
   return is_near(plane, sample.point) && is_parallel(plane, sample.normal);
 }
 
@@ -38,17 +38,17 @@ class Sequence {
   std::uint64_t state_ = 1;
 };
 
-std::optional<Plane> plane_through(const std::array<Eigen::Vector3f, 3>& p) {
+std::optional<BackgroundPlane> plane_through(const std::array<Eigen::Vector3f, 3>& p) {
   const Eigen::Vector3f a = p[1] - p[0];
   const Eigen::Vector3f b = p[2] - p[0];
   const Eigen::Vector3f normal = a.cross(b);
   if (!(normal.norm() > kMinSine * a.norm() * b.norm())) return std::nullopt;
   const Eigen::Vector3f unit = normal.normalized();
-  return Plane{unit, unit.dot(p[0]), false};
+  return BackgroundPlane{unit, unit.dot(p[0]), false};
 }
 
 /// The plane that fits best; nullopt for a strip, which an arm or a leg can be.
-std::optional<Plane> fit(const std::vector<SurfaceSample>& samples) {
+std::optional<BackgroundPlane> fit(const std::vector<SurfaceSample>& samples) {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (const SurfaceSample& s : samples) mean += s.point;
   mean /= static_cast<float>(samples.size());
@@ -59,20 +59,20 @@ std::optional<Plane> fit(const std::vector<SurfaceSample>& samples) {
   const Eigen::Vector3f normal = solver.eigenvectors().col(0);
   const float variance = solver.eigenvalues()(1) / static_cast<float>(samples.size());
   if (variance < kNarrowM * kNarrowM) return std::nullopt;
-  return Plane{normal, normal.dot(mean), variance > kWideM * kWideM};
+  return BackgroundPlane{normal, normal.dot(mean), variance > kWideM * kWideM};
 }
 
 /// Every so many of the samples that agree with the plane; fewer if they cannot be more than `most`.
-std::size_t agreeing(const std::vector<SurfaceSample>& samples, std::size_t stride, const Plane& plane,
-                     std::size_t most) {
+std::size_t agreeing(const std::vector<SurfaceSample>& samples, std::size_t stride,
+                     const BackgroundPlane& plane, std::size_t most) {
   std::size_t may_agree = (samples.size() + stride - 1) / stride;
   for (std::size_t i = 0; i < samples.size() && may_agree > most; i += stride)
     may_agree -= agrees(plane, samples[i]) ? 0 : 1;
   return may_agree;
 }
 
-std::optional<Plane> best_plane(const std::vector<SurfaceSample>& samples, Sequence& sequence) {
-  std::optional<Plane> best;
+std::optional<BackgroundPlane> best_plane(const std::vector<SurfaceSample>& samples, Sequence& sequence) {
+  std::optional<BackgroundPlane> best;
   std::size_t most = 0;
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMaxAsked);
   for (int h = 0; h < kHypotheses; ++h) {
@@ -94,8 +94,8 @@ std::optional<Plane> best_plane(const std::vector<SurfaceSample>& samples, Seque
 
 }  // namespace
 
-std::vector<Plane> fit_planes(std::vector<SurfaceSample> samples) {
-  std::vector<Plane> planes;
+std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples) {
+  std::vector<BackgroundPlane> planes;
   Sequence sequence;
   for (int i = 0; i < kMaxPlanes && samples.size() >= kMinSamples; ++i) {
     const auto found = best_plane(samples, sequence);

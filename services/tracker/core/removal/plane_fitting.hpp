@@ -9,7 +9,7 @@
 namespace rds::tracker {
 
 /// Points p with normal · p = distance, camera frame [m].
-struct Plane {
+struct BackgroundPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float distance = 0;
   bool wide = false;  // wider than a person: a table, a wall, the floor
@@ -22,18 +22,18 @@ struct SurfaceSample {
 };
 
 /// As far as depth is measured right.
-inline bool is_near(const Plane& plane, const Eigen::Vector3f& point) {
+inline bool is_near(const BackgroundPlane& plane, const Eigen::Vector3f& point) {
   return std::abs(plane.normal.dot(point) - plane.distance) < 0.012F + 0.005F * point.z() * point.z();
 }
 
 /// As far as is known.
-inline bool is_parallel(const Plane& plane, const Eigen::Vector3f& normal) {
+inline bool is_parallel(const BackgroundPlane& plane, const Eigen::Vector3f& normal) {
   constexpr float kMinCosine = 0.8F;
   const float along = normal.dot(plane.normal);
   return along * along >= kMinCosine * kMinCosine * normal.squaredNorm();
 }
 
 /// Large planes among samples, found by RANSAC, the largest first. The same samples give the same planes.
-std::vector<Plane> fit_planes(std::vector<SurfaceSample> samples);
+std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples);
 
 }  // namespace rds::tracker

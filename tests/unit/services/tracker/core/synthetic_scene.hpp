@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
+#include "services/tracker/core/map/slam_map.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
-#include "services/tracker/core/slam_map.hpp"
 
 namespace rds::tracker::test {
 

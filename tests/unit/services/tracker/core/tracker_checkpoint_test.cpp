@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
-#include "services/tracker/core/local_mapping.hpp"
+#include "services/tracker/core/mapping/local_mapping.hpp"
 #include "tests/unit/services/tracker/core/tracker_scene.hpp"
 
 namespace rds::tracker {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "services/tracker/core/movable_region.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"
+#include "services/tracker/core/removal/movable_region.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker::test {

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/localizer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rds::tracker {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+constexpr double kMaxFromDepthM = 0.1;  // between the poses by depth and by points, and …
+constexpr double kMaxFromDepthRad = 0.1;
+
+PoseSettings pose_settings(const TrackerConfig& config) {
+  return {ScalePyramid(config.extraction.levels, config.extraction.scale_factor), config.depth,
+          config.matching, config.pose, config.map};
+}
+
+/// Movable objects hide what is expected; then few found points say nothing against the pose.
+bool sees_enough(const TrackedFrame& frame, const QualityConfig& quality) {
+  return frame.movable_in_view || frame.found_share >= quality.min_found_share;
+}
+
+}  // namespace
+
+Localizer::Localizer(const TrackerConfig& config, const ParallelFor& parallel_for, Stopwatch now_us,
+                     bool poses_are_given)
+    : config_(config),
+      settings_(pose_settings(config)),
+      now_us_(std::move(now_us)),
+      poses_are_given_(poses_are_given),
+      follows_points_(config.following.enabled && !poses_are_given),
+      follower_(config.following, parallel_for),
+      features_(make_feature_extractor(config.extraction, parallel_for), config.relocalization.min_matches),
+      relocalizer_(config.relocalization) {}
+
+void Localizer::guess(TrackingContext& context, State before) const {
+  cv::Mat gray;
+  context.picture.color.to_gray(gray);
+  context.frame.images =
+      std::make_shared<const ImagePyramid>(gray, follows_points_ ? follower_.pyramid_levels() : 1);
+  const std::optional<LastFrame>& last = features_.last();
+  if (poses_are_given_ || !last || !has_pose(before)) return;
+  context.guess = context.motion.camera_from_map();
+  if (!follows_points_) return;
+  const Pose aligned = follower_.align(context, *last);
+  if (last->frame.movable_in_view && context.motion.innovation(aligned) > 1)
+    context.alignment = aligned;  // something that moves may have taken the points along
+  else
+    context.guess = aligned;
+}
+
+void Localizer::select_local_map(TrackingContext& context) {
+  if (follows_points_ || config_.removal.method == "depth")
+    context.local = features_.local_map_of_last(context);
+}
+
+void Localizer::search_early(TrackingContext& context, State before, const std::atomic<bool>& enough) const {
+  const bool located = before == State::kTracking || before == State::kRelocalised;
+  if (!follows_points_ || !located || !context.guess || context.local.reference == kNoId ||
+      !context.map.keyframe(context.local.reference)->images)
+    return;
+  context.search.emplace(follower_.search(context, *context.guess));
+  context.search->prefetch(enough);
+}
+
+PoseEstimate Localizer::localize(TrackingContext& context, State before, const KeyframeSelector& keyframes) {
+  auto followed = follower_.estimate(context);
+  if (!followed) return match(context, before, keyframes);
+  PoseEstimate estimate{std::move(followed->frame), State::kTracking, true, false, nullptr, 0};
+  TrackedFrame& frame = estimate.frame;
+  follower_.count_found(context.map, followed->expected, frame);
+  if (!sees_enough(frame, config_.quality) || context.motion.is_jump(frame.camera_from_map))
+    return match(context, before, keyframes);
+  features_.set_reference(context.local.reference);
+  const double support_of_points = support(frame, context.motion);
+  if (!frame.movable_in_view || follower_.is_sure(support_of_points)) return estimate;
+  PoseEstimate matched = match(context, before, keyframes);
+  if (has_pose(matched.state) && support(matched.frame, context.motion) > support_of_points) return matched;
+  features_.set_reference(context.local.reference);
+  estimate.extracted = matched.frame.features;
+  estimate.extract_us = matched.extract_us;
+  return estimate;
+}
+
+/// Extracts features and finds the pose from them.
+PoseEstimate Localizer::match(const TrackingContext& context, State before,
+                              const KeyframeSelector& keyframes) {
+  PoseEstimate found{context.frame, before, false, false, nullptr, 0};
+  TrackedFrame& frame = found.frame;
+  found.extract_us = extract(context, frame);
+  if (poses_are_given_) {
+    if (!context.guess) {
+      if (before != State::kNotInitialized) found.state = State::kLost;
+      return found;
+    }
+    frame.camera_from_map = *context.guess;
+    frame.pose_is_given = true;
+    found.state = State::kTracking;
+    found.begins_map = features_.reference() == kNoId;
+    if (!found.begins_map) features_.associate(context, frame);
+  } else if (before == State::kNotInitialized) {
+    const auto with_depth = std::ranges::count_if(
+        frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
+    if (config_.localize_only || with_depth < config_.quality.min_features_to_start) return found;
+    frame.camera_from_map = Pose::Identity();
+    found.state = State::kTracking;
+    found.begins_map = true;
+  } else {
+    found.state = estimate(context, before, keyframes, frame);
+  }
+  return found;
+}
+
+/// By the last frame and the keyframes; where that does not do by depth, by relocalisation.
+State Localizer::estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
+                          TrackedFrame& frame) {
+  const QualityConfig& quality = config_.quality;
+  const bool was_lost = before == State::kLost;
+  const int inliers = features_.track(context, frame);
+  const bool jumped = context.motion.is_jump(frame.camera_from_map);
+  if (was_lost && inliers >= relocalizer_.min_inliers()) return State::kRelocalised;
+  if (!was_lost && inliers >= quality.min_inliers && sees_enough(frame, quality))
+    return jumped ? State::kRelocalised : State::kTracking;
+  const auto by_depth = was_lost || context.motion.gap_s() > quality.by_depth_s
+                            ? std::nullopt
+                            : depth_aligner_.estimate(context.depth, context.motion.camera_from_map());
+  if (by_depth && find_near(context, *by_depth, keyframes, frame)) return State::kTracking;
+  if (before != State::kWeak) weak_since_ns_ = frame.time_ns;
+  const double weak_s = static_cast<double>(frame.time_ns - weak_since_ns_) / kNsPerSecond;
+  const bool weak_is_right = !was_lost && !by_depth && weak_s <= quality.weak_s && !jumped;
+  if (weak_is_right && inliers >= quality.min_inliers_weak) return State::kWeak;
+  if (relocalize(context, frame)) return State::kRelocalised;
+  if (!by_depth) return State::kLost;
+  frame.camera_from_map = *by_depth;
+  frame.clear_matches();
+  frame.by_depth_only = true;
+  return State::kWeak;
+}
+
+bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {
+  if (!relocalizer_.localize(context, frame)) return false;
+  features_.refine(context, frame, settings_.matching.lost_window_factor);
+  return frame.static_matches() >= relocalizer_.min_inliers();
+}
+
+/// Looks for the points of the map around the pose by depth. @return true if they give the pose.
+bool Localizer::find_near(const TrackingContext& context, const Pose& by_depth,
+                          const KeyframeSelector& keyframes, TrackedFrame& frame) {
+  TrackedFrame found = frame;
+  found.camera_from_map = by_depth;
+  found.clear_matches();
+  const auto view = keyframes.nearest_view(context.map, found, features_.reference());
+  const Keyframe* keyframe = context.map.keyframe(view.keyframe);
+  if (keyframe == nullptr) return false;
+  Relocalizer::localize_near(context, *keyframe, found);
+  if (found.static_matches() < config_.quality.min_inliers) return false;
+  const Twist apart = se3_log(found.camera_from_map * by_depth.inverse());
+  if (apart.head<3>().norm() > kMaxFromDepthM || apart.tail<3>().norm() > kMaxFromDepthRad) return false;
+  frame = std::move(found);
+  features_.refine(context, frame, 1);
+  return frame.static_matches() >= config_.quality.min_inliers;
+}
+
+bool Localizer::match_features(const TrackingContext& context, PoseEstimate& estimate) {
+  const TrackedFrame& followed = estimate.frame;
+  TrackedFrame matched = followed;
+  matched.features = std::move(estimate.extracted);
+  if (matched.features)
+    matched.clear_matches();
+  else
+    estimate.extract_us = extract(context, matched);
+  adopt_followed_points(context, followed, matched);
+  TrackedFrame at_followed_pose = matched;
+  features_.refine(context, matched, 1);
+  const auto innovation = [&](const TrackedFrame& f) { return context.motion.innovation(f.camera_from_map); };
+  if (followed.movable_in_view && innovation(matched) > std::max(1.0, innovation(followed))) {
+    at_followed_pose.pose_is_given = true;  // something that moves has taken the refined pose along
+    features_.refine(context, at_followed_pose, 1);
+    matched = std::move(at_followed_pose);
+    matched.pose_is_given = false;
+  }
+  if (matched.static_matches() < config_.quality.min_inliers) return false;
+  estimate.frame = std::move(matched);
+  return true;
+}
+
+std::int64_t Localizer::extract(const TrackingContext& context, TrackedFrame& frame) {
+  const std::int64_t started_us = now_us_();
+  features_.extract(context, frame);
+  return now_us_() - started_us;
+}
+
+bool Localizer::scene_changed() {
+  return std::min(follower_.found_share().lowest(), features_.found_share().lowest()) <
+         1 - config_.keyframe.changed_share;
+}
+
+void Localizer::begin_interval() {
+  follower_.found_share().begin_interval();
+  features_.found_share().begin_interval();
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/tracker/core/calibration/self_calibration.hpp"
+#include "services/tracker/core/map/map_checkpoint.hpp"
+#include "services/tracker/core/mapping/keyframe_data.hpp"
+#include "services/tracker/core/mapping/local_mapping.hpp"
+#include "services/tracker/core/pose/tracking_context.hpp"
+#include "services/tracker/core/removal/depth_grid.hpp"
+
+namespace rds::tracker {
+
+/// Builds and changes the map: inserts keyframes, hands out local mapping jobs and brings their results in.
+/// Source: Mur-Artal et al. 2015, §VI.
+class LocalMapper {
+ public:
+  /// @param grows  false: nothing enters the map.
+  LocalMapper(const PoseSettings& settings, const LocalMappingConfig& config, bool grows)
+      : settings_(settings), config_(config), grows_(grows), map_(settings.map, settings.pyramid) {}
+
+  SlamMap& map() { return map_; }
+  [[nodiscard]] const SlamMap& map() const { return map_; }
+
+  /// Makes the frame a keyframe of the map; frame.points then has the new points, too.
+  /// @param images  of the frame; null if points are not followed.
+  /// @param cells   of the frame's depth: what late boxes of the keyframe are cut out of.
+  KeyframeData insert(TrackedFrame& frame, std::shared_ptr<const ImagePyramid> images,
+                      const PictureCells& cells);
+  /// A keyframe for other services only; a map that grows keeps its pose, relative to `anchor`.
+  KeyframePose insert_pose_only(const TrackedFrame& frame, KeyframeId anchor);
+  /// Every keyframe made here, by id, also those that are culled; of those for other services the newer ones.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
+  /// Depth of a keyframe whose boxes may still come; null if unknown or too old.
+  [[nodiscard]] const PictureCells* cells_of(KeyframeId keyframe) const;
+  /// Takes the features in a late mask of a keyframe out of the map.
+  void retract(KeyframeId keyframe, const MovableMask& movable);
+
+  /// Snapshot around the newest keyframe or, where the map does not grow, around a reference keyframe;
+  /// nullopt where nothing is due.
+  std::optional<LocalMappingJob> take_job(const SelfCalibration& calibration);
+  /// Brings a result in. @return the keyframes that were culled then; nullopt if it is outdated.
+  std::optional<std::vector<KeyframeId>> apply(const LocalMappingResult& result);
+  /// True for a keyframe of the map at least half of whose features show what stands still.
+  [[nodiscard]] bool is_mostly_static(KeyframeId keyframe) const;
+  /// Moves keyframes to corrected poses.
+  void correct(std::span<const KeyframePose> corrected);
+
+  /// Goes on in this map. @param rows_are_known  a checkpoint has its rows.
+  void start_from(SlamMap&& map, bool rows_are_known);
+  void append_checkpoint(std::vector<CheckpointRow>& rows) { checkpoint_.append_changes(map_, rows); }
+
+ private:
+  struct KeyframeDepth {
+    KeyframeId keyframe = kNoId;
+    PictureCells cells;
+  };
+
+  PoseSettings settings_;
+  LocalMappingConfig config_;
+  bool grows_;
+  SlamMap map_;
+  MapCheckpoint checkpoint_;
+  KeyframeId job_centre_ = kNoId;
+  std::uint64_t revision_ = 0;          // of the map's geometry, counts corrections
+  std::vector<PointId> recent_points_;  // that may still prove bad
+  std::deque<KeyframeDepth> depths_;    // of keyframes whose boxes may still come
+  std::deque<KeyframePose> outside_;    // keyframes made while the map does not grow, the newest
+  std::uint64_t outside_count_ = 0;     // all of these
+};
+
+}  // namespace rds::tracker

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/mapping/map_building.hpp"
+
+#include <algorithm>
+
+namespace rds::tracker {
+namespace {
+
+constexpr KeyframeId kKeyframesOn = 2;   // when a point must have been seen again
+constexpr KeyframeId kProbation = 3;     // keyframes after which a point is trusted
+constexpr KeyframeId kKeptNewest = 3;    // keyframes that culling leaves alone
+constexpr std::size_t kConsidered = 20;  // covisible keyframes looked at per culling
+
+void observe_matches(SlamMap& map, const TrackedFrame& frame, Keyframe& keyframe) {
+  for (std::uint32_t i = 0; i < frame.points.size(); ++i) {
+    if (frame.points[i] == kNoId) continue;
+    if (map.observe(frame.points[i], keyframe.id, i)) {
+      map.refresh(*map.point(frame.points[i]));
+      ++keyframe.tracked_points;
+    }
+  }
+}
+
+void make_points(SlamMap& map, const DepthConfig& depth, const MapConfig& config, const Keyframe& keyframe) {
+  const FeatureSet& features = *keyframe.features;
+  std::vector<std::pair<float, std::uint32_t>> by_depth;
+  for (std::uint32_t i = 0; i < features.size(); ++i)
+    if (features[i].depth_m > 0 && !keyframe.movable[i]) by_depth.emplace_back(features[i].depth_m, i);
+  std::ranges::sort(by_depth);
+  int nearest = 0;
+  for (const auto& [z, i] : by_depth) {
+    if (static_cast<double>(z) > depth.close_depth_m && nearest >= config.min_new_points) break;
+    ++nearest;
+    if (keyframe.points[i] == kNoId)
+      map.add_point(keyframe.map_from_camera * features.point_in_camera(i), keyframe.id, i);
+  }
+}
+
+/// True if enough other keyframes see the point at the same or a finer scale.
+bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& keyframe, int level,
+                    int wanted) {
+  int others = 0;
+  for (const Observation& o : point.observations) {
+    if (o.keyframe == keyframe.id) continue;
+    if ((*map.keyframe(o.keyframe)->features)[o.feature].level <= level + 1 && ++others >= wanted)
+      return true;
+  }
+  return false;
+}
+
+bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth,
+                  const MapConfig& config) {
+  int close = 0;
+  int redundant = 0;
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+    const Feature& f = (*keyframe.features)[i];
+    if (f.depth_m <= 0 || static_cast<double>(f.depth_m) > depth.close_depth_m) continue;
+    const MapPoint* point = map.point(keyframe.points[i]);
+    if (point == nullptr) continue;
+    ++close;
+    redundant += seen_by_others(map, *point, keyframe, f.level, config.redundant_observers) ? 1 : 0;
+  }
+  return close > 0 && redundant > config.redundant_share * close;
+}
+
+}  // namespace
+
+Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth,
+                          const MapConfig& config) {
+  Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
+  keyframe.time_ns = frame.time_ns;
+  keyframe.motion = frame.motion;
+  keyframe.given_fx = frame.given_fx;
+  keyframe.pose_is_given = frame.pose_is_given;
+  observe_matches(map, frame, keyframe);
+  make_points(map, depth, config, keyframe);
+  map.update_covisibility(keyframe.id);
+  return keyframe;
+}
+
+void cull_recent_points(SlamMap& map, KeyframeId newest, const MapConfig& config,
+                        std::vector<PointId>& recent) {
+  std::vector<PointId> undecided;
+  for (const PointId id : recent) {
+    const MapPoint* point = map.point(id);
+    if (point == nullptr) continue;
+    const KeyframeId age = newest - point->created_by;
+    const bool rarely_found = point->found < config.min_found_ratio * point->visible;
+    const bool rarely_observed =
+        age >= kKeyframesOn && point->observations.size() < static_cast<std::size_t>(config.min_observers);
+    if (rarely_found || rarely_observed)
+      map.erase_point(id);
+    else if (age < kProbation)
+      undecided.push_back(id);
+  }
+  recent = std::move(undecided);
+}
+
+std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest, const DepthConfig& depth,
+                                                 const MapConfig& config) {
+  const Keyframe* centre = map.keyframe(newest);
+  std::vector<KeyframeId> culled;
+  if (centre == nullptr) return culled;
+  auto around = centre->covisible;
+  if (around.size() > kConsidered) around.resize(kConsidered);
+  for (const CovisibleKeyframe& c : around) {
+    const Keyframe* keyframe = map.keyframe(c.id);
+    if (keyframe == nullptr || c.id == 0 || map.is_fixed(c.id) || c.id + kKeptNewest > newest) continue;
+    if (!is_redundant(map, *keyframe, depth, config)) continue;
+    map.cull_keyframe(c.id);
+    culled.push_back(c.id);
+  }
+  return culled;
+}
+
+void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, const DepthConfig& depth,
+                     const MapConfig& config) {
+  Keyframe* keyframe = map.keyframe(id);
+  if (keyframe == nullptr || !movable.any()) return;
+  for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
+    const Feature& f = (*keyframe->features)[i];
+    if (!movable.covers(f.image_px)) continue;
+    keyframe->movable[i] = true;
+    const MapPoint* point = map.point(keyframe->points[i]);
+    if (point == nullptr) continue;
+    const PointId point_id = point->id;
+    if (point->created_by == id)
+      map.erase_point(point_id);
+    else
+      map.forget(point_id, id);
+  }
+  make_points(map, depth, config, *keyframe);
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/pose/pose_optimization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "services/tracker/core/motion/se3.hpp"
+
+namespace rds::tracker {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kMinDepth = 0.05;       // m; points nearer or behind say nothing
+constexpr double kConvergedStep = 1e-7;  // m and rad
+constexpr double kFirstDamping = 1e-5;
+constexpr double kMaxDamping = 1e3;
+constexpr int kMinObservations = 3;
+
+struct NormalEquations {
+  Matrix6 hessian = Matrix6::Zero();
+  Twist gradient = Twist::Zero();
+  double cost = 0;
+};
+
+/// Huber's weight and cost for a squared residual.
+struct Loss {
+  double weight;
+  double cost;
+};
+
+Loss loss(double squared, double bound, bool robust) {
+  if (!robust || squared <= bound) return {1, squared};
+  const double norm = std::sqrt(squared);
+  const double delta = std::sqrt(bound);
+  return {delta / norm, 2 * delta * norm - bound};
+}
+
+class PoseProblem {
+ public:
+  PoseProblem(const ObservationModel& model, std::span<const PointObservation> observations,
+              const PoseOptimizationConfig& config)
+      : model_(model), observations_(observations), config_(config), inlier_(observations.size(), true) {}
+
+  [[nodiscard]] double cost(const geometry::Pose& pose, bool robust) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      if (!inlier_[i]) continue;
+      const Measurement& m = observations_[i].measurement;
+      const Eigen::Vector3d p = pose * observations_[i].point_in_map;
+      const double bound = ObservationModel::chi2(m, config_);
+      sum += observations_[i].weight *
+             (p.z() < kMinDepth ? bound : loss(model_.residual(p, m).squaredNorm(), bound, robust).cost);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] NormalEquations linearize(const geometry::Pose& pose, bool robust) const {
+    NormalEquations sum;
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      if (!inlier_[i]) continue;
+      const Measurement& m = observations_[i].measurement;
+      const Eigen::Vector3d p = pose * observations_[i].point_in_map;
+      const double bound = ObservationModel::chi2(m, config_);
+      if (p.z() < kMinDepth) {
+        sum.cost += observations_[i].weight * bound;
+        continue;
+      }
+      const Eigen::Vector3d r = model_.residual(p, m);
+      Eigen::Matrix<double, 3, 6> j;
+      j.leftCols<3>() = model_.jacobian(p, m);
+      j.rightCols<3>() = -j.leftCols<3>() * skew(p);  // d(exp(ξ) p) / dω = −[p]×
+      Loss l = loss(r.squaredNorm(), bound, robust);
+      l.weight *= observations_[i].weight;
+      l.cost *= observations_[i].weight;
+      sum.hessian.noalias() += l.weight * j.transpose() * j;
+      sum.gradient.noalias() += l.weight * j.transpose() * r;
+      sum.cost += l.cost;
+    }
+    return sum;
+  }
+
+  void optimize(geometry::Pose& pose, bool robust) const {
+    double damping = kFirstDamping;
+    NormalEquations equations = linearize(pose, robust);
+    for (int i = 0; i < config_.iterations; ++i) {
+      Matrix6 damped = equations.hessian;
+      damped.diagonal() *= 1 + damping;
+      damped.diagonal().array() += 1e-9;
+      const Twist step = damped.ldlt().solve(-equations.gradient);
+      if (!step.allFinite()) return;
+      const geometry::Pose moved = se3_exp(step) * pose;
+      if (cost(moved, robust) < equations.cost) {
+        pose = moved;
+        if (step.norm() < kConvergedStep) return;
+        damping = std::max(damping * 0.1, 1e-9);
+        equations = linearize(pose, robust);
+      } else {
+        damping *= 10;
+        if (damping > kMaxDamping || step.norm() < kConvergedStep) return;
+      }
+    }
+  }
+
+  int classify(const geometry::Pose& pose) {
+    int inliers = 0;
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      const Measurement& m = observations_[i].measurement;
+      const Eigen::Vector3d p = pose * observations_[i].point_in_map;
+      inlier_[i] =
+          p.z() > kMinDepth && model_.residual(p, m).squaredNorm() <= ObservationModel::chi2(m, config_);
+      inliers += inlier_[i] ? 1 : 0;
+    }
+    return inliers;
+  }
+
+  std::vector<bool> take_inliers() { return std::move(inlier_); }
+
+ private:
+  const ObservationModel& model_;
+  std::span<const PointObservation> observations_;
+  const PoseOptimizationConfig& config_;
+  std::vector<bool> inlier_;
+};
+
+}  // namespace
+
+OptimizedPose optimize_pose(const ObservationModel& model, std::span<const PointObservation> observations,
+                            const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config) {
+  OptimizedPose result;
+  result.camera_from_map = camera_from_map;
+  result.inlier.assign(observations.size(), false);
+  if (observations.size() < kMinObservations) return result;
+  PoseProblem problem(model, observations, config);
+  for (int round = 0; round < config.rounds; ++round) {
+    problem.optimize(result.camera_from_map, 2 * round < config.rounds);
+    result.inliers = problem.classify(result.camera_from_map);
+    if (result.inliers < kMinObservations) break;
+  }
+  result.inlier = problem.take_inliers();
+  // Accumulated products of rotations drift from orthonormality.
+  result.camera_from_map = geometry::make_pose(result.camera_from_map.translation(),
+                                               Eigen::Quaterniond(result.camera_from_map.linear()));
+  return result;
+}
+
+OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
+                         const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config) {
+  PoseProblem problem(model, observations, config);
+  OptimizedPose result;
+  result.camera_from_map = camera_from_map;
+  result.inliers = problem.classify(camera_from_map);
+  result.inlier = problem.take_inliers();
+  return result;
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/relocalization/relocalizer.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+
+namespace rds::tracker {
+namespace {
+
+constexpr float kRansacErrorPx = 6;
+constexpr double kRansacConfidence = 0.995;
+constexpr int kMinRefined = 10;
+constexpr double kWideWindow = 6;  // window factors of the two widening rounds
+constexpr double kNarrowWindow = 3;
+constexpr std::size_t kNeighbours = 8;
+
+/// Pose from the frame's matches; matches that disagree are removed.
+bool solve_pnp(const SlamMap& map, const RelocalizationConfig& config, TrackedFrame& frame) {
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> pixels;
+  std::vector<std::size_t> feature;
+  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+    const MapPoint* point = map.point(frame.points[i]);
+    if (point == nullptr) continue;
+    points.emplace_back(point->position.x(), point->position.y(), point->position.z());
+    pixels.emplace_back((*frame.features)[i].px.x(), (*frame.features)[i].px.y());
+    feature.push_back(i);
+  }
+  if (static_cast<int>(points.size()) < config.min_matches) return false;
+  const geometry::CameraModel& c = frame.features->camera();
+  const cv::Matx33d K(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+  cv::Mat rotation_vector;
+  cv::Mat translation;
+  std::vector<int> inliers;
+  if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), rotation_vector, translation, false,
+                          config.ransac_iterations, kRansacErrorPx, kRansacConfidence, inliers,
+                          cv::SOLVEPNP_EPNP))
+    return false;
+  if (static_cast<int>(inliers.size()) < kMinRefined) return false;
+  cv::Matx33d rotation;
+  cv::Rodrigues(rotation_vector, rotation);
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  cv::cv2eigen(rotation, R);
+  cv::cv2eigen(translation, t);
+  frame.camera_from_map = geometry::make_pose(t, Eigen::Quaterniond(R));
+  std::vector<PointId> kept(frame.points.size(), kNoId);
+  for (const int i : inliers) {
+    const std::size_t f = feature[static_cast<std::size_t>(i)];
+    kept[f] = frame.points[f];
+  }
+  frame.points = std::move(kept);
+  return geometry::is_finite(frame.camera_from_map);
+}
+
+/// Points of the keyframe and its best neighbours, each once.
+std::vector<PointId> points_around(const SlamMap& map, const Keyframe& keyframe) {
+  std::vector<PointId> points;
+  const auto add = [&](const Keyframe& k) {
+    std::ranges::copy_if(k.points, std::back_inserter(points), [](PointId p) { return p != kNoId; });
+  };
+  add(keyframe);
+  for (std::size_t i = 0; i < std::min(kNeighbours, keyframe.covisible.size()); ++i)
+    add(*map.keyframe(keyframe.covisible[i].id));
+  std::ranges::sort(points);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+std::vector<PointId> not_seen(std::vector<PointId> points, const TrackedFrame& frame) {
+  std::vector<PointId> seen(frame.points);
+  std::ranges::sort(seen);
+  std::erase_if(points, [&](PointId p) { return std::ranges::binary_search(seen, p); });
+  return points;
+}
+
+int optimize(const TrackingContext& context, TrackedFrame& frame) {
+  const PoseSettings& settings = context.settings;
+  return optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
+}
+
+}  // namespace
+
+bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) const {
+  const auto candidates =
+      places_.query(static_descriptors(*frame.features), static_cast<std::size_t>(config_.candidates));
+  return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
+    return localize_against(context, candidate.id, frame);
+  });
+}
+
+bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) const {
+  const Keyframe* keyframe = context.map.keyframe(id);
+  if (keyframe == nullptr) return false;
+  if (match_keyframe(context.map, *keyframe, context.settings.matching, frame) < config_.min_matches)
+    return false;
+  if (!solve_pnp(context.map, config_, frame)) return false;
+  if (optimize(context, frame) < kMinRefined) return false;
+  localize_near(context, *keyframe, frame);
+  return frame.static_matches() >= config_.min_inliers;
+}
+
+void Relocalizer::localize_near(const TrackingContext& context, const Keyframe& keyframe,
+                                TrackedFrame& frame) {
+  const PoseSettings& settings = context.settings;
+  const auto points = points_around(context.map, keyframe);
+  for (const double window : {kWideWindow, kNarrowWindow}) {
+    match_points(context.map, not_seen(points, frame), context.model, settings.pyramid, settings.matching,
+                 window, frame);
+    optimize(context, frame);
+  }
+}
+
+void Relocalizer::index_pending(const SlamMap& map) {
+  if (const Keyframe* keyframe = map.keyframe(std::exchange(pending_, kNoId)))
+    places_.add(keyframe->id, static_descriptors(*keyframe->features));
+}
+
+void Relocalizer::index_all(const SlamMap& map) {
+  map.all_keyframes().for_each(
+      [this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+}
+
+cv::Mat static_descriptors(const FeatureSet& features) {
+  cv::Mat descriptors(0, static_cast<int>(sizeof(Descriptor)), CV_8UC1);
+  descriptors.reserve(features.size());
+  for (const Feature& f : features.all())
+    if (!f.movable)
+      descriptors.push_back(cv::Mat(1, static_cast<int>(sizeof(Descriptor)), CV_8UC1,
+                                    const_cast<std::uint8_t*>(f.descriptor.data())));
+  return descriptors;
+}
+
+}  // namespace rds::tracker

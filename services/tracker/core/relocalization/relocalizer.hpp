@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/vision/place_index.hpp"
+#include "services/tracker/core/pose/tracking_context.hpp"
+#include "services/tracker/core/relocalization/relocalization_config.hpp"
+
+namespace rds::tracker {
+
+/// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,
+/// refinement, then a wider search for the points of the keyframe and of its covisible keyframes.
+/// Source: Mur-Artal et al. 2015, §V-C.
+class Relocalizer {
+ public:
+  explicit Relocalizer(const RelocalizationConfig& config) : config_(config) {}
+
+  /// Tries the keyframes that look most like the frame.
+  /// @return true if at least config.min_inliers map points agree; then frame.points and camera_from_map hold
+  /// the result.
+  bool localize(const TrackingContext& context, TrackedFrame& frame) const;
+  /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
+  /// centimetres and degrees: frame.points and camera_from_map hold the result.
+  static void localize_near(const TrackingContext& context, const Keyframe& keyframe, TrackedFrame& frame);
+
+  /// A keyframe to find the camera by. It is indexed by the next index_pending(), one at a time.
+  void add(KeyframeId keyframe) { pending_ = keyframe; }
+  void index_pending(const SlamMap& map);
+  void index_all(const SlamMap& map);
+  void remove(KeyframeId keyframe) { places_.remove(keyframe); }
+  [[nodiscard]] std::size_t places() const { return places_.size() + (pending_ != kNoId ? 1 : 0); }
+  [[nodiscard]] int min_inliers() const { return config_.min_inliers; }
+
+ private:
+  bool localize_against(const TrackingContext& context, KeyframeId keyframe, TrackedFrame& frame) const;
+
+  RelocalizationConfig config_;
+  vision::PlaceIndex places_;
+  KeyframeId pending_ = kNoId;
+};
+
+/// Descriptors of the features that are not movable, N×32 CV_8U.
+cv::Mat static_descriptors(const FeatureSet& features);
+
+}  // namespace rds::tracker

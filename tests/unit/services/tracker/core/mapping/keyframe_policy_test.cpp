@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/mapping/keyframe_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/tracker/core/pose/found_share.hpp"
+#include "tests/unit/services/tracker/core/synthetic_scene.hpp"
+
+namespace rds::tracker {
+namespace {
+
+/// A camera that stands still in a static scene and tracks well.
+KeyframeFacts calm() {
+  KeyframeFacts facts;
+  facts.since_last_s = 0.5;
+  facts.inliers = facts.seen = facts.seen_by_reference = 300;
+  facts.close_tracked = 250;
+  facts.has_depth = true;
+  return facts;
+}
+
+KeyframeNeed need(const KeyframeFacts& facts) {
+  return keyframe_need(facts, KeyframeConfig{});
+}
+
+TEST(KeyframePolicy, LeavesACalmSceneAlone) {
+  EXPECT_EQ(need(calm()), KeyframeNeed::kNone);
+}
+
+TEST(KeyframePolicy, LooksAgainNowAndThenInACalmScene) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 1;
+  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
+}
+
+TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
+  KeyframeFacts facts = calm();
+  facts.movable_or_changed = true;
+  facts.since_last_s = 0.1;
+  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
+  facts.since_last_s = 0.07;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
+TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 0.1;
+  facts.inliers = facts.seen = facts.seen_by_reference = 60;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+  facts.movable_or_changed = true;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+}
+
+TEST(KeyframePolicy, TheMapDoesNotWaitWhenHardlyAnythingIsLeft) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 0.03;
+  facts.movable_or_changed = true;
+  facts.inliers = facts.seen = facts.seen_by_reference = 100;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+  facts.inliers = facts.seen = facts.seen_by_reference = 60;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+}
+
+TEST(KeyframePolicy, NeedsDepth) {
+  KeyframeFacts facts = calm();
+  facts.since_last_s = 5;
+  facts.has_depth = false;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
+TEST(KeyframePolicy, TheMapNeedsNewViews) {
+  KeyframeFacts facts = calm();
+  facts.view_change = 1.1;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+  facts.view_change = 0.9;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
+TEST(KeyframePolicy, TheMapNeedsAKeyframeBeforeTheReferenceIsLost) {
+  KeyframeFacts facts = calm();
+  facts.seen = 200;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+}
+
+TEST(KeyframePolicy, WaitsTheShortestInterval) {
+  KeyframeFacts facts = calm();
+  facts.seen = 50;
+  facts.since_last_s = 0.03;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
+TEST(ViewChange, CountsTurnsAndStepsByHowFarTheSceneIs) {
+  const KeyframeConfig config;
+  EXPECT_NEAR(view_change(test::pose(0, 0, 0, config.max_rotation_rad), 2, config), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 2, config), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 4, config), 0.5, 1e-9);
+}
+
+TEST(FoundShare, TellsADropFromItsRunningMean) {
+  FoundShare share;
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(share.update(500, 300), 1, 1e-9);
+  EXPECT_NEAR(share.update(500, 150), 0.5, 1e-9);
+  EXPECT_NEAR(share.update(500, 285), 1, 1e-9);  // the mean has gone down a little
+}
+
+TEST(FoundShare, TakesNoNoticeOfTooFewPoints) {
+  FoundShare share;
+  share.update(500, 300);
+  EXPECT_EQ(share.update(10, 0), 1);
+}
+
+}  // namespace
+}  // namespace rds::tracker

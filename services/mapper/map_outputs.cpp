@@ -7,7 +7,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/service/random_id.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 
 namespace rds::mapper {
 namespace {

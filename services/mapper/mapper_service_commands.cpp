@@ -5,8 +5,8 @@
 
 #include "common/map_file/saved_map.hpp"
 #include "common/messages/json.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/octomap_file.hpp"
+#include "services/mapper/core/io/map_files.hpp"
+#include "services/mapper/core/io/octomap_file.hpp"
 #include "services/mapper/mapper_service.hpp"
 
 namespace rds::mapper {

@@ -8,7 +8,7 @@
 
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tools/rds/wait.hpp"
 
 namespace rds::tools {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/io/map_files.hpp"
 #include "tools/rds/exit.hpp"
 #include "tools/rds/map_diff.hpp"
 #include "tools/rds/map_export.hpp"

@@ -49,7 +49,7 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
   state.put(map_epoch_);
   state.put(start_.checksum);
   state.put_count(final_keyframes_ - unsaved_final_.size());
-  put(state, labels_);
+  labels_.put(state);
   checkpoint.state = state.take();
   std::map<std::uint64_t, ByteWriter> blocks;
   for (const auto* keyframes : {&unsaved_final_, &keyframes_})
@@ -69,7 +69,7 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   const auto began_with = state.get<std::uint64_t>();
   if (start_.map && began_with != start_.checksum) state.refuse("a map that began with another saved map");
   const auto final_keyframes = state.get<std::uint64_t>();
-  LabelTable labels = get_labels(state);
+  LabelTable labels = LabelTable::get(state);
   if (!begins_with(labels, start_.labels)) state.refuse("labels other than the saved map's");
   if (auto read = state.finish(); !read) return read;
   auto base = start_.map;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "services/mapper/core/confirmation.hpp"
-#include "services/mapper/core/gravity.hpp"
-#include "services/mapper/core/keyframe_objects.hpp"
-#include "services/mapper/core/object_extent.hpp"
-#include "services/mapper/core/passing_surfaces.hpp"
+#include "services/mapper/core/evidence/confirmation.hpp"
+#include "services/mapper/core/evidence/passing_surfaces.hpp"
+#include "services/mapper/core/objects/keyframe_objects.hpp"
+#include "services/mapper/core/objects/object_extent.hpp"
+#include "services/mapper/core/segmentation/gravity.hpp"
 
 namespace rds::mapper {
 namespace {

@@ -7,10 +7,10 @@
 #include <span>
 
 #include "common/time/continuous_time.hpp"
-#include "services/mapper/core/keyframe_store.hpp"
-#include "services/mapper/core/object_database.hpp"
-#include "services/mapper/core/occupancy_grid.hpp"
-#include "services/mapper/core/semantic_octree.hpp"
+#include "services/mapper/core/keyframe/keyframe_store.hpp"
+#include "services/mapper/core/objects/object_database.hpp"
+#include "services/mapper/core/octree/occupancy_grid.hpp"
+#include "services/mapper/core/octree/semantic_octree.hpp"
 
 namespace rds::mapper {
 
@@ -162,16 +162,5 @@ class SemanticMapper {
   mutable geometry::CameraModel ray_camera_;
   mutable std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
 };
-
-/// Labels without the first, which is always "".
-void put(map_file::ByteWriter& writer, const LabelTable& labels);
-LabelTable get_labels(map_file::ByteReader& reader);
-
-/// What SemanticMapper::to_bytes() gave, as far as one looks into a map with it: of any resolution.
-struct SavedTree {
-  std::unique_ptr<octomap::ColorOcTree> tree;
-  std::vector<std::string> labels;
-};
-tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes);
 
 }  // namespace rds::mapper

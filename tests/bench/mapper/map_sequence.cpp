@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/io/map_files.hpp"
 #include "services/mapper/core/map_snapshot.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/map_picture.hpp"

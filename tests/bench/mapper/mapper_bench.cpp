@@ -7,8 +7,8 @@
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
 
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
 #include "tests/bench/mapper/recording.hpp"
 
 namespace {

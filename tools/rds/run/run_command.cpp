@@ -10,7 +10,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/map_file/saved_map.hpp"
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/core/io/map_files.hpp"
 #include "tools/rds/interrupt.hpp"
 #include "tools/rds/rate_option.hpp"
 #include "tools/rds/run/run_options.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/mapper/core/keyframe_objects.hpp"
+#include "services/mapper/core/objects/keyframe_objects.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 
 namespace rds::mapper::test {

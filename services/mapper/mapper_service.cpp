@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
-constexpr std::size_t kMaxBoxes = 100;                 // messages whose keyframe has not come
-constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
+constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
 
 /// Keyframes, both before and after the worker has looked at them.
 std::size_t max_waiting(const MapperServiceConfig& config) {
@@ -90,20 +89,23 @@ void MapperService::subscribe_to_keyframes() {
 
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
-  while (!stop.stop_requested()) {
-    beat();
-    mailbox_.wait_for(stop, kReaderLook, [this] {
-      return something_arrived() || !commands_.locked_empty() || map_commands_.locked_ready();
-    });
+  while (wait(stop, [this] {
+    return something_arrived() || !commands_.locked_empty() || map_commands_.locked_ready();
+  })) {
     handle_commands();
     map_commands_.settle();
     take_arrivals();
-    if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
-    if (paused_) continue;
-    guarded("rds/keyframe/poses", [this] { correct(); });
-    integrate_ready();
-    lasting_.save(mapper_);
+    idle();
   }
+}
+
+/// What may be due whether something has arrived or not.
+void MapperService::idle() {
+  if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
+  if (paused_) return;
+  guarded("rds/keyframe/poses", [this] { correct(); });
+  integrate_ready();
+  lasting_.save(mapper_);
 }
 
 /// Moves the map after a loop, and now and then after what local bundle adjustment has moved.

@@ -26,7 +26,7 @@ map_file::Bytes SemanticMapper::to_bytes() const {
 
 tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
-  Start start{std::make_shared<Map>(empty_map()), LabelTable::get(reader), map_file::get_vector(reader),
+  Start start{std::make_shared<Map>(config_), LabelTable::get(reader), map_file::get_vector(reader),
               map_file::checksum_of(bytes)};
   if (reader.ok() && std::abs(start.up->norm() - 1) > 1e-6)
     reader.refuse("an upward direction that is no unit vector");
@@ -38,7 +38,7 @@ tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::
 }
 
 tl::expected<void, std::string> SemanticMapper::start_from(octomap::ColorOcTree&& tree) {
-  Start start{std::make_shared<Map>(empty_map()), {}, {}, map_file::checksum_of(mapper::to_bytes(tree))};
+  Start start{std::make_shared<Map>(config_), {}, {}, map_file::checksum_of(mapper::to_bytes(tree))};
   if (auto fits = start.map->octree.start_from(std::move(tree)); !fits) return fits;
   go_on_from(std::move(start));
   return {};

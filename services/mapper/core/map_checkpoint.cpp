@@ -75,7 +75,7 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   auto base = start_.map;
   if (checkpoint.final_map) {
     ByteReader reader(*checkpoint.final_map);
-    base = std::make_shared<Map>(empty_map());
+    base = std::make_shared<Map>(config_);
     base->octree.get(reader, labels.names().size());
     base->objects.get(reader);
     if (auto read = reader.finish(); !read) return read;

@@ -5,9 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "services/mapper/core/evidence/confirmation.hpp"
-#include "services/mapper/core/evidence/passing_surfaces.hpp"
-#include "services/mapper/core/objects/keyframe_objects.hpp"
 #include "services/mapper/core/objects/object_extent.hpp"
 #include "services/mapper/core/segmentation/gravity.hpp"
 
@@ -35,7 +32,7 @@ void SemanticMapper::begin(std::uint64_t map_epoch) {
   keyframes_.clear();
   clock_ = final_clock_ = {};
   base_ = start_.map;
-  map_ = std::make_unique<Map>(base_ ? *base_ : empty_map());
+  map_ = std::make_unique<Map>(first_map());
   final_keyframes_ = 0;
   unsaved_final_.clear();
   has_checkpoint_ = false;
@@ -45,7 +42,7 @@ void SemanticMapper::begin(std::uint64_t map_epoch) {
 void SemanticMapper::know_surfaces(Map& map) const {
   const auto& tree = map.octree.tree();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) map.history.surfaces.know(leaf.getKey());
+    if (tree.isNodeOccupied(*leaf)) map.history.statics.know(leaf.getKey());
 }
 
 void SemanticMapper::go_on_from(Start start) {
@@ -96,17 +93,15 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   if (keyframes_.contains(input.id))
     throw std::invalid_argument(fmt::format("keyframe {}: is in the map already", input.id));
   auto record = make_record(input, config_.sampling, rays_of(input.camera));
-  if (input.boxes) apply_boxes(record, *input.boxes, config_, labels_);
-  mark_doubtful(record, config_);
+  interpret(record, input.boxes, config_, labels_);
   record.time_ns = time_of(input.id, input.stamp_ns);
   keyframes_[input.id] = {input.stamp_ns, record.time_ns, input.map_from_camera, input.map_from_camera};
   records_.put(record);
   MapDelta delta = new_delta();
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
-  map_->history.see(record, config_);
-  map_->objects.integrate(record, labels_);
-  integrate_into(*map_, record, map_->history, delta);
+  add_evidence(record, config_, labels_, *map_);
+  update_map(record, map_->history, config_, labels_, scan_, *map_, delta);
   delta.revision = ++revision_;
   keep_within_limits();
   return delta;
@@ -121,24 +116,14 @@ std::optional<KeyframeRecord> SemanticMapper::record_of(std::uint64_t id) const 
   return record;
 }
 
-void SemanticMapper::integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history,
-                                    MapDelta& delta) {
-  auto use = confirmed_use(record, history.surfaces, config_);
-  leave_out_passing(record, history, config_, use);
-  make_scan(record, use, config_.octree, config_.sampling, scan_);
-  map.octree.integrate({scan_, record.looked_for_objects, map.objects.unsighted(record, labels_), labels_,
-                        history, record.time_ns, delta});
-}
-
 /// Its part of the map stays as it is, whatever corrections come.
 void SemanticMapper::make_final(std::uint64_t id) {
   const auto record = record_of(id);
   if (!record) return lose(id);
-  if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(base_ ? *base_ : empty_map());
+  if (!base_ || base_ == start_.map) base_ = std::make_shared<Map>(first_map());
   MapDelta unused;
-  base_->history.see(*record, config_);
-  base_->objects.integrate(*record, labels_);
-  integrate_into(*base_, *record, map_->history, unused);
+  add_evidence(*record, config_, labels_, *base_);
+  update_map(*record, map_->history, config_, labels_, scan_, *base_, unused);
   if (id == keyframes_.begin()->first) final_clock_.go_to(record->stamp_ns);
   const auto keyframe = keyframes_.extract(id);
   has_checkpoint_ = has_checkpoint_ && records_.leave(id);
@@ -182,8 +167,7 @@ bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const Labell
     lose(keyframe_id);
     return false;
   }
-  apply_boxes(*record, boxes, config_, labels_);
-  mark_doubtful(*record, config_);
+  interpret(*record, boxes, config_, labels_);
   records_.put(*record);
   keep_within_limits();
   boxes_waiting_ = true;
@@ -218,12 +202,11 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 
 MapDelta SemanticMapper::rebuild() {
   set_times();
-  auto fresh = std::make_unique<Map>(base_ ? *base_ : empty_map());
+  auto fresh = std::make_unique<Map>(first_map());
   std::vector<std::uint64_t> lost;
   for (const auto& [id, keyframe] : keyframes_)
     if (const auto record = record_of(id)) {
-      fresh->history.see(*record, config_);
-      fresh->objects.integrate(*record, labels_);
+      add_evidence(*record, config_, labels_, *fresh);
       progress_();
     } else {
       lost.push_back(id);
@@ -231,7 +214,8 @@ MapDelta SemanticMapper::rebuild() {
   for (const auto id : lost) lose(id);
   for (auto& [id, keyframe] : keyframes_) {
     MapDelta unused;
-    if (const auto record = record_of(id)) integrate_into(*fresh, *record, fresh->history, unused);
+    if (const auto record = record_of(id))
+      update_map(*record, fresh->history, config_, labels_, scan_, *fresh, unused);
     keyframe.integrated_pose = keyframe.pose;
     progress_();
   }

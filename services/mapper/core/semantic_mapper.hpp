@@ -8,9 +8,8 @@
 
 #include "common/time/continuous_time.hpp"
 #include "services/mapper/core/keyframe/keyframe_store.hpp"
-#include "services/mapper/core/objects/object_database.hpp"
 #include "services/mapper/core/octree/occupancy_grid.hpp"
-#include "services/mapper/core/octree/semantic_octree.hpp"
+#include "services/mapper/core/pipeline.hpp"
 
 namespace rds::mapper {
 
@@ -96,12 +95,6 @@ class SemanticMapper {
   [[nodiscard]] const MapperConfig& config() const { return config_; }
 
  private:
-  /// All that is made from keyframes and can be made again.
-  struct Map {
-    SemanticOctree octree;
-    ObjectDatabase objects;
-    SceneHistory history;
-  };
   /// What an epoch starts with.
   struct Start {
     std::shared_ptr<Map> map;
@@ -123,8 +116,6 @@ class SemanticMapper {
   void take_poses(std::span<const KeyframePose> poses);
   [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
-  /// @param history  what tells which doubtful surfaces stand, and which ones are suspect.
-  void integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history, MapDelta& delta);
   [[nodiscard]] std::int64_t time_of(std::uint64_t id, std::int64_t stamp_ns);
   void set_times();
   void make_final(std::uint64_t id);
@@ -134,11 +125,7 @@ class SemanticMapper {
   void take_over_records();
   void keep_within_limits();
   void go_on_from(Start start);
-  [[nodiscard]] Map empty_map() const {
-    return {SemanticOctree(config_.octree),
-            ObjectDatabase(config_.objects),
-            {{}, MovableHistory(config_.octree.resolution_m)}};
-  }
+  [[nodiscard]] Map first_map() const { return base_ ? *base_ : Map(config_); }
   [[nodiscard]] MapDelta new_delta() const;
 
   MapperConfig config_;

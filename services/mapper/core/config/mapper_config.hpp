@@ -59,7 +59,7 @@ struct SegmentationConfig {
 
 struct ObjectConfig {
   std::map<std::string, double> class_radius_m = {
-      {"bottle", 0.06}, {"chair", 0.5}, {"person", 0.35}, {"tvmonitor", 0.25}, {"tv", 0.25}};
+      {"bottle", 0.06}, {"chair", 0.5}, {"tvmonitor", 0.25}, {"tv", 0.25}};
   double default_radius_m = 0.6;
   int min_observations = 2;      // an object is reported from here on …
   double min_score_sum = 1.0;    // … if the detector was so sure of it in all

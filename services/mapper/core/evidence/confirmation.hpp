@@ -3,21 +3,18 @@
 
 #include <vector>
 
-#include "services/mapper/core/evidence/surface_history.hpp"
+#include "services/mapper/core/evidence/static_history.hpp"
 
 namespace rds::mapper {
 
-/// Finds the pixels near something movable and the surfaces they belong to: they may be legs, an arm or a bag
-/// that is in no box. Background is beyond doubt. Fills `record.doubt`; empty where nothing movable is in
-/// view.
-void mark_doubtful(KeyframeRecord& record, const MapperConfig& config);
-
-/// The use of each pixel when doubtful ones count only where most of their surface has been seen standing at
-/// another time; the others are not used, neither to insert nor to carve.
+/// Which of a record's doubtful surfaces have been seen as static at another time, too: so long before or
+/// after that something dynamic would have moved.
 ///
-/// A surface is what hangs together in the depth picture. It is judged as a whole, so that the end of a table
-/// that nobody has seen before comes in with the rest of it. Large ones need less: walls and floors.
-std::vector<PixelUse> confirmed_use(const KeyframeRecord& record, const SurfaceHistory& history,
-                                    const MapperConfig& config);
+/// A surface is judged as a whole, so that the end of a table that no keyframe has seen before is confirmed
+/// with the rest of it: at least `share` of its pixels must lie in voxels seen apart_s earlier or later, or
+/// `share_of_large` if it fills more of the picture than `large`, as walls and floors do.
+/// @return per surface, from 1; empty without doubt.
+std::vector<bool> confirmed_surfaces(const KeyframeRecord& record, const StaticHistory& history,
+                                     const MapperConfig& config);
 
 }  // namespace rds::mapper

@@ -126,8 +126,8 @@ map_file::Bytes to_bytes(const KeyframeRecord& record) {
   put_depths(writer, record.depth_tenth_mm);
   writer.put_bytes(record.rgb);
   put_cells(writer, record.movable_cells);
-  put_runs(writer, record.use);
-  put_runs(writer, record.doubt.near_movable);
+  put_runs(writer, record.classes);
+  put_runs(writer, record.doubt.is_doubtful);
   put_runs(writer, record.doubt.surface);
   writer.put(record.doubt.surfaces);
   put_runs(writer, record.labels);
@@ -154,8 +154,8 @@ tl::expected<KeyframeRecord, std::string> record_from_bytes(std::span<const std:
   const auto rgb = reader.get_bytes(3 * size);
   record.rgb.assign(rgb.begin(), rgb.end());
   record.movable_cells = get_cells(reader);
-  get_runs(reader, size, record.use);
-  get_runs(reader, size, record.doubt.near_movable);
+  get_runs(reader, size, record.classes);
+  get_runs(reader, size, record.doubt.is_doubtful);
   get_runs(reader, size, record.doubt.surface);
   record.doubt.surfaces = reader.get<std::uint16_t>();
   get_runs(reader, size, record.labels);

@@ -11,8 +11,8 @@
 
 namespace rds::mapper {
 
-/// A record packed without loss: differences of depth, runs of equal uses, labels and surfaces. Neither pose
-/// nor rays are in it.
+/// A record packed without loss: differences of depth, runs of equal classes, labels and surfaces. Neither
+/// pose nor rays are in it.
 map_file::Bytes to_bytes(const KeyframeRecord& record);
 
 /// @return the record without pose and rays, or what is wrong with the bytes.

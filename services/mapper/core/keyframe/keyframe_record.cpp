@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgproc.hpp>
-
 #include "common/image/cell_mask.hpp"
 
 namespace rds::mapper {
 namespace {
 
-constexpr float kTenthMmPerM = 1e4F;
 constexpr int kMaxSide = 8192;
-constexpr int kBlindRadius = 4;  // sampled pixels
-
-std::uint16_t to_tenth_mm(float depth_m) {
-  return static_cast<std::uint16_t>(std::min(65535.0F, std::round(depth_m * kTenthMmPerM)));
-}
 
 int sampled(int pixels, int stride) {
   return (pixels + stride - 1) / stride;
@@ -38,33 +30,11 @@ void sample_pixels(const KeyframeInput& input, KeyframeRecord& record) {
     }
 }
 
-/// True if so many of the 8 neighbours have nearly this pixel's depth.
-bool is_supported(const KeyframeRecord& record, int column, int row, int tolerance, int needed) {
-  const std::uint16_t* middle = &record.depth_tenth_mm[static_cast<std::size_t>(row * record.width + column)];
-  const int depth = *middle;
-  const int left = column > 0 ? -1 : 0;
-  const int right = column + 1 < record.width ? 1 : 0;
-  int count = -1;  // itself
-  for (int r = row > 0 ? -1 : 0; r <= (row + 1 < record.height ? 1 : 0) && count < needed; ++r)
-    for (int c = left; c <= right; ++c)
-      count += std::abs(middle[r * record.width + c] - depth) <= tolerance ? 1 : 0;
-  return count >= needed;
-}
-
-/// 255 where a pixel and all within kBlindRadius have no depth; never at the picture's border.
-cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
-  cv::Mat1b none(record.height, record.width);
-  for (int row = 0; row < record.height; ++row)
-    for (int column = 0; column < record.width; ++column)
-      none(row, column) =
-          record.depth_tenth_mm[static_cast<std::size_t>(row * record.width + column)] == 0 ? 255 : 0;
-  const int side = 2 * kBlindRadius + 1;
-  cv::erode(none, none, cv::getStructuringElement(cv::MORPH_RECT, {side, side}), {-1, -1}, 1,
-            cv::BORDER_CONSTANT, cv::Scalar(0));
-  return none;
-}
-
 }  // namespace
+
+std::uint16_t to_tenth_mm(float depth_m) {
+  return static_cast<std::uint16_t>(std::min(65535.0F, std::round(depth_m * kTenthMmPerM)));
+}
 
 std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
                                                                 int stride_px) {
@@ -115,29 +85,9 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
   const auto count = static_cast<std::size_t>(record.width) * static_cast<std::size_t>(record.height);
   record.depth_tenth_mm.resize(count);
   record.rgb.resize(3 * count);
-  record.use.resize(count);
+  record.classes.resize(count);
   sample_pixels(input, record);
-  classify_by_depth(record, config);
-  set_aside_movable_cells(record);
   return record;
-}
-
-void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
-  const cv::Mat1b blind = without_depth_all_around(record);
-  const auto nearest = to_tenth_mm(static_cast<float>(config.min_range_m));
-  const auto farthest = to_tenth_mm(static_cast<float>(config.max_range_m));
-  const auto tolerance_at_1m = static_cast<float>(config.edge_depth_m) * kTenthMmPerM;
-  for (int row = 0; row < record.height; ++row)
-    for (int column = 0; column < record.width; ++column) {
-      const auto i = static_cast<std::size_t>(row * record.width + column);
-      const auto depth = record.depth_tenth_mm[i];
-      record.use[i] = blind(row, column) != 0 ? PixelUse::kBlind : PixelUse::kNone;
-      if (depth < nearest || depth == 0) continue;
-      const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
-      const auto tolerance = static_cast<int>(tolerance_at_1m * scale);
-      if (!is_supported(record, column, row, tolerance, config.edge_support)) continue;
-      record.use[i] = depth <= farthest ? PixelUse::kStatic : PixelUse::kBeyond;
-    }
 }
 
 bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
@@ -145,16 +95,6 @@ bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
   const int row = static_cast<int>(pixel) / record.width * record.stride / record.cell_px;
   const int column = static_cast<int>(pixel) % record.width * record.stride / record.cell_px;
   return record.movable_cells(row, column) != 0;
-}
-
-void make_unsure(PixelUse& use) {
-  use = use == PixelUse::kStatic || use == PixelUse::kUnsure ? PixelUse::kUnsure : PixelUse::kNone;
-}
-
-void set_aside_movable_cells(KeyframeRecord& record) {
-  if (record.cell_px == 0) return;
-  for (std::size_t i = 0; i < record.size(); ++i)
-    if (record.use[i] != PixelUse::kMovable && is_in_movable_cell(record, i)) make_unsure(record.use[i]);
 }
 
 }  // namespace rds::mapper

@@ -5,18 +5,9 @@
 
 #include "services/mapper/core/config/mapper_config.hpp"
 #include "services/mapper/core/keyframe/keyframe_input.hpp"
+#include "services/mapper/core/keyframe/pixel_class.hpp"
 
 namespace rds::mapper {
-
-/// What a sampled pixel may do in the octree.
-enum class PixelUse : std::uint8_t {
-  kNone,     // no depth, flying pixel
-  kStatic,   // inserted as occupied; its ray carves
-  kMovable,  // lowered, never inserted
-  kBeyond,   // measured farther than max_range: only its ray carves
-  kBlind,    // nothing was measured all around: its ray lowers surfaces that few keyframes have seen
-  kUnsure,   // in the rim of a movable object or in a movable cell: as static if its surface is confirmed
-};
 
 /// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
 /// with the pose.
@@ -28,12 +19,14 @@ struct ObjectSighting {
   std::vector<Eigen::Vector3f> points_in_camera;
 };
 
-/// Static pixels that may be of something movable, and what they belong to; all empty where there is no
-/// doubt.
-struct Doubt {
-  std::vector<bool> near_movable;
-  std::vector<std::uint16_t> surface;  // 0 = none
+/// Pixels of which it is in doubt whether they are static, and the connected surfaces by which resolve()
+/// decides; all empty where there is no doubt.
+struct DoubtfulPixels {
+  std::vector<bool> is_doubtful;
+  std::vector<std::uint16_t> surface;  // of each pixel, from 1; 0: of none
   std::uint16_t surfaces = 0;
+
+  [[nodiscard]] bool empty() const { return surface.empty(); }
 };
 
 /// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
@@ -55,9 +48,8 @@ struct KeyframeRecord {
   std::vector<std::uint16_t> depth_tenth_mm;  // 0 = none, 65535 = 6.5 m or more
   std::vector<std::uint8_t> rgb;              // 3 per pixel
   cv::Mat1b movable_cells;                    // as in KeyframeInput
-  std::vector<PixelUse> use;
-  std::vector<bool> background;  // beside movable objects, see find_background(); not stored
-  Doubt doubt;
+  PixelClasses classes;
+  DoubtfulPixels doubt;
   std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
   bool looked_for_objects = false;
   std::vector<ObjectSighting> sightings;
@@ -75,24 +67,18 @@ std::optional<std::string> check(const KeyframeInput& input);
 /// True if the tracker found something that moves there.
 bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
 
-/// True if boxes or the tracker know the pixel as of something movable.
-inline bool is_movable(const KeyframeRecord& record, std::size_t pixel) {
-  return record.use[pixel] == PixelUse::kMovable ||
-         (record.cell_px != 0 && is_in_movable_cell(record, pixel));
+/// True if boxes or the tracker know the pixel as dynamic.
+inline bool is_dynamic(const KeyframeRecord& record, std::size_t pixel) {
+  return record.classes[pixel] == PixelClass::kDynamic || is_in_movable_cell(record, pixel);
 }
 
-/// Samples a checked keyframe; pixels without support at depth edges are rejected. Boxes are not looked at.
+inline constexpr float kTenthMmPerM = 1e4F;
+/// As depth_tenth_mm holds it.
+std::uint16_t to_tenth_mm(float depth_m);
+
+/// Samples a checked keyframe. Classes are left invalid, and boxes are not looked at.
 /// @param rays  of this camera and stride, shared between records.
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
                            std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
-
-/// What was measured in range counts with its surface only, if that is confirmed; all else not at all.
-void make_unsure(PixelUse& use);
-
-/// make_unsure() in movable cells, unless a box says that a pixel is of a movable object.
-void set_aside_movable_cells(KeyframeRecord& record);
-
-/// Sets `use` from the depth alone (what make_record does, and what forgets earlier boxes).
-void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config);
 
 }  // namespace rds::mapper

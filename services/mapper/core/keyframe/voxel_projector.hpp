@@ -39,7 +39,8 @@ inline bool in_key_range(const Eigen::Vector3d& p) {
   return fits(p.x()) && fits(p.y()) && fits(p.z());
 }
 
-/// Pixels of a keyframe as points in voxel units; those beyond the range, or blind, end at it.
+/// Pixels of a keyframe as points in voxel units; far ones and those without return end at
+/// max_range_m.
 struct VoxelProjector {
   VoxelProjector(const KeyframeRecord& keyframe, double resolution_m, double range_m)
       : record(keyframe),
@@ -47,12 +48,12 @@ struct VoxelProjector {
         origin(keyframe.map_from_camera.translation() / resolution_m + Eigen::Vector3d::Constant(kKeyOffset)),
         max_range_m(static_cast<float>(range_m)) {}
 
-  /// @param use  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
-  [[nodiscard]] bool point(std::size_t pixel, PixelUse use, Eigen::Vector3d& at) const {
-    if (use == PixelUse::kNone) return false;
+  /// @param its_class  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
+  [[nodiscard]] bool point(std::size_t pixel, PixelClass its_class, Eigen::Vector3d& at) const {
+    if (its_class == PixelClass::kInvalid) return false;
     const Eigen::Vector3f& ray = (*record.rays)[pixel];
     if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
-    const bool measured = use != PixelUse::kBeyond && use != PixelUse::kBlind;
+    const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
     const float depth = measured ? record.depth_m(pixel) : max_range_m;
     const double x = double{ray.x()} * double{depth};  // written out: this is where a keyframe's time goes
     const double y = double{ray.y()} * double{depth};

@@ -18,7 +18,6 @@ struct MapObject {
   std::uint32_t observations = 0;
   std::int64_t first_seen_ns = 0;
   std::int64_t last_seen_ns = 0;
-  bool movable = false;
 };
 
 }  // namespace rds::mapper

@@ -47,7 +47,7 @@ View look_at(const geometry::Box2& box, double near_m, double far_m, const Keyfr
       if (record.depth_tenth_mm[i] == 0) continue;
       ++view.measured;
       const double depth = record.depth_m(i);
-      if (depth < near_m - kOcclusionMarginM || record.use[i] == PixelUse::kMovable) ++view.occluded;
+      if (depth < near_m - kOcclusionMarginM || record.classes[i] == PixelClass::kDynamic) ++view.occluded;
       if (depth > far_m + kOcclusionMarginM) ++view.seen_through;
     }
   return view;
@@ -190,8 +190,8 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
 }
 
-std::vector<geometry::Box3> ObjectDatabase::unsighted(const KeyframeRecord& record,
-                                                      const LabelTable& labels) const {
+std::vector<geometry::Box3> ObjectDatabase::undetected(const KeyframeRecord& record,
+                                                       const LabelTable& labels) const {
   std::vector<std::pair<std::string, geometry::Box3>> sighted;
   for (const auto& sighting : record.sightings)
     sighted.emplace_back(labels.names()[sighting.label], boundary_in_map(sighting, record.map_from_camera));
@@ -224,7 +224,7 @@ std::string to_json(std::span<const MapObject> objects) {
                     {"center", rounded(o.center)},
                     {"size", rounded(o.size)},
                     {"observations", o.observations},
-                    {"movable", o.movable}});
+                    {"movable", false}});
   return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

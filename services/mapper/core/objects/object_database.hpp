@@ -26,9 +26,9 @@ class ObjectDatabase {
   /// objects.
   void integrate(const KeyframeRecord& record, const LabelTable& labels);
 
-  /// Boxes of the objects that a keyframe does not show, or that the detector did not find in it.
-  [[nodiscard]] std::vector<geometry::Box3> unsighted(const KeyframeRecord& record,
-                                                      const LabelTable& labels) const;
+  /// Boxes of the known objects that have no sighting in a keyframe.
+  [[nodiscard]] std::vector<geometry::Box3> undetected(const KeyframeRecord& record,
+                                                       const LabelTable& labels) const;
 
   /// Objects seen often and surely enough, in order of their ids.
   [[nodiscard]] std::vector<MapObject> objects() const;

@@ -6,9 +6,9 @@
 namespace rds::mapper {
 namespace {
 
-void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pixel) {
-  if (record.use[pixel] == PixelUse::kMovable) {
-    ++voxel.movable_pixels;
+void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, PixelClass its_class, std::size_t pixel) {
+  if (its_class == PixelClass::kDynamic) {
+    ++voxel.dynamic_pixels;
     return;
   }
   ++voxel.static_pixels;
@@ -30,37 +30,40 @@ std::uint32_t slot_of(const octomap::OcTreeKey& key, Scan& scan) {
   return block.slot[cell];
 }
 
-void mark_surfaces(const VoxelProjector& project, std::span<const PixelUse> use, Scan& scan) {
+void mark_surfaces(const VoxelProjector& project, std::span<const PixelClass> classes, Scan& scan) {
   const auto& record = project.record;
   VoxelRun run;
   std::uint32_t slot = 0;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (use[i] == PixelUse::kBeyond || use[i] == PixelUse::kBlind || !project.point(i, use[i], at)) continue;
+    if (classes[i] == PixelClass::kFar || classes[i] == PixelClass::kNoReturn ||
+        !project.point(i, classes[i], at))
+      continue;
     if (const auto key = key_at(at); run.begins_with(key)) slot = slot_of(key, scan);
-    add_pixel(scan.surfaces[slot], record, i);
+    add_pixel(scan.surfaces[slot], record, classes[i], i);
   }
 }
 
-/// One ray per voxel in which a ray ends, to the first pixel in it that is `blind` or, if not, static.
-void carve(const VoxelProjector& project, std::span<const PixelUse> use, bool blind, Scan& scan) {
+/// One ray per voxel in which a ray ends, to the first pixel in it that is a `no_return` or, if not, static
+/// or far.
+void carve(const VoxelProjector& project, std::span<const PixelClass> classes, bool no_return, Scan& scan) {
   VoxelRun run;
   Eigen::Vector3d at;
-  for (std::size_t i = 0; i < use.size(); ++i) {
-    if (use[i] == PixelUse::kMovable || (use[i] == PixelUse::kBlind) != blind) continue;
-    if (!project.point(i, use[i], at)) continue;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (classes[i] == PixelClass::kDynamic || (classes[i] == PixelClass::kNoReturn) != no_return) continue;
+    if (!project.point(i, classes[i], at)) continue;
     const auto key = key_at(at);
     if (!run.begins_with(key)) continue;
     auto& flags = scan.grid.block_of(key).flags[ScanGrid::cell_of(key)];
     if ((flags & kRayCast) != 0) continue;
     flags |= kRayCast;
-    scan.grid.cast_ray(project.origin, at, blind ? kBlindRay : kRayPassed);
+    scan.grid.cast_ray(project.origin, at, no_return ? kNoReturnRay : kFreeSpace);
   }
 }
 
 }  // namespace
 
-void make_scan(const KeyframeRecord& record, std::span<const PixelUse> use, const OctreeConfig& octree,
+void cast_rays(const KeyframeRecord& record, std::span<const PixelClass> classes, const OctreeConfig& octree,
                const SamplingConfig& sampling, Scan& scan) {
   const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
   scan.surfaces.clear();
@@ -72,15 +75,15 @@ void make_scan(const KeyframeRecord& record, std::span<const PixelUse> use, cons
   Eigen::Vector3d highest = project.origin;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i)
-    if (project.point(i, use[i], at)) {
+    if (project.point(i, classes[i], at)) {
       lowest = lowest.cwiseMin(at);
       highest = highest.cwiseMax(at);
     }
   scan.grid.reset(key_at(lowest), key_at(highest));
-  mark_surfaces(project, use, scan);
+  mark_surfaces(project, classes, scan);
   if (!octree.carve_rays) return;
-  carve(project, use, false, scan);
-  if (octree.weak_sightings > 0) carve(project, use, true, scan);
+  carve(project, classes, false, scan);
+  if (octree.weak_sightings > 0) carve(project, classes, true, scan);
 }
 
 }  // namespace rds::mapper

@@ -11,7 +11,7 @@
 namespace rds::mapper {
 
 /// What one keyframe says about a voxel; flags may be combined.
-enum ScanFlag : std::uint8_t { kRayPassed = 1, kSurface = 2, kRayCast = 4, kBlindRay = 8 };
+enum ScanFlag : std::uint8_t { kFreeSpace = 1, kSurface = 2, kRayCast = 4, kNoReturnRay = 8 };
 
 /// Scratch volume of one keyframe: sparse blocks of 8×8×8 voxels, cells of a block in the octree's child
 /// order, so that eight siblings are eight neighbouring bytes. Each voxel is marked once, however many pixels
@@ -35,7 +35,7 @@ class ScanGrid {
   /// @param from, to  in voxel units: floor of a coordinate is the key; both inside the covered range.
   /// Source: Amanatides & Woo 1987; the number of steps is fixed beforehand, so that rounding cannot run
   /// away.
-  void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag = kRayPassed);
+  void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag = kFreeSpace);
 
   Block& block_of(const octomap::OcTreeKey& key);
   static std::size_t cell_of(const octomap::OcTreeKey& key);

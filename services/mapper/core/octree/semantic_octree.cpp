@@ -11,7 +11,6 @@ namespace rds::mapper {
 namespace {
 
 using Node = EditableOcTree::Node;
-constexpr std::uint16_t kMaxColorWeight = 32;  // later pictures still count: exposure drifts
 constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
 
 void append_key(std::vector<std::uint16_t>& keys, const octomap::OcTreeKey& key) {
@@ -32,7 +31,7 @@ octomap::OcTreeKey child_key(const octomap::OcTreeKey& key, unsigned index, unsi
           static_cast<std::uint16_t>(key[2] + (index & 4 ? size : 0))};
 }
 
-constexpr unsigned kMeasured = kSurface | kRayPassed;
+constexpr unsigned kMeasured = kSurface | kFreeSpace;
 
 /// True if any of the cells has one of `wanted`; `count` is a multiple of 8.
 bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
@@ -47,40 +46,6 @@ bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
 }
 
 }  // namespace
-
-void VoxelMemory::see_color(const SurfaceVoxel& surface) {
-  times_seen_ = std::min<std::uint16_t>(static_cast<std::uint16_t>(times_seen_ + 1), kMaxColorWeight);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const float seen = static_cast<float>(surface.rgb_sum[c]) / static_cast<float>(surface.static_pixels);
-    mean_rgb_[c] += (seen - mean_rgb_[c]) / static_cast<float>(times_seen_);
-  }
-}
-
-void VoxelMemory::vote(std::uint16_t label) {
-  if (votes_cast_ == UINT16_MAX) return;
-  ++votes_cast_;
-  if (label == 0) return;
-  auto mine = std::ranges::find_if(votes_, [&](const Votes& v) { return v.label == label; });
-  if (mine == votes_.end()) mine = std::ranges::min_element(votes_, {}, &Votes::count);
-  if (mine->label != label) {
-    if (mine->count > 1) return;  // three better established labels
-    *mine = {label, 0};
-  }
-  ++mine->count;
-}
-
-std::uint16_t VoxelMemory::label(double needed_share) const {
-  const auto better = [](const Votes& a, const Votes& b) {
-    return a.count != b.count ? a.count < b.count : a.label > b.label;
-  };
-  const auto& best = *std::ranges::max_element(votes_, better);
-  return best.count > 0 && best.count >= needed_share * votes_cast_ ? best.label : std::uint16_t{0};
-}
-
-Rgb VoxelMemory::color() const {
-  const auto channel = [&](std::size_t c) { return static_cast<std::uint8_t>(std::lround(mean_rgb_[c])); };
-  return {channel(0), channel(1), channel(2)};
-}
 
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
     : config_(config),
@@ -101,11 +66,12 @@ void SemanticOctree::integrate(const Update& update) {
   for (const auto& block : update.scan.grid.blocks()) update_block(block, update);
 }
 
-/// Cells in which something was measured are made where they are missing; blind rays change what there is.
+/// Voxels that a surface or a ray of a measured pixel meets are made where they are missing; no-return rays
+/// change existing voxels only.
 void SemanticOctree::update_block(const ScanGrid::Block& block, const Update& update) {
   const octomap::OcTreeKey base(block.key[0], block.key[1], block.key[2]);
   const auto is_concerned = [&](unsigned first, std::size_t count, bool exists) {
-    return any_has(exists ? kMeasured | kBlindRay : kMeasured, &block.flags[first], count);
+    return any_has(exists ? kMeasured | kNoReturnRay : kMeasured, &block.flags[first], count);
   };
   if (!is_concerned(0, block.flags.size(), tree_.search(base, kBlockDepth) != nullptr)) return;
   std::array<Node*, EditableOcTree::kDepth + 1> path{};
@@ -130,7 +96,8 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   for (unsigned index = 0; index < 8; ++index) {
     const auto flags = block.flags[first_cell + index];
     if ((flags & kMeasured) == 0 &&
-        !((flags & kBlindRay) != 0 && is_weak(parent, index, child_key(base, index, 1), update)))
+        ((flags & kNoReturnRay) == 0 ||
+         doubt_of(parent, index, child_key(base, index, 1), update) == Doubt::kNone))
       continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
@@ -140,21 +107,22 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   EditableOcTree::refresh(parent);
 }
 
-/// True for an occupied voxel that few keyframes have seen, or that is suspect.
-bool SemanticOctree::is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                             const Update& update) const {
-  if (!tree_.nodeChildExists(parent, index)) return false;
-  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
-  if (update.history.is_suspect(key, update.time_ns)) return true;
+/// Whether it is in doubt that a voxel is occupied; of one that is not there is none.
+Doubt SemanticOctree::doubt_of(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                               const Update& update) const {
+  if (!tree_.nodeChildExists(parent, index)) return Doubt::kNone;
+  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return Doubt::kNone;
+  if (update.history.is_ghost(key, update.time_ns)) return Doubt::kGhost;
   const auto found = memory_.find(packed(key));
-  return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
+  const bool seldom_seen = found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
+  return seldom_seen ? Doubt::kSeldomSeen : Doubt::kNone;
 }
 
-/// Paper §IV-C, and what is_weak() and suspects add to it.
+/// Paper §IV-C; deviation: a ray through a ghost takes suspect_miss.
 double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const {
   if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
-  return occupied && update.history.is_suspect(key, update.time_ns) ? config_.suspect_miss : config_.miss;
+  return occupied && update.history.is_ghost(key, update.time_ns) ? config_.suspect_miss : config_.miss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
@@ -178,13 +146,14 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
     append_voxel(update.delta, key, *node, label);
 }
 
-/// A network that misses an object in most keyframes does not know its voxels to be of none.
-bool SemanticOctree::is_of_unsighted(const octomap::OcTreeKey& key, const Update& update) const {
-  if (update.unsighted.empty()) return false;
+/// True if the voxel is of an object that the detector has not found in this keyframe: no label is no vote
+/// then.
+bool SemanticOctree::is_of_undetected(const octomap::OcTreeKey& key, const Update& update) const {
+  if (update.undetected.empty()) return false;
   const auto p = tree_.keyToCoord(key);
   const Eigen::Vector3d center(p.x(), p.y(), p.z());
   const Eigen::Vector3d voxel = Eigen::Vector3d::Constant(config_.resolution_m);
-  return std::ranges::any_of(update.unsighted, [&](const geometry::Box3& box) {
+  return std::ranges::any_of(update.undetected, [&](const geometry::Box3& box) {
     return geometry::Box3{box.min - voxel, box.max + voxel}.contains(center);
   });
 }
@@ -193,7 +162,7 @@ std::uint16_t SemanticOctree::remember(Node* node, const octomap::OcTreeKey& key
                                        const Update& update) {
   auto& memory = memory_[packed(key)];
   memory.see_color(surface);
-  if (update.looked_for_objects && (surface.label != 0 || !is_of_unsighted(key, update)))
+  if (update.looked_for_objects && (surface.label != 0 || !is_of_undetected(key, update)))
     memory.vote(surface.label);
   const auto label = memory.label(config_.label_share);
   const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : memory.color();

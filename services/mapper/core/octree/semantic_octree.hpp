@@ -3,54 +3,28 @@
 
 #include <unordered_map>
 
-#include "common/map_file/byte_reader.hpp"
-#include "common/map_file/byte_writer.hpp"
 #include "services/mapper/core/evidence/scene_history.hpp"
 #include "services/mapper/core/octree/editable_octree.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/map_delta.hpp"
 #include "services/mapper/core/octree/scan.hpp"
+#include "services/mapper/core/octree/voxel_memory.hpp"
 
 namespace rds::mapper {
 
-/// What an occupied voxel remembers besides its log-odds.
-class VoxelMemory {
- public:
-  void see_color(const SurfaceVoxel& surface);
-  /// One vote per keyframe that looked for objects; label 0 votes against all.
-  void vote(std::uint16_t label);
-  /// The label with most votes if it has the needed share, else 0; ties go to the lower index.
-  [[nodiscard]] std::uint16_t label(double needed_share) const;
-  [[nodiscard]] Rgb color() const;
-  [[nodiscard]] int times_seen() const { return times_seen_; }
-
-  void put(map_file::ByteWriter& writer) const;
-  /// @param labels  of the label table. Refuses colours and labels that cannot be.
-  static VoxelMemory get(map_file::ByteReader& reader, std::size_t labels);
-
- private:
-  struct Votes {
-    std::uint16_t label = 0;
-    std::uint16_t count = 0;
-  };
-  std::array<float, 3> mean_rgb_{};
-  std::uint16_t times_seen_ = 0;
-  std::uint16_t votes_cast_ = 0;
-  std::array<Votes, 3> votes_{};
-};
-
-/// The semantic octree of paper §IV-C: log-odds +0.85 where a static point was seen, −0.41 where a movable
-/// point was seen or a ray passed, clamped; occupied above p = 0.5. Where a ray should have met an occupied
-/// voxel and nothing was measured, −0.41 too, if few keyframes have seen the voxel. A ray through an occupied
-/// voxel that is suspect (SceneHistory) takes more: something movable that the detector missed now and then.
-/// Each voxel changes at most once per keyframe, hits win over misses.
+/// The semantic octree of paper §IV-C: log-odds +0.85 for a voxel with static points (a hit), −0.41 for one
+/// with dynamic points or that a ray passes (a miss), clamped; occupied above p = 0.5.
+///
+/// Each voxel changes at most once per keyframe; a hit wins over a miss. Deviations: a ray that passes a
+/// ghost (Doubt::kGhost) takes −1.2; a ray without return is a miss for voxels in doubt (kGhost, kSeldomSeen)
+/// only. Labels: keyframes vote on them, see VoxelMemory.
 class SemanticOctree {
  public:
   /// One keyframe's news for the octree.
   struct Update {
     const Scan& scan;
     bool looked_for_objects;
-    std::vector<geometry::Box3> unsighted;  // objects that it says nothing about
+    std::vector<geometry::Box3> undetected;  // objects that the detector has not found in it
     const LabelTable& labels;
     const SceneHistory& history;
     std::int64_t time_ns;
@@ -83,13 +57,13 @@ class SemanticOctree {
   void update_block(const ScanGrid::Block& block, const Update& update);
   void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
                        unsigned first_cell, const Update& update);
-  [[nodiscard]] bool is_weak(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                             const Update& update) const;
+  [[nodiscard]] Doubt doubt_of(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                               const Update& update) const;
   [[nodiscard]] double step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                     const Update& update);
-  [[nodiscard]] bool is_of_unsighted(const octomap::OcTreeKey& key, const Update& update) const;
+  [[nodiscard]] bool is_of_undetected(const octomap::OcTreeKey& key, const Update& update) const;
   std::uint16_t remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
                          const Update& update);
 

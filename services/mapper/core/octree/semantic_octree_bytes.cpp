@@ -25,32 +25,6 @@ std::string other_resolution(double saved_m, double expected_m) {
 
 }  // namespace
 
-void VoxelMemory::put(ByteWriter& writer) const {
-  for (const float channel : mean_rgb_) writer.put(channel);
-  writer.put(times_seen_);
-  writer.put(votes_cast_);
-  for (const Votes& votes : votes_) {
-    writer.put(votes.label);
-    writer.put(votes.count);
-  }
-}
-
-VoxelMemory VoxelMemory::get(ByteReader& reader, std::size_t labels) {
-  VoxelMemory memory;
-  for (float& channel : memory.mean_rgb_) {
-    channel = reader.get<float>();
-    if (channel < 0 || channel > 255) reader.refuse("a colour outside 0 … 255");
-  }
-  memory.times_seen_ = reader.get<std::uint16_t>();
-  memory.votes_cast_ = reader.get<std::uint16_t>();
-  for (Votes& votes : memory.votes_) {
-    votes.label = reader.get<std::uint16_t>();
-    votes.count = reader.get<std::uint16_t>();
-    if (votes.label >= labels) reader.refuse(fmt::format("label {} of {}", votes.label, labels));
-  }
-  return memory;
-}
-
 tl::expected<void, std::string> SemanticOctree::start_from(octomap::ColorOcTree&& tree) {
   if (auto fault = other_resolution(tree.getResolution(), config_.resolution_m); !fault.empty())
     return tl::unexpected(std::move(fault));

@@ -26,7 +26,7 @@ bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
                      std::span<const geometry::Box2> movable, const SegmentationConfig& config) {
   PointSums outside;
   for (const auto i : surface.pixels)
-    if (!is_movable(record, i) && !is_in_a_box(record, i, movable))
+    if (!is_dynamic(record, i) && !is_in_a_box(record, i, movable))
       outside.add(record.point_in_camera(i).cast<double>());
   return outside.count() >= config.min_plane_share * static_cast<double>(record.size()) &&
          outside.narrow_deviation_m() >= kWiderThanAPersonM;
@@ -42,7 +42,7 @@ bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pi
   const auto aside = static_cast<std::size_t>(kToNeighbour);
   const std::size_t down = aside * static_cast<std::size_t>(record.width);
   const std::array around{pixel + aside, pixel - aside, pixel + down, pixel - down};
-  if (std::ranges::any_of(around, [&](std::size_t i) { return record.use[i] != PixelUse::kStatic; }))
+  if (std::ranges::any_of(around, [&](std::size_t i) { return record.classes[i] != PixelClass::kStatic; }))
     return false;
   const auto between = [&](std::size_t a, std::size_t b) -> Eigen::Vector3f {
     return record.point_in_camera(a) - record.point_in_camera(b);

@@ -31,8 +31,8 @@ class PixelSets {
   std::vector<std::uint32_t> parent_;
 };
 
-bool may_stand(PixelUse use) {
-  return use == PixelUse::kStatic || use == PixelUse::kUnsure;
+bool may_be_static(PixelClass c) {
+  return c == PixelClass::kStatic || c == PixelClass::kUnknown;
 }
 
 PixelSets join_neighbours(const KeyframeRecord& record, const SamplingConfig& config) {
@@ -40,14 +40,14 @@ PixelSets join_neighbours(const KeyframeRecord& record, const SamplingConfig& co
   const auto step_at_1m = static_cast<int>(config.edge_depth_m * kTenthMmPerM);
   const auto width = static_cast<std::size_t>(record.width);
   const auto try_join = [&](std::size_t a, std::size_t b) {
-    if (!may_stand(record.use[b])) return;
+    if (!may_be_static(record.classes[b])) return;
     const int depth = record.depth_tenth_mm[a];
     const int step = depth <= kTenthMmPerM ? step_at_1m : depth / 100 * step_at_1m / 100;
     if (std::abs(record.depth_tenth_mm[b] - depth) <= step)
       sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (!may_stand(record.use[i])) continue;
+    if (!may_be_static(record.classes[i])) continue;
     if (i % width != 0) try_join(i, i - 1);
     if (i >= width) try_join(i, i - width);
   }
@@ -65,7 +65,7 @@ std::uint16_t find_surfaces(const KeyframeRecord& record, const SamplingConfig& 
   std::uint16_t surfaces = 0;
   for (std::uint32_t i = 0; i < record.size(); ++i) {
     const std::uint32_t root = sets.root(i);
-    if (pixels[root] < kMinPixels || !may_stand(record.use[i])) continue;
+    if (pixels[root] < kMinPixels || !may_be_static(record.classes[i])) continue;
     if (root == i && surfaces < std::numeric_limits<std::uint16_t>::max()) surface[i] = ++surfaces;
     surface[i] = surface[root];
   }

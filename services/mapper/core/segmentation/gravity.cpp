@@ -24,7 +24,7 @@ void append_normals(const KeyframeRecord& record, const Eigen::Vector3d& guess,
   const auto point = [&](int x, int y, Eigen::Vector3f& p) {
     const auto i = static_cast<std::size_t>(y * record.width + x);
     p = record.point_in_camera(i);
-    return record.use[i] == PixelUse::kStatic;
+    return record.classes[i] == PixelClass::kStatic;
   };
   Eigen::Vector3f left;
   Eigen::Vector3f right;

@@ -41,7 +41,8 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
     for (int x = rect.x; x < rect.x + rect.width; ++x) {
       const auto i = static_cast<std::size_t>(y * record.width + x);
       const float d = record.depth_m(i);
-      const bool used = record.use[i] != PixelUse::kNone && record.use[i] != PixelUse::kUnsure;
+      const bool used =
+          record.classes[i] != PixelClass::kInvalid && record.classes[i] != PixelClass::kUnknown;
       if (d > 0 && used && d >= limits.min_m && d <= limits.max_m) depths.push_back(d);
     }
   return depths;
@@ -183,26 +184,10 @@ ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box,
     for (int x = 0; x < wide.width; ++x) {
       const double share = shares[static_cast<std::size_t>(parts.at<int>(y, x))];
       if (share > 0)
-        (share >= sure ? region.pixels : region.unsure)
+        (share >= sure ? region.pixels : region.small_parts)
             .push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
     }
   return region;
-}
-
-void mark_movable(KeyframeRecord& record, const ObjectRegion& region, const RegionConfig& config) {
-  if (region.pixels.empty()) return;
-  cv::Mat mask(record.height, record.width, CV_8U, cv::Scalar(0));
-  for (const auto i : region.pixels) mask.data[i] = 1;
-  const int radius = (config.rim_px + record.stride - 1) / record.stride;
-  cv::Mat rim;
-  cv::dilate(mask, rim, cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
-  for (const auto i : region.unsure) rim.data[i] = 1;
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    if (mask.data[i] != 0 && record.use[i] != PixelUse::kNone && record.use[i] != PixelUse::kBeyond)
-      record.use[i] = PixelUse::kMovable;
-    else if (rim.data[i] != 0 && record.use[i] != PixelUse::kMovable)
-      make_unsure(record.use[i]);
-  }
 }
 
 }  // namespace rds::mapper

@@ -12,7 +12,7 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 /// Sampled pixels of an object, ascending.
 struct ObjectRegion {
   std::vector<std::size_t> pixels;
-  std::vector<std::size_t> unsure;  // of a movable object: small parts, which may be of what it stands among
+  std::vector<std::size_t> small_parts;  // of a movable object's cut: may be of what stands around it
 };
 
 /// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.
@@ -38,8 +38,5 @@ struct ObjectPlace {
 /// @return nullopt if the box has no usable depth.
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
                                         const RegionConfig& config);
-
-/// Marks the region as movable; its unsure parts and a rim around it as unsure.
-void mark_movable(KeyframeRecord& record, const ObjectRegion& region, const RegionConfig& config);
 
 }  // namespace rds::mapper

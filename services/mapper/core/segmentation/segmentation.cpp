@@ -42,7 +42,7 @@ Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>
   for (int y = 0; y < record.height; y += stride)
     for (int x = 0; x < record.width; x += stride) {
       const auto i = static_cast<std::size_t>(y * record.width + x);
-      const bool used = record.use[i] == PixelUse::kStatic && !on_plane[i];
+      const bool used = record.classes[i] == PixelClass::kStatic && !on_plane[i];
       const Eigen::Vector3f p = used ? record.point_in_camera(i) : Eigen::Vector3f::Constant(kNan);
       cloud->push_back(Point(p.x(), p.y(), p.z()));
     }

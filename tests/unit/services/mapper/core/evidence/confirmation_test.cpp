@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "services/mapper/core/objects/keyframe_objects.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -14,13 +13,12 @@ using test::SyntheticKeyframe;
 const cv::Rect kTorso(120, 10, 80, 100);
 const cv::Rect kLegs(120, 160, 80, 60);  // below the box and its margin, as behind a table
 constexpr double kPersonM = 1.5;
+constexpr double kVoxelM = 0.05;
 constexpr std::uint64_t kTwoSeconds = 20;  // keyframes are 0.1 s apart
 
 KeyframeRecord record_of(const KeyframeInput& input, const MapperConfig& config = {}) {
   LabelTable labels;
-  auto record = test::record_of(input, labels, config);
-  mark_doubtful(record, config);
-  return record;
+  return test::record_of(input, labels, config);
 }
 
 SyntheticKeyframe person_with_legs(std::uint64_t id) {
@@ -30,30 +28,30 @@ SyntheticKeyframe person_with_legs(std::uint64_t id) {
       .box("person", kTorso, true);
 }
 
-PixelUse use_at(const KeyframeRecord& record, const SurfaceHistory& history, int x_px, int y_px) {
-  const auto use = confirmed_use(record, history, {});
-  return use[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
+PixelClass class_at(const KeyframeRecord& record, const StaticHistory& history, int x_px, int y_px) {
+  const auto classes = resolve(record, {history, DynamicHistory(kVoxelM)}, {});
+  return classes[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
 }
 
 TEST(Confirmation, WithoutAnythingMovableThereAreNoDoubts) {
   const auto record = record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM));
   EXPECT_TRUE(record.doubt.surface.empty());
-  EXPECT_EQ(confirmed_use(record, {}, {}), record.use);
+  EXPECT_EQ(resolve(record, {{}, DynamicHistory(kVoxelM)}, {}), record.classes);
 }
 
 TEST(Confirmation, WhatStandsNearAPersonIsNotUsedAndTheWallBehindIs) {
   const auto record = record_of(person_with_legs(0));
-  EXPECT_EQ(use_at(record, {}, 160, 190), PixelUse::kNone);
-  EXPECT_EQ(use_at(record, {}, 160, 60), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, {}, 40, 60), PixelUse::kStatic);
+  EXPECT_EQ(class_at(record, {}, 160, 190), PixelClass::kInvalid);
+  EXPECT_EQ(class_at(record, {}, 160, 60), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(record, {}, 40, 60), PixelClass::kStatic);
 }
 
 TEST(Confirmation, NearTheTrackersCellsToo) {
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM).movable_cells({120, 160, 80, 20}));
-  EXPECT_EQ(use_at(record, {}, 160, 170), PixelUse::kNone);
-  EXPECT_EQ(use_at(record, {}, 160, 210), PixelUse::kNone);
-  EXPECT_EQ(use_at(record, {}, 40, 60), PixelUse::kStatic);
+  EXPECT_EQ(class_at(record, {}, 160, 170), PixelClass::kInvalid);
+  EXPECT_EQ(class_at(record, {}, 160, 210), PixelClass::kInvalid);
+  EXPECT_EQ(class_at(record, {}, 40, 60), PixelClass::kStatic);
 }
 
 TEST(Confirmation, InTheTrackersCellsASurfaceStandsIfTheRestOfItDoes) {
@@ -61,24 +59,24 @@ TEST(Confirmation, InTheTrackersCellsASurfaceStandsIfTheRestOfItDoes) {
     return SyntheticKeyframe(id).rectangle(kLegs, kPersonM).movable_cells({120, 160, 80, 20});
   };
   const auto record = record_of(in_cells(kTwoSeconds));
-  SurfaceHistory seen_free;
+  StaticHistory seen_free;
   seen_free.see(record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM)), {});
-  EXPECT_EQ(use_at(record, seen_free, 160, 170), PixelUse::kStatic);
-  SurfaceHistory seen_in_cells;  // says nothing of what is in them
+  EXPECT_EQ(class_at(record, seen_free, 160, 170), PixelClass::kStatic);
+  StaticHistory seen_in_cells;  // says nothing of what is in them
   seen_in_cells.see(record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM).movable_cells(kLegs)), {});
-  EXPECT_EQ(use_at(record, seen_in_cells, 160, 170), PixelUse::kNone);
+  EXPECT_EQ(class_at(record, seen_in_cells, 160, 170), PixelClass::kInvalid);
 }
 
 TEST(Confirmation, WhatIsSeenAtAnotherTimeStands) {
   const auto record = record_of(person_with_legs(kTwoSeconds));
   const auto history_of = [](std::uint64_t id) {
-    SurfaceHistory history;
+    StaticHistory history;
     history.see(record_of(SyntheticKeyframe(id).rectangle(kLegs, kPersonM)), {});
     return history;
   };
-  EXPECT_EQ(use_at(record, history_of(0), 160, 190), PixelUse::kStatic);
-  EXPECT_EQ(use_at(record, history_of(2 * kTwoSeconds), 160, 190), PixelUse::kStatic);
-  EXPECT_EQ(use_at(record, history_of(kTwoSeconds - 5), 160, 190), PixelUse::kNone);
+  EXPECT_EQ(class_at(record, history_of(0), 160, 190), PixelClass::kStatic);
+  EXPECT_EQ(class_at(record, history_of(2 * kTwoSeconds), 160, 190), PixelClass::kStatic);
+  EXPECT_EQ(class_at(record, history_of(kTwoSeconds - 5), 160, 190), PixelClass::kInvalid);
 }
 
 TEST(Confirmation, ASurfaceIsJudgedAsAWhole) {
@@ -87,12 +85,12 @@ TEST(Confirmation, ASurfaceIsJudgedAsAWhole) {
                                     .rectangle(kTorso, kPersonM)
                                     .rectangle(table, kPersonM)
                                     .box("person", kTorso, true));
-  SurfaceHistory most;
+  StaticHistory most;
   most.see(record_of(SyntheticKeyframe(0).rectangle({60, 160, 160, 60}, kPersonM)), {});
-  EXPECT_EQ(use_at(record, most, 250, 190), PixelUse::kStatic);
-  SurfaceHistory little;
+  EXPECT_EQ(class_at(record, most, 250, 190), PixelClass::kStatic);
+  StaticHistory little;
   little.see(record_of(SyntheticKeyframe(0).rectangle({60, 160, 20, 60}, kPersonM)), {});
-  EXPECT_EQ(use_at(record, little, 70, 190), PixelUse::kNone);
+  EXPECT_EQ(class_at(record, little, 70, 190), PixelClass::kInvalid);
 }
 
 TEST(Confirmation, RadiusZeroIsOff) {
@@ -101,8 +99,8 @@ TEST(Confirmation, RadiusZeroIsOff) {
   EXPECT_TRUE(record_of(person_with_legs(0), config).doubt.surface.empty());
 }
 
-TEST(SurfaceHistory, ASavedVoxelHasAlwaysBeenThere) {
-  SurfaceHistory history;
+TEST(StaticHistory, ASavedVoxelHasAlwaysBeenThere) {
+  StaticHistory history;
   history.know({100, 200, 300});
   constexpr std::int64_t kNow = 1'700'000'000'000'000'000;
   EXPECT_TRUE(history.seen_apart({100, 200, 300}, kNow, 1'000'000'000));

@@ -23,10 +23,10 @@ class SceneHistoryTest : public testing::Test {
   void see_person(std::uint64_t keyframe) {
     see(SyntheticKeyframe(keyframe).rectangle(kBody, kDepthM).box("person", kBody, true));
   }
-  [[nodiscard]] bool is_suspect(std::uint64_t keyframe) const {
-    return history_.is_suspect(key(), stamp_ns(keyframe));
+  [[nodiscard]] bool is_ghost(std::uint64_t keyframe) const {
+    return history_.is_ghost(key(), stamp_ns(keyframe));
   }
-  [[nodiscard]] bool is_passing() const { return history_.is_passing(key(), 1'000'000'000); }
+  [[nodiscard]] bool is_transient() const { return history_.is_transient(key(), 1'000'000'000); }
 
  private:
   [[nodiscard]] octomap::OcTreeKey key() const {
@@ -38,50 +38,50 @@ class SceneHistoryTest : public testing::Test {
 
   MapperConfig config_;
   LabelTable labels_;
-  SceneHistory history_{{}, MovableHistory(config_.octree.resolution_m)};
+  SceneHistory history_{{}, DynamicHistory(config_.octree.resolution_m)};
 };
 
 TEST_F(SceneHistoryTest, WhereNothingMovableHasBeenNothingIsSuspect) {
   see_static(0);
-  EXPECT_FALSE(is_suspect(1));
+  EXPECT_FALSE(is_ghost(1));
 }
 
 TEST_F(SceneHistoryTest, WhatIsStaticAsOftenAsMovableIsNotSuspect) {
   see_static(0);
   for (const std::uint64_t keyframe : {1, 2}) see_person(keyframe);
-  EXPECT_TRUE(is_suspect(9));
+  EXPECT_TRUE(is_ghost(9));
   see_static(3);
-  EXPECT_FALSE(is_suspect(9));
+  EXPECT_FALSE(is_ghost(9));
 }
 
 TEST_F(SceneHistoryTest, WhatIsSeenThereAgainHasNotGone) {
   see_static(0);
   for (const std::uint64_t keyframe : {1, 2, 3}) see_person(keyframe);
-  EXPECT_TRUE(is_suspect(4));
+  EXPECT_TRUE(is_ghost(4));
   see_static(5);
-  EXPECT_FALSE(is_suspect(4));
-  EXPECT_TRUE(is_suspect(6));
+  EXPECT_FALSE(is_ghost(4));
+  EXPECT_TRUE(is_ghost(6));
 }
 
 TEST_F(SceneHistoryTest, WhatStandsOnlyWhileSomebodyIsThereIsPassing) {
   see_person(20);
-  EXPECT_TRUE(is_passing());
+  EXPECT_TRUE(is_transient());
   see_static(11);
   see_person(30);
-  EXPECT_TRUE(is_passing());
+  EXPECT_TRUE(is_transient());
   see_static(25);
-  EXPECT_FALSE(is_passing()) << "as often as movable";
+  EXPECT_FALSE(is_transient()) << "as often as dynamic";
 }
 
 TEST_F(SceneHistoryTest, WhatStandsASecondBeforeOrAfterIsNotPassing) {
   for (const std::uint64_t keyframe : {20, 21, 22}) see_person(keyframe);
   see_static(10);
-  EXPECT_FALSE(is_passing());
+  EXPECT_FALSE(is_transient());
 }
 
 TEST_F(SceneHistoryTest, WhereNobodyHasBeenNothingIsPassing) {
   see_static(0);
-  EXPECT_FALSE(is_passing());
+  EXPECT_FALSE(is_transient());
 }
 
 }  // namespace

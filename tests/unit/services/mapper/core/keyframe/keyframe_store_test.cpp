@@ -85,15 +85,13 @@ void show_all(SemanticMapper& mapper) {
 
 TEST(KeyframeBytes, ComeBackAsTheyWere) {
   const auto input = keyframe(3);
-  const MapperConfig config;
-  const auto record =
-      make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
+  const auto record = test::measured(input);
   const auto bytes = to_bytes(record);
   const auto back = record_from_bytes(bytes);
   ASSERT_TRUE(back) << back.error();
   EXPECT_EQ(back->depth_tenth_mm, record.depth_tenth_mm);
   EXPECT_EQ(back->rgb, record.rgb);
-  EXPECT_EQ(back->use, record.use);
+  EXPECT_EQ(back->classes, record.classes);
   EXPECT_EQ(back->camera, record.camera);
   EXPECT_EQ(to_bytes(*back), bytes);
   EXPECT_LT(bytes.size(), 5 * record.size());
@@ -101,7 +99,7 @@ TEST(KeyframeBytes, ComeBackAsTheyWere) {
 
 TEST(KeyframeBytes, AnyByteMissingIsRefused) {
   const auto input = keyframe(3);
-  const auto bytes = to_bytes(make_record(input, {}, sample_rays(input.camera, 2)));
+  const auto bytes = to_bytes(test::measured(input));
   for (std::size_t size = 0; size < bytes.size(); size += size < 300 ? 1 : 997)
     EXPECT_FALSE(record_from_bytes(std::span(bytes).first(size))) << size;
 }
@@ -150,9 +148,7 @@ TEST(KeyframeStore, ATornFileCostsItsKeyframesOnly) {
 TEST(KeyframeStore, SavesOnceWhatHasNotChanged) {
   FakeStorage::State disk;
   KeyframeStore records(std::make_unique<FakeStorage>(disk));
-  const auto record = [](std::uint64_t id) {
-    return make_record(keyframe(id), {}, sample_rays(keyframe(id).camera, 2));
-  };
+  const auto record = [](std::uint64_t id) { return test::measured(keyframe(id)); };
   for (std::uint64_t id = 0; id < 3; ++id) records.put(record(id));
   EXPECT_TRUE(records.save());
   EXPECT_TRUE(records.save());

@@ -155,8 +155,7 @@ TEST(ObjectDatabase, WritesJson) {
                   .size = {0.5, 0.25, 1},
                   .observations = 7,
                   .first_seen_ns = 0,
-                  .last_seen_ns = 1,
-                  .movable = false};
+                  .last_seen_ns = 1};
   const auto json = nlohmann::json::parse(to_json(std::vector{chair}));
   ASSERT_EQ(json.size(), 1U);
   EXPECT_EQ(json[0]["id"], 3);

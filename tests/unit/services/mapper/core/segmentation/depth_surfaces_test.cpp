@@ -13,7 +13,7 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
   KeyframeInput input =
       test::SyntheticKeyframe(0).rectangle({40, 40, 60, 60}, 1.5).rectangle({200, 40, 60, 60}, 1.5);
   for (int x = 120; x < 180; ++x) input.depth.values(cv::Rect(x, 150, 1, 60)).setTo(1.0 + 0.01 * (x - 120));
-  const auto record = make_record(input, config.sampling, sample_rays(input.camera, 2));
+  const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
   EXPECT_EQ(find_surfaces(record, config.sampling, surface), 4);
   const auto at = [&](int x_px, int y_px) {
@@ -30,7 +30,7 @@ TEST(DepthSurfaces, AFewPixelsAreNone) {
   MapperConfig config;
   config.sampling.edge_support = 0;
   const KeyframeInput input = test::SyntheticKeyframe(0).rectangle({100, 100, 4, 4}, 1.5);
-  const auto record = make_record(input, config.sampling, sample_rays(input.camera, 2));
+  const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
   EXPECT_EQ(find_surfaces(record, config.sampling, surface), 1);
   EXPECT_EQ(surface[static_cast<std::size_t>(51 * record.width + 51)], 0);

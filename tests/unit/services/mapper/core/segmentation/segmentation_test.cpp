@@ -10,7 +10,7 @@ namespace {
 
 KeyframeRecord record_of(const KeyframeInput& input) {
   const SamplingConfig config;
-  return make_record(input, config, sample_rays(input.camera, config.stride_px));
+  return test::measured(input, config);
 }
 
 /// A wall with a rounded object 40 cm before it (a plane of its own would be no object).

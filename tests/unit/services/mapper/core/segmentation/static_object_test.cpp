@@ -23,8 +23,7 @@ SyntheticKeyframe over_surface(double depth_below_m) {
 StaticObject object_of(const KeyframeInput& input, const cv::Rect& px, float depth_m) {
   MapperConfig config;
   config.segmentation.stride = 1;
-  const auto record =
-      make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
+  const auto record = test::measured(input, config.sampling);
   const auto segments = segment(record, config.segmentation);
   const LabelledBox box{"chair", 0.9F,    {double(px.x), double(px.y), double(px.br().x), double(px.br().y)},
                         {},      depth_m, false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/movable_history.hpp"
+#include "services/mapper/core/evidence/dynamic_history.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,23 +11,23 @@ constexpr double kCubeM = 0.1;
 
 }  // namespace
 
-MovableHistory::MovableHistory(double resolution_m)
+DynamicHistory::DynamicHistory(double resolution_m)
     : cube_bits_(std::max(0, static_cast<int>(std::lround(std::log2(kCubeM / resolution_m))))) {}
 
-void MovableHistory::see(const KeyframeRecord& record, const MapperConfig& config) {
+void DynamicHistory::see(const KeyframeRecord& record, const MapperConfig& config) {
   const VoxelProjector project(record, config.octree.resolution_m, config.sampling.max_range_m);
   const auto nearest = static_cast<float>(config.sampling.min_range_m);
   const auto farthest = static_cast<float>(config.sampling.max_range_m);
   VoxelRun run;
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (!is_movable(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
-    if (!project.point(i, PixelUse::kMovable, at)) continue;
+    if (!is_dynamic(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
+    if (!project.point(i, PixelClass::kDynamic, at)) continue;
     if (const auto key = key_at(at); run.begins_with(key)) see_around(key, record.time_ns);
   }
 }
 
-void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t time_ns) {
+void DynamicHistory::see_around(const octomap::OcTreeKey& key, std::int64_t time_ns) {
   const int half = 1 << cube_bits_ >> 1;
   for (int corner = 0; corner < 8; ++corner) {
     const auto shifted = [&](unsigned axis) {
@@ -37,7 +37,7 @@ void MovableHistory::see_around(const octomap::OcTreeKey& key, std::int64_t time
   }
 }
 
-const PlaceSightings* MovableHistory::sightings(const octomap::OcTreeKey& key) const {
+const PlaceSightings* DynamicHistory::sightings(const octomap::OcTreeKey& key) const {
   if (cubes_.empty()) return nullptr;
   const auto found = cubes_.find(cube(key));
   return found == cubes_.end() ? nullptr : &found->second;

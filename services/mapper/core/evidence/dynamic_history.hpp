@@ -9,17 +9,17 @@
 
 namespace rds::mapper {
 
-/// Where boxes or the tracker have known of something movable, in cubes of about 10 cm: somebody who stands
-/// sways.
-class MovableHistory {
+/// When and how often boxes or the tracker have told of something dynamic in a place, in cubes of about 10
+/// cm: a standing person moves by less.
+class DynamicHistory {
  public:
-  explicit MovableHistory(double resolution_m);
+  explicit DynamicHistory(double resolution_m);
 
-  /// The movable pixels of a keyframe, where its pose puts them.
+  /// Adds the dynamic pixels of a keyframe, where its pose puts them.
   void see(const KeyframeRecord& record, const MapperConfig& config);
 
   [[nodiscard]] bool empty() const { return cubes_.empty(); }
-  /// Of something movable there, or half a cube beside it; nullptr if there are none.
+  /// In the voxel's cube or half a cube beside it; nullptr if there are none.
   [[nodiscard]] const PlaceSightings* sightings(const octomap::OcTreeKey& key) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/objects/keyframe_objects.hpp"
+#include "services/mapper/core/pipeline.hpp"
 
 #include <algorithm>
 
@@ -14,44 +14,44 @@ namespace {
 using test::record_of;
 using test::SyntheticKeyframe;
 
-PixelUse use_at(const KeyframeRecord& record, int x_px, int y_px) {
-  return record.use[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
+PixelClass class_at(const KeyframeRecord& record, int x_px, int y_px) {
+  return record.classes[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
 }
 
-TEST(KeyframeObjects, CutsAPersonOutOfHisBoxAndLeavesARimUnsure) {
+TEST(Pipeline, CutsAPersonOutOfHisBoxAndLeavesARimUnknown) {
   const cv::Rect person(120, 40, 80, 200);
   LabelTable labels;
   const auto record = record_of(
       SyntheticKeyframe(0).rectangle(person, 1.5).box("person", {90, 20, 140, 220}, true).make(), labels);
-  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, 116, 120), PixelUse::kUnsure);
-  EXPECT_EQ(use_at(record, 95, 120), PixelUse::kStatic);
+  EXPECT_EQ(class_at(record, 160, 120), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(record, 116, 120), PixelClass::kUnknown);
+  EXPECT_EQ(class_at(record, 95, 120), PixelClass::kStatic);
   EXPECT_TRUE(record.sightings.empty());
 }
 
-TEST(KeyframeObjects, AWallThatGoesOnOutsideABoxIsOfNobodyInIt) {
+TEST(Pipeline, AWallThatGoesOnOutsideABoxIsOfNobodyInIt) {
   const cv::Rect person(140, 40, 40, 180);
   LabelTable labels;
   const auto record = record_of(
       SyntheticKeyframe(0, 1.7).rectangle(person, 1.5).box("person", {130, 30, 60, 200}, true).make(),
       labels);
-  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, 132, 120), PixelUse::kStatic);  // inside the box, and as near as he may be
-  EXPECT_EQ(use_at(record, 60, 120), PixelUse::kStatic);
+  EXPECT_EQ(class_at(record, 160, 120), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(record, 132, 120), PixelClass::kStatic);  // inside the box, and as near as he may be
+  EXPECT_EQ(class_at(record, 60, 120), PixelClass::kStatic);
 }
 
-TEST(KeyframeObjects, AWallThatFillsNoMoreThanABoxMayBeSomebody) {
+TEST(Pipeline, AWallThatFillsNoMoreThanABoxMayBeSomebody) {
   LabelTable labels;
   const auto record = record_of(SyntheticKeyframe(0, 5.9)
                                     .rectangle({90, 0, 150, 240}, 1.5)
                                     .box("person", {90, 0, 150, 240}, true)
                                     .make(),
                                 labels);
-  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, 100, 20), PixelUse::kMovable);
+  EXPECT_EQ(class_at(record, 160, 120), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(record, 100, 20), PixelClass::kDynamic);
 }
 
-TEST(KeyframeObjects, ASmallPartBesideAPersonIsUnsure) {
+TEST(Pipeline, ASmallPartBesideAPersonIsUnknown) {
   const cv::Rect person(120, 40, 80, 180);
   const cv::Rect bag(215, 150, 14, 30);
   LabelTable labels;
@@ -61,11 +61,11 @@ TEST(KeyframeObjects, ASmallPartBesideAPersonIsUnsure) {
                                     .box("person", {110, 30, 130, 200}, true)
                                     .make(),
                                 labels);
-  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kMovable);
-  EXPECT_EQ(use_at(record, 222, 164), PixelUse::kUnsure);
+  EXPECT_EQ(class_at(record, 160, 120), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(record, 222, 164), PixelClass::kUnknown);
 }
 
-TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
+TEST(Pipeline, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
   const cv::Rect chair(130, 90, 60, 60);
   LabelTable labels;
   auto input = SyntheticKeyframe(0).rectangle(chair, 2.0).looked_for_objects().make();
@@ -79,24 +79,24 @@ TEST(KeyframeObjects, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
   }
 }
 
-TEST(KeyframeObjects, MovableCellsAreUnsureUnlessABoxKnowsTheObject) {
+TEST(Pipeline, MovableCellsAreUnknownUnlessABoxKnowsTheObject) {
   const cv::Rect person(120, 40, 80, 200);
   auto keyframe = SyntheticKeyframe(0)
                       .rectangle(person, 1.5)
                       .rectangle({40, 40, 80, 80}, 2.5)
                       .movable_cells({40, 40, 80, 80});
   const MapperConfig config;
-  const auto unboxed = make_record(keyframe, config.sampling, sample_rays(test::small_camera(), 2));
-  EXPECT_EQ(use_at(unboxed, 60, 60), PixelUse::kUnsure);
-  EXPECT_EQ(use_at(unboxed, 60, 140), PixelUse::kStatic);
   LabelTable labels;
+  const auto unboxed = record_of(keyframe, labels, config);
+  EXPECT_EQ(class_at(unboxed, 60, 60), PixelClass::kUnknown);
+  EXPECT_EQ(class_at(unboxed, 60, 140), PixelClass::kStatic);
   keyframe.movable_cells({160, 120, 40, 40});
   const auto boxed = record_of(keyframe.box("person", {90, 20, 140, 220}, true).make(), labels);
-  EXPECT_EQ(use_at(boxed, 180, 140), PixelUse::kMovable);
-  EXPECT_EQ(use_at(boxed, 60, 60), PixelUse::kUnsure);
+  EXPECT_EQ(class_at(boxed, 180, 140), PixelClass::kDynamic);
+  EXPECT_EQ(class_at(boxed, 60, 60), PixelClass::kUnknown);
 }
 
-TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
+TEST(Pipeline, TheHigherScoreHasThePixel) {
   const cv::Rect thing(110, 80, 100, 80);
   LabelTable labels;
   const auto record = record_of(SyntheticKeyframe(0)
@@ -109,7 +109,7 @@ TEST(KeyframeObjects, TheHigherScoreHasThePixel) {
   EXPECT_EQ(labels.names()[record.labels[center]], "sofa");
 }
 
-TEST(KeyframeObjects, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
+TEST(Pipeline, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
   const cv::Rect poster(110, 80, 100, 80);
   const auto sightings = [&](double depth_m, float score) {
     LabelTable labels;
@@ -123,17 +123,17 @@ TEST(KeyframeObjects, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
   EXPECT_EQ(sightings(2.8, 0.45F), 1U);
 }
 
-TEST(KeyframeObjects, NewBoxesReplaceEarlierOnes) {
+TEST(Pipeline, NewBoxesReplaceEarlierOnes) {
   const cv::Rect person(120, 40, 80, 200);
   LabelTable labels;
   auto record =
       record_of(SyntheticKeyframe(0).rectangle(person, 1.5).box("person", person, true).make(), labels);
-  apply_boxes(record, {}, MapperConfig{}, labels);
-  EXPECT_EQ(std::ranges::count(record.use, PixelUse::kMovable), 0);
-  EXPECT_EQ(use_at(record, 160, 120), PixelUse::kStatic);
+  interpret(record, std::span<const LabelledBox>{}, MapperConfig{}, labels);
+  EXPECT_EQ(std::ranges::count(record.classes, PixelClass::kDynamic), 0);
+  EXPECT_EQ(class_at(record, 160, 120), PixelClass::kStatic);
 }
 
-TEST(KeyframeObjects, ABoxWithoutDepthHasNoRegion) {
+TEST(Pipeline, ABoxWithoutDepthHasNoRegion) {
   LabelTable labels;
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);

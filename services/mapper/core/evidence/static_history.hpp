@@ -9,12 +9,12 @@
 
 namespace rds::mapper {
 
-/// When and how often something static was seen in a voxel.
-class SurfaceHistory {
+/// When and how often static pixels were seen in a voxel.
+class StaticHistory {
  public:
-  /// The static pixels of a keyframe, where its pose puts them.
+  /// Adds the static pixels of a keyframe, where its pose puts them.
   void see(const KeyframeRecord& record, const MapperConfig& config);
-  /// A voxel of a saved map: it has always been there.
+  /// Adds a voxel of a saved map: it counts as seen at all times.
   void know(const octomap::OcTreeKey& key);
 
   /// True if it was seen at least so long before or after this time.

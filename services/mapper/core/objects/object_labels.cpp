@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/objects/keyframe_objects.hpp"
+#include "services/mapper/core/objects/object_labels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "services/mapper/core/segmentation/background.hpp"
 #include "services/mapper/core/segmentation/static_object.hpp"
 
 namespace rds::mapper {
@@ -31,37 +30,17 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
   return sighting;
 }
 
-void mark_movable_objects(KeyframeRecord& record, std::span<const LabelledBox* const> boxes,
-                          const MapperConfig& config) {
-  const double margin = config.region.margin_px;
-  std::vector<geometry::Box2> boxes_px;
-  std::vector<ObjectRegion> regions;
-  for (const LabelledBox* box : boxes) {
-    regions.push_back(object_region(record, *box, config.region));
-    if (const auto px = image_box(*box, record))
-      boxes_px.push_back({px->x0 - margin, px->y0 - margin, px->x1 + margin, px->y1 + margin});
-  }
-  record.background = find_background(record, boxes_px, config.segmentation);
-  for (const auto& region : regions) mark_movable(record, region, config.region);
-  set_aside_movable_cells(record);
-  for (std::size_t i = 0; i < record.background.size(); ++i)
-    if (record.background[i]) record.use[i] = PixelUse::kStatic;
-}
-
 }  // namespace
 
-void apply_boxes(KeyframeRecord& record, std::span<const LabelledBox> boxes, const MapperConfig& config,
-                 LabelTable& labels) {
-  classify_by_depth(record, config.sampling);
+void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> boxes,
+                          const MapperConfig& config, LabelTable& labels) {
   record.labels.clear();
   record.sightings.clear();
   record.looked_for_objects = true;
   std::vector<const LabelledBox*> still;
-  std::vector<const LabelledBox*> moving;
-  for (const auto& box : boxes) (box.movable ? moving : still).push_back(&box);
-  mark_movable_objects(record, moving, config);
+  for (const auto& box : boxes)
+    if (!box.movable) still.push_back(&box);
   if (still.empty()) return;
-
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
   const auto segments =
       config.segmentation.enabled ? segment(record, config.segmentation) : std::vector<Segment>{};

@@ -76,7 +76,7 @@ void MapperService::go_on_from_checkpoint() {
     last_stamp_ns_ = keyframe.stamp_ns;
   }
   if (keyframes->empty()) return;
-  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.keyframes(), mapper_.map_epoch());
+  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.archive().size(), mapper_.map_epoch());
   publish_all();
 }
 
@@ -126,7 +126,7 @@ void MapperService::correct() {
 /// Disk full, or a file that gave back other bytes: the map goes on, some keyframes follow corrections no
 /// more.
 void MapperService::report_losses() {
-  const std::size_t lost = mapper_.corrections_lost();
+  const std::size_t lost = mapper_.archive().lost();
   if (lost > corrections_lost_)
     spdlog::warn("{} keyframes cannot be kept for pose corrections: {} has no room, or lost what was written",
                  lost,

@@ -41,7 +41,7 @@ struct Examples {
       snapshots.push_back(mapper::take_snapshot(mapper));
       trees.push_back(mapper::to_bytes(mapper.tree()));
       binary_trees.push_back(mapper::to_binary_bytes(mapper.tree()));
-      poses.push_back(map_file::to_bytes(mapper.keyframe_poses()));
+      poses.push_back(map_file::to_bytes(mapper.archive().poses()));
     }
     deltas.push_back(mapper.settle(std::vector<mapper::KeyframePose>{{1, 0, keyframes.pose()}}));
   }

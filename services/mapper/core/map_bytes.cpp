@@ -26,21 +26,21 @@ map_file::Bytes SemanticMapper::to_bytes() const {
 
 tl::expected<void, std::string> SemanticMapper::start_from(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
-  Start start{std::make_shared<Map>(config_), LabelTable::get(reader), map_file::get_vector(reader),
-              map_file::checksum_of(bytes)};
-  if (reader.ok() && std::abs(start.up->norm() - 1) > 1e-6)
+  SavedMap saved{std::make_shared<Map>(config_), LabelTable::get(reader), map_file::get_vector(reader),
+                 map_file::checksum_of(bytes)};
+  if (reader.ok() && std::abs(saved.up->norm() - 1) > 1e-6)
     reader.refuse("an upward direction that is no unit vector");
-  start.map->octree.get(reader, start.labels.names().size());
-  start.map->objects.get(reader);
+  saved.map->octree.get(reader, saved.labels.names().size());
+  saved.map->objects.get(reader);
   if (auto read = reader.finish(); !read) return read;
-  go_on_from(std::move(start));
+  go_on_from(std::move(saved));
   return {};
 }
 
 tl::expected<void, std::string> SemanticMapper::start_from(octomap::ColorOcTree&& tree) {
-  Start start{std::make_shared<Map>(config_), {}, {}, map_file::checksum_of(mapper::to_bytes(tree))};
-  if (auto fits = start.map->octree.start_from(std::move(tree)); !fits) return fits;
-  go_on_from(std::move(start));
+  SavedMap saved{std::make_shared<Map>(config_), {}, {}, map_file::checksum_of(mapper::to_bytes(tree))};
+  if (auto fits = saved.map->octree.start_from(std::move(tree)); !fits) return fits;
+  go_on_from(std::move(saved));
   return {};
 }
 

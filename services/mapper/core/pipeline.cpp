@@ -39,4 +39,10 @@ void update_map(const KeyframeRecord& record, const SceneHistory& history, const
                         history, record.time_ns, delta});
 }
 
+void know_surfaces(Map& map) {
+  const auto& tree = map.octree.tree();
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+    if (tree.isNodeOccupied(*leaf)) map.history.statics.know(leaf.getKey());
+}
+
 }  // namespace rds::mapper

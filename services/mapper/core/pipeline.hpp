@@ -39,4 +39,7 @@ void add_evidence(const KeyframeRecord& record, const MapperConfig& config, cons
 void update_map(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config,
                 const LabelTable& labels, Scan& scan, Map& map, MapDelta& delta);
 
+/// Adds the occupied voxels of a saved map to its history: they count as seen at all times.
+void know_surfaces(Map& map);
+
 }  // namespace rds::mapper

@@ -81,7 +81,7 @@ TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
 TEST_F(MapFiles, WritesTheOtherFilesOfARun) {
   ASSERT_TRUE(write_objects(folder_.path() / "objects.json", mapper_.objects()));
   ASSERT_TRUE(write_grid(folder_.path(), mapper_.grid()));
-  ASSERT_TRUE(write_keyframes(folder_.path() / "keyframes.txt", mapper_.keyframe_poses()));
+  ASSERT_TRUE(write_keyframes(folder_.path() / "keyframes.txt", mapper_.archive().poses()));
   EXPECT_EQ(content("objects.json"), "[]\n");
   EXPECT_THAT(content("grid.pgm"), testing::StartsWith("P5\n"));
   EXPECT_THAT(content("grid.yaml"), testing::HasSubstr("image: grid.pgm"));

@@ -116,8 +116,8 @@ TEST(KeyframeStore, SpillingChangesNoBitOfTheMap) {
   }
   EXPECT_EQ(to_bytes(narrow.tree()), to_bytes(roomy.tree()));
   EXPECT_EQ(narrow.to_bytes(), roomy.to_bytes());
-  EXPECT_EQ(narrow.keyframe_poses().size(), kKeyframes);
-  EXPECT_EQ(narrow.corrections_lost(), 0U);
+  EXPECT_EQ(narrow.archive().poses().size(), kKeyframes);
+  EXPECT_EQ(narrow.archive().lost(), 0U);
 }
 
 TEST(KeyframeStore, AFullDiskLeavesKeyframesWhereTheyAreAndCountsThem) {
@@ -125,9 +125,9 @@ TEST(KeyframeStore, AFullDiskLeavesKeyframesWhereTheyAreAndCountsThem) {
   disk.room = 200'000;
   SemanticMapper mapper(with_little_memory(), 0, std::make_unique<FakeStorage>(disk));
   show_all(mapper);
-  EXPECT_GT(mapper.corrections_lost(), 0U);
-  EXPECT_EQ(mapper.keyframes(), kKeyframes);
-  EXPECT_EQ(mapper.keyframe_poses().size(), kKeyframes - mapper.corrections_lost());
+  EXPECT_GT(mapper.archive().lost(), 0U);
+  EXPECT_EQ(mapper.archive().size(), kKeyframes);
+  EXPECT_EQ(mapper.archive().poses().size(), kKeyframes - mapper.archive().lost());
   mapper.apply_poses(corrected(kKeyframes));
   EXPECT_TRUE(test::is_occupied(mapper.tree(), keyframe(4).map_from_camera * test::point_at(60, 30, 3.0)));
 }
@@ -140,9 +140,9 @@ TEST(KeyframeStore, ATornFileCostsItsKeyframesOnly) {
   disk.rows.begin()->second[5'000] ^= 1;
   disk.rows.rbegin()->second.pop_back();
   mapper.apply_poses(corrected(kKeyframes));
-  EXPECT_EQ(mapper.corrections_lost(), 2U);
-  EXPECT_EQ(mapper.keyframe_poses().size(), kKeyframes - 2);
-  EXPECT_EQ(mapper.keyframes(), kKeyframes);
+  EXPECT_EQ(mapper.archive().lost(), 2U);
+  EXPECT_EQ(mapper.archive().poses().size(), kKeyframes - 2);
+  EXPECT_EQ(mapper.archive().size(), kKeyframes);
 }
 
 TEST(KeyframeStore, SavesOnceWhatHasNotChanged) {

@@ -30,7 +30,7 @@ class MapView {
 
   MapperConfig config_;
   std::uint64_t map_epoch_;
-  std::uint64_t revision_ = 0;  // 0 is the empty map, which a reader needs not be told
+  std::uint64_t revision_ = 0;  // 0: the empty map, which is never published
   LabelTable labels_;
   std::unique_ptr<Map> map_;
 };

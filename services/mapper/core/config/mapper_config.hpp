@@ -25,21 +25,21 @@ struct SamplingConfig {
 struct RegionConfig {
   double half_depth_m = 0.35;  // object = |depth − object depth| below this
   int margin_px = 24;          // the box is widened by this before the cut
-  int rim_px = 8;              // around a movable object: unsure
-  double sure_part = 0.05;     // parts of a movable object smaller than this share of the largest are unsure
+  int rim_px = 8;              // around a dynamic object: unknown
+  double sure_part = 0.05;     // parts of its depth cut smaller than this share of the largest are unknown
   double min_inside = 0.05;    // a part must lie inside the unwidened box by this share
 
   bool operator==(const RegionConfig&) const = default;
 };
 
-/// What stands near something movable counts only where it was seen at another time, too.
+/// A static pixel near something dynamic counts only if its surface was seen as static at another time, too.
 struct ConfirmationConfig {
-  double radius_m = 0.8;         // around what boxes and tracker know as movable; 0: no doubts
+  double radius_m = 0.8;         // around what boxes and tracker know as dynamic; 0: no pixel is in doubt
   double apart_s = 1.0;          // so much earlier or later is another time
   double share = 0.7;            // of a connected surface that must have been seen then
   double large = 0.1;            // a surface that fills this share of the picture ...
   double share_of_large = 0.15;  // ... needs less
-  double passing_share = 0.8;    // of a surface that stood only while somebody was there: it is of him
+  double passing_share = 0.8;    // of a surface that must be transient for it to be left out
 
   [[nodiscard]] std::int64_t apart_ns() const { return static_cast<std::int64_t>(apart_s * 1e9); }
   bool operator==(const ConfirmationConfig&) const = default;
@@ -80,8 +80,8 @@ struct OctreeConfig {
   double clamp_min = 0.12;  // probabilities
   double clamp_max = 0.97;
   bool carve_rays = true;      // free space along rays of static pixels
-  double suspect_miss = -1.2;  // rays through what SceneHistory holds for something movable that has gone
-  int weak_sightings = 2;  // what no more keyframes have seen is lowered where nothing is measured; 0: off
+  double suspect_miss = -1.2;  // rays through ghosts, see Doubt
+  int weak_sightings = 2;      // voxels hit no more often are lowered by rays without return; 0: no such ray
   bool color_by_label = true;  // a labelled voxel shows its label's colour
   double label_share = 0.25;   // of a voxel's votes that a label needs
 

@@ -87,13 +87,11 @@ void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperCon
 
 PixelClasses resolve(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config) {
   PixelClasses classes = record.classes;
-  const DoubtfulPixels& doubt = record.doubt;
   const auto confirmed = confirmed_surfaces(record, history.statics, config);
-  for (std::size_t i = 0; i < classes.size(); ++i)
-    if (!doubt.empty() && doubt.is_doubtful[i])
-      classes[i] = confirmed[doubt.surface[i]] ? PixelClass::kStatic : PixelClass::kInvalid;  // rule 9
-    else if (classes[i] == PixelClass::kUnknown)
-      classes[i] = PixelClass::kInvalid;  // rule 10
+  for (std::size_t i = 0; i < record.doubt.is_doubtful.size(); ++i)
+    if (record.doubt.is_doubtful[i])
+      classes[i] = confirmed[record.doubt.surface[i]] ? PixelClass::kStatic : PixelClass::kInvalid;  // rule 9
+  std::ranges::replace(classes, PixelClass::kUnknown, PixelClass::kInvalid);  // rule 10
   const auto transient = transient_pixels(record, history, config, classes);
   for (std::size_t i = 0; i < transient.size(); ++i)
     if (transient[i]) classes[i] = PixelClass::kInvalid;  // rule 11

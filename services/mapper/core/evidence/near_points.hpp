@@ -9,7 +9,7 @@
 
 namespace rds::mapper {
 
-/// The space around some points, in cubes of a quarter of the radius: exact to about that much.
+/// The space within a radius of some points, in cubes of a quarter of the radius, which is its accuracy.
 class NearPoints {
  public:
   /// @param points  finite, not empty. @param radius_m  above 0.

@@ -7,11 +7,11 @@
 
 namespace rds::mapper {
 
-/// Times [ns] that can be told from any other without overflow.
+/// Times [ns] before and after all others; their differences from others do not overflow.
 inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min() / 2;
 inline constexpr std::int64_t kAfterAll = std::numeric_limits<std::int64_t>::max() / 2;
 
-/// When, and in how many keyframes, something was seen in one place; in none at first.
+/// When, and in how many keyframes, something was seen in one place; default: in none.
 struct PlaceSightings {
   std::int64_t first_ns = kAfterAll;
   std::int64_t last_ns = kBeforeAll;

@@ -21,8 +21,8 @@ struct Keyframe {
   geometry::Pose integrated_pose;  // that the map was made with
 };
 
-/// The keyframes of an epoch, by id: records, poses and times. Those beyond the limits become final: the map
-/// keeps what they said, the archive forgets them.
+/// The keyframes of an epoch, by id: records, poses and times. Those beyond the limits become final: they
+/// stay in the map as they are, and leave the archive.
 class KeyframeArchive {
  public:
   /// Keyframes as a checkpoint holds them: kIdsPerBlock ids in a block.

@@ -26,8 +26,8 @@ struct LabelledBox {
   bool movable = false;
 };
 
-/// One keyframe as it arrives. `boxes` is nullopt while nobody has looked for objects in it,
-/// and empty when somebody looked and found nothing: objects fade only in the second case.
+/// One keyframe as it arrives. `boxes` is nullopt until a detector has looked at it, and empty if it found
+/// nothing: objects fade only in the second case.
 struct KeyframeInput {
   std::uint64_t id = 0;
   std::int64_t stamp_ns = 0;

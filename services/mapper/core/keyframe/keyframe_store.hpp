@@ -10,8 +10,8 @@
 
 namespace rds::mapper {
 
-/// Where packed keyframes go that memory shall not hold, or that shall outlast the process: for those who
-/// know files.
+/// Storage for packed keyframes beyond the limit of memory, or that outlast the process. Implemented outside
+/// of the core, which knows no files.
 class SpillStorage {
  public:
   SpillStorage() = default;

@@ -9,13 +9,11 @@
 
 namespace rds::mapper {
 
-/// Gives each object the extent of the voxels that bear its label in and around the box that its sightings
-/// have told.
+/// Gives each object the extent of the voxels that bear its label in and around its box.
 ///
-/// One view shows a part of an object, and something of what stands before or behind it. The votes of all
-/// views on a voxel are of neither: what most of them took for something else is not the object's, and a back
-/// that few views showed counts as much as the front. A voxel is of the nearest object of its label. Objects
-/// without voxels keep their box.
+/// A sighting shows a part of an object, and something of what overlaps it in the picture. The voxels' votes
+/// are of all views: overlaps are outvoted, and a back that few views showed counts as much as the front. A
+/// voxel belongs to the nearest object of its label. Objects without voxels keep their box.
 void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, const LabelTable& labels);
 
 }  // namespace rds::mapper

@@ -9,8 +9,8 @@
 
 namespace rds::mapper {
 
-/// What the colours of a full map tell of its labels: writer and reader of the map ask the same. Of labels
-/// with one colour it tells the first; a surface that happens to have a label's colour is taken for it.
+/// Labels of a full map by the colours of its voxels, the same for writer and reader. Of labels with one
+/// colour the first is meant; a voxel whose surface happens to have a label's colour gets that label.
 class ColorLabels {
  public:
   /// @param labels  the label table; index 0 is "".

@@ -32,7 +32,8 @@ bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
          outside.narrow_deviation_m() >= kWiderThanAPersonM;
 }
 
-/// True where the surface around a pixel lies as the plane does: a plane runs on through somebody in it.
+/// True where the normal at a pixel is that of the plane: the plane's pixels include those of a person who
+/// stands in it.
 bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel) {
   const int column = static_cast<int>(pixel) % record.width;
   const int row = static_cast<int>(pixel) / record.width;

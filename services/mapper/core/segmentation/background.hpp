@@ -8,10 +8,10 @@
 
 namespace rds::mapper {
 
-/// The pixels that show a wall, a floor, a table top behind or beside somebody: planes that go on outside all
-/// that is movable for more than a person's width.
+/// The pixels on background planes: walls, floors and table tops that go on outside of all boxes of movable
+/// objects for more than a person's width.
 ///
-/// @param record   before anything in it is marked as movable.
+/// @param record   with classes by depth.
 /// @param movable  boxes [px of the full picture], rims included.
 /// @return per pixel; empty without boxes.
 std::vector<bool> find_background(const KeyframeRecord& record, std::span<const geometry::Box2> movable,

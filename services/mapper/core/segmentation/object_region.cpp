@@ -48,7 +48,7 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
   return depths;
 }
 
-/// What is known beforehand of where the object stands.
+/// Depths between which the object must lie, from its depth or 3-D box; all depths if neither is known.
 DepthInterval depth_limits(const LabelledBox& box, const KeyframeRecord& record, const RegionConfig& config) {
   const auto half = static_cast<float>(config.half_depth_m);
   if (box.depth_m > 0 && std::isfinite(box.depth_m)) return {box.depth_m - half, box.depth_m + half};
@@ -77,7 +77,8 @@ float depth_in_box(const geometry::Box2& box_px, const DepthInterval& limits, co
   return inner > 0 ? inner : object_depth(depths_in(sampled_rect(box_px, 0, record), limits, record));
 }
 
-/// Nothing of somebody movable may be left out; nothing beside a static object may come in.
+/// Wide for a movable object, of which nothing may be left out; narrow for a static one, to which nothing may
+/// be added.
 double margin_px(const LabelledBox& box, const RegionConfig& config) {
   return box.movable ? config.margin_px : std::min(config.margin_px, kStaticMarginPx);
 }

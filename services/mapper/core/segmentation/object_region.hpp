@@ -12,7 +12,7 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 /// Sampled pixels of an object, ascending.
 struct ObjectRegion {
   std::vector<std::size_t> pixels;
-  std::vector<std::size_t> small_parts;  // of a movable object's cut: may be of what stands around it
+  std::vector<std::size_t> small_parts;  // of a movable object's cut; they may belong to other things
 };
 
 /// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.

@@ -9,10 +9,10 @@
 
 namespace rds::mapper {
 
-/// What of a keyframe is of a static object.
+/// The pixels of a static object in a keyframe.
 struct StaticObject {
   std::vector<std::size_t> pixels;  // indices of sampled pixels, ascending
-  bool flush = false;  // hardly anything stands out of a large plane that goes on around it, as of a poster
+  bool flush = false;  // nearly all its pixels lie on a large plane that goes on around it (a poster)
 };
 
 /// A static object as a keyframe shows it: what the depth cut leaves of its box, corrected by the segments of

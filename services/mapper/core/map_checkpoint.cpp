@@ -18,10 +18,10 @@ bool begins_with(const LabelTable& labels, const LabelTable& first) {
 }  // namespace
 
 std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
-  const auto needs_final_map = archive_.save(base_ != nullptr);
-  if (!needs_final_map) return std::nullopt;
+  auto archive = archive_.save(base_ != nullptr);
+  if (!archive) return std::nullopt;
   MapCheckpoint checkpoint;
-  if (*needs_final_map) {
+  if (archive->needs_final_map) {
     ByteWriter final_map;
     base_->octree.put(final_map);
     base_->objects.put(final_map);
@@ -30,10 +30,10 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
   ByteWriter state;
   state.put(map_epoch_);
   state.put(saved_.checksum);
-  state.put_count(archive_.saved_final_keyframes());
+  state.put_count(archive->saved_final);
   labels_.put(state);
   checkpoint.state = state.take();
-  checkpoint.keyframes = archive_.to_blocks();
+  checkpoint.keyframes = std::move(archive->keyframes);
   return checkpoint;
 }
 

@@ -14,7 +14,7 @@ namespace rds::mapper {
 /// The parts of a checkpoint, apart because they change at different times.
 struct MapCheckpoint {
   map_file::Bytes state;                     // epoch, labels, what the epoch began with
-  KeyframeArchive::Blocks keyframes;         // stamps and poses
+  KeyframeBlocks keyframes;                  // stamps and poses
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
 };
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979 / 180;
 constexpr double kBytesPerMb = 1e6;
 constexpr std::size_t kMaxUnsavedFinal = 100;  // then the final map, which is large, is saved again
+constexpr std::uint64_t kIdsPerBlock = 64;
 constexpr std::size_t kKeyframeBytes = 8 + 8 + 96;
 
 bool has_labels_below(const KeyframeRecord& record, std::size_t labels) {
@@ -112,19 +113,17 @@ void KeyframeArchive::note_integrated() {
   for (auto& [id, keyframe] : keyframes_) keyframe.integrated_pose = keyframe.pose;
 }
 
-std::optional<bool> KeyframeArchive::save(bool has_final_map) {
+std::optional<ArchiveCheckpoint> KeyframeArchive::save(bool has_final_map) {
   if (!records_.save()) return std::nullopt;
-  const bool needs_final_map =
+  ArchiveCheckpoint checkpoint;
+  checkpoint.needs_final_map =
       (!has_checkpoint_ && has_final_map) || unsaved_final_.size() >= kMaxUnsavedFinal;
-  if (needs_final_map) {
+  if (checkpoint.needs_final_map) {
     for (const auto& [id, keyframe] : unsaved_final_) records_.drop(id);
     unsaved_final_.clear();
   }
   has_checkpoint_ = true;
-  return needs_final_map;
-}
-
-KeyframeArchive::Blocks KeyframeArchive::to_blocks() const {
+  checkpoint.saved_final = final_keyframes_ - unsaved_final_.size();
   std::map<std::uint64_t, map_file::ByteWriter> writers;
   for (const auto* keyframes : {&unsaved_final_, &keyframes_})
     for (const auto& [id, keyframe] : *keyframes) {
@@ -133,13 +132,12 @@ KeyframeArchive::Blocks KeyframeArchive::to_blocks() const {
       block.put(keyframe.stamp_ns);
       map_file::put(block, keyframe.pose);
     }
-  Blocks blocks;
-  for (auto& [block, writer] : writers) blocks[block] = writer.take();
-  return blocks;
+  for (auto& [block, writer] : writers) checkpoint.keyframes[block] = writer.take();
+  return checkpoint;
 }
 
 tl::expected<std::map<std::uint64_t, Keyframe>, std::string> KeyframeArchive::from_blocks(
-    const Blocks& blocks) {
+    const KeyframeBlocks& blocks) {
   std::map<std::uint64_t, Keyframe> keyframes;
   for (const auto& [block, bytes] : blocks) {
     map_file::ByteReader reader(bytes);

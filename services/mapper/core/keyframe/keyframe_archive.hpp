@@ -21,14 +21,20 @@ struct Keyframe {
   geometry::Pose integrated_pose;  // that the map was made with
 };
 
+/// Stamps and poses of keyframes, as a checkpoint holds them: 64 ids in a block.
+using KeyframeBlocks = std::map<std::uint64_t, map_file::Bytes>;
+
+/// What the archive adds to a checkpoint.
+struct ArchiveCheckpoint {
+  KeyframeBlocks keyframes;      // final ones that the checkpoint's final map does not hold are among them
+  std::size_t saved_final = 0;   // keyframes that it holds
+  bool needs_final_map = false;  // it has to be saved with this checkpoint
+};
+
 /// The keyframes of an epoch, by id: records, poses and times. Those beyond the limits become final: they
 /// stay in the map as they are, and leave the archive.
 class KeyframeArchive {
  public:
-  /// Keyframes as a checkpoint holds them: kIdsPerBlock ids in a block.
-  using Blocks = std::map<std::uint64_t, map_file::Bytes>;
-  static constexpr std::uint64_t kIdsPerBlock = 64;
-
   KeyframeArchive(const MapperConfig& config, std::unique_ptr<SpillStorage> storage);
 
   void clear();
@@ -66,20 +72,17 @@ class KeyframeArchive {
   /// All keyframes are integrated with their newest poses.
   void note_integrated();
 
-  /// Puts all records into the storage. @return whether the next checkpoint needs the final map, because the
-  /// last one does not hold it, or too many keyframes became final since; nullopt if a record could not be
-  /// stored.
-  [[nodiscard]] std::optional<bool> save(bool has_final_map);
-  /// Keyframes of a checkpoint: final ones that its final map does not hold are among them.
-  [[nodiscard]] Blocks to_blocks() const;
-  /// Reads what to_blocks() gave. @return what is wrong with it.
-  static tl::expected<std::map<std::uint64_t, Keyframe>, std::string> from_blocks(const Blocks& blocks);
+  /// Puts all records into the storage, for a checkpoint of which this is the archive's part.
+  /// @param has_final_map  whether there is a map of final keyframes.
+  /// @return nullopt if a record could not be stored.
+  [[nodiscard]] std::optional<ArchiveCheckpoint> save(bool has_final_map);
+  /// Reads the keyframes of a checkpoint. @return what is wrong with them.
+  static tl::expected<std::map<std::uint64_t, Keyframe>, std::string> from_blocks(
+      const KeyframeBlocks& blocks);
   /// Goes on with a checkpoint's keyframes and the records that the storage has of them.
   /// @param labels  of the label table; a record with another label is lost.
   void restore(std::map<std::uint64_t, Keyframe> keyframes, std::size_t final_keyframes, std::size_t labels);
 
-  /// Keyframes that the last checkpoint's final map holds.
-  [[nodiscard]] std::size_t saved_final_keyframes() const { return final_keyframes_ - unsaved_final_.size(); }
   /// Keyframes that can follow no correction any more because the storage failed: they are final, or, where
   /// it gave back other bytes than it was given, not in the map any more.
   [[nodiscard]] std::size_t lost() const { return lost_; }

@@ -3,7 +3,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 
 namespace rds::mapper {
 namespace {

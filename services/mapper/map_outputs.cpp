@@ -8,7 +8,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -69,7 +69,7 @@ rds_msgs::msg::MapInfo MapOutputs::info_of(const SemanticMapper& mapper, const M
   info.bounds_min(to_array(extent.min));
   info.bounds_max(to_array(extent.max));
   info.labels(mapper.labels().names());
-  info.keyframes_integrated(mapper.keyframes());
+  info.keyframes_integrated(mapper.archive().size());
   info.last_keyframe_id(progress.last_keyframe_id);
   info.keyframes_waiting(progress.keyframes_waiting);
   return info;

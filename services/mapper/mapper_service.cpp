@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
-constexpr std::size_t kMaxBoxes = 100;                 // messages whose keyframe has not come
-constexpr std::chrono::milliseconds kReaderLook{500};  // between looks for somebody new while nothing arrives
+constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
 
 /// Keyframes, both before and after the worker has looked at them.
 std::size_t max_waiting(const MapperServiceConfig& config) {
@@ -77,7 +76,7 @@ void MapperService::go_on_from_checkpoint() {
     last_stamp_ns_ = keyframe.stamp_ns;
   }
   if (keyframes->empty()) return;
-  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.keyframes(), mapper_.map_epoch());
+  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.archive().size(), mapper_.map_epoch());
   publish_all();
 }
 
@@ -90,20 +89,23 @@ void MapperService::subscribe_to_keyframes() {
 
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
-  while (!stop.stop_requested()) {
-    beat();
-    mailbox_.wait_for(stop, kReaderLook, [this] {
-      return has_messages() || !commands_.locked_empty() || map_commands_.locked_ready();
-    });
+  while (wait(stop, [this] {
+    return has_messages() || !commands_.locked_empty() || map_commands_.locked_ready();
+  })) {
     handle_commands();
     map_commands_.settle();
     take_messages();
-    if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
-    if (paused_) continue;
-    guarded(topics::kKeyframePoses.name, [this] { correct(); });
-    integrate_ready();
-    checkpoints_.save(mapper_);
+    idle();
   }
+}
+
+/// What may be due whether something has arrived or not.
+void MapperService::idle() {
+  if (mapper_.revision() > 0 && !outputs_.is_busy() && outputs_.has_new_reader()) publish_all();
+  if (paused_) return;
+  guarded(topics::kKeyframePoses.name, [this] { correct(); });
+  integrate_ready();
+  checkpoints_.save(mapper_);
 }
 
 /// Moves the map after a loop, and now and then after what local bundle adjustment has moved.
@@ -124,7 +126,7 @@ void MapperService::correct() {
 /// Disk full, or a file that gave back other bytes: the map goes on, some keyframes follow corrections no
 /// more.
 void MapperService::report_losses() {
-  const std::size_t lost = mapper_.corrections_lost();
+  const std::size_t lost = mapper_.archive().lost();
   if (lost > corrections_lost_)
     spdlog::warn("{} keyframes cannot be kept for pose corrections: {} has no room, or lost what was written",
                  lost,

@@ -39,6 +39,7 @@ class MapperService : public service::Service {
  protected:
   bool begin(const service::PendingCommand& command) override;
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
+  void idle() override;
 
  private:
   using Images = WaitingKeyframes::Images;

@@ -5,8 +5,8 @@
 
 #include "common/map_file/saved_map.hpp"
 #include "common/messages/json.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/octomap_file.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/io/octomap_file.hpp"
 #include "services/mapper/mapper_service.hpp"
 
 namespace rds::mapper {
@@ -55,9 +55,9 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   publish_all();
   outputs_.flush();
   const bool complete =
-      poses_revision_ >= revision && (!config_.lockstep || mapper_.keyframes() >= keyframes);
+      poses_revision_ >= revision && (!config_.lockstep || mapper_.archive().size() >= keyframes);
   const Eigen::Vector3d up = mapper_.up_in_map();
-  return {complete, messages::to_text(nlohmann::json{{"keyframes", mapper_.keyframes()},
+  return {complete, messages::to_text(nlohmann::json{{"keyframes", mapper_.archive().size()},
                                                      {"poses_revision", poses_revision_},
                                                      {"revision", mapper_.revision()},
                                                      {"up", {up.x(), up.y(), up.z()}},
@@ -71,7 +71,7 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
     beat();
     take_messages();
     integrate_ready();
-    if (poses_revision_ >= poses_revision && mapper_.keyframes() >= keyframes) return;
+    if (poses_revision_ >= poses_revision && mapper_.archive().size() >= keyframes) return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) return;
     mailbox_.wait_for(stop_, left, [this] { return has_messages(); });

@@ -5,7 +5,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/store/maps_folder.hpp"
-#include "services/mapper/core/mapper_config.hpp"
+#include "services/mapper/core/config/mapper_config.hpp"
 
 namespace rds::mapper {
 

@@ -93,7 +93,7 @@ void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) 
 
 /// Where there is a map to lose, another epoch begins with its second message; the first one waits for it.
 bool MapperService::is_confirmed(const Images& images) {
-  if (mapper_.keyframes() == 0) return true;
+  if (mapper_.archive().size() == 0) return true;
   if (!another_epoch_.confirm(images->instance(), images->map_epoch(), images->keyframe_id())) {
     first_of_epoch_ = images;
     return false;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/store/store.hpp"
-#include "services/mapper/core/keyframe_store.hpp"
+#include "services/mapper/core/keyframe/keyframe_store.hpp"
 
 namespace rds::mapper {
 

@@ -10,8 +10,9 @@
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/OctreeDelta.h"
-#include "services/mapper/core/octomap_file.hpp"
-#include "services/mapper/core/octree_replica.hpp"
+#include "services/mapper/io/octomap_file.hpp"
+#include "services/mapper/io/saved_tree.hpp"
+#include "services/mapper/core/octree/octree_replica.hpp"
 #include "services/mapper/map_messages.hpp"
 #include "tests/fuzz/feed.hpp"
 #include "tests/unit/services/mapper/core/random_keyframes.hpp"
@@ -40,7 +41,7 @@ struct Examples {
       snapshots.push_back(mapper::take_snapshot(mapper));
       trees.push_back(mapper::to_bytes(mapper.tree()));
       binary_trees.push_back(mapper::to_binary_bytes(mapper.tree()));
-      poses.push_back(map_file::to_bytes(mapper.keyframe_poses()));
+      poses.push_back(map_file::to_bytes(mapper.archive().poses()));
     }
     deltas.push_back(mapper.settle(std::vector<mapper::KeyframePose>{{1, 0, keyframes.pose()}}));
   }

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/participant.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/map_reader.hpp"
 #include "tests/support/shared_data.hpp"

@@ -18,7 +18,7 @@
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "rds_msgs/msg/PredictedBoxes.h"
 #include "rds_msgs/msg/TrackingState.h"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/support/map_reader.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -2,7 +2,7 @@
 #include "tests/support/map_reader.hpp"
 
 #include "common/messages/conversions.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 
 namespace rds::test {
 namespace {

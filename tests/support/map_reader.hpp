@@ -11,7 +11,7 @@
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/OctreeDelta.h"
-#include "services/mapper/core/octree_replica.hpp"
+#include "services/mapper/core/octree/octree_replica.hpp"
 
 namespace rds::test {
 

@@ -6,9 +6,9 @@
 #include <bit>
 #include <cstring>
 
-#include "services/mapper/core/color_labels.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
-#include "services/mapper/core/voxel_walk.hpp"
+#include "services/mapper/core/octree/color_labels.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::mapper {
 namespace {

@@ -2,24 +2,28 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 
-#include "common/time/continuous_time.hpp"
-#include "services/mapper/core/keyframe_store.hpp"
-#include "services/mapper/core/object_database.hpp"
-#include "services/mapper/core/occupancy_grid.hpp"
-#include "services/mapper/core/semantic_octree.hpp"
+#include "services/mapper/core/keyframe/keyframe_archive.hpp"
+#include "services/mapper/core/map_view.hpp"
+#include "services/mapper/core/octree/occupancy_grid.hpp"
 
 namespace rds::mapper {
 
 /// The parts of a checkpoint, apart because they change at different times.
 struct MapCheckpoint {
-  map_file::Bytes state;                               // epoch, labels, what the epoch began with
-  std::map<std::uint64_t, map_file::Bytes> keyframes;  // stamps and poses, kIdsPerBlock ids in a block
+  map_file::Bytes state;                     // epoch, labels, what the epoch began with
+  KeyframeBlocks keyframes;                  // stamps and poses
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
-  static constexpr std::uint64_t kIdsPerBlock = 64;
+};
+
+/// A saved map, as an epoch starts with it.
+struct SavedMap {
+  std::shared_ptr<Map> map;  // nullptr: none
+  LabelTable labels;
+  std::optional<Eigen::Vector3d> up;  // in the map, if it is known
+  std::uint64_t checksum = 0;         // of what it was read from
 };
 
 /// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
@@ -27,7 +31,7 @@ struct MapCheckpoint {
 /// Every keyframe is kept (strided, packed), so that the map can be made again when poses or boxes change:
 /// after settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order
 /// in which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
-class SemanticMapper {
+class SemanticMapper : public MapView {
  public:
   /// @param storage  takes keyframes beyond `correction.memory_mb`; without it the oldest become final.
   explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0,
@@ -47,8 +51,8 @@ class SemanticMapper {
   /// poses that are not finite, are ignored.
   /// @return what changed, deletions included; is_noop() if nothing was done.
   MapDelta apply_poses(std::span<const KeyframePose> poses);
-  /// Keyframes that are older than the newest of these, by id, and not among them: nothing will move them any
-  /// more.
+  /// Makes keyframes final that are older, by id, than the newest of these and not among them: nothing will
+  /// move them any more.
   void make_others_final(std::span<const KeyframePose> told);
 
   /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
@@ -74,104 +78,27 @@ class SemanticMapper {
   /// @return nullopt if it could not take one: the checkpoint before still holds.
   [[nodiscard]] std::optional<MapCheckpoint> checkpoint();
   /// Makes the map of a checkpoint again, from the storage's records, with the poses they had. Records that
-  /// are not there any more are counted (corrections_lost()).
+  /// are not there any more are counted (KeyframeArchive::lost()).
   /// @return or why not: nothing has changed then. It was damaged, or had begun with another saved map.
   tl::expected<void, std::string> restore(const MapCheckpoint& checkpoint);
 
-  [[nodiscard]] const octomap::ColorOcTree& tree() const { return map_->octree.tree(); }
-  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return map_->octree.label(key); }
-  [[nodiscard]] std::vector<MapObject> objects() const;
-  [[nodiscard]] const LabelTable& labels() const { return labels_; }
-  [[nodiscard]] OccupancyGrid grid() const;
+  [[nodiscard]] const KeyframeArchive& archive() const { return archive_; }
+  [[nodiscard]] OccupancyGrid grid() const { return make_grid(tree(), up_in_map(), config_.grid); }
   /// Unit vector against gravity in the map frame, as configured or estimated.
   [[nodiscard]] Eigen::Vector3d up_in_map() const;
-  /// Poses the map will have after the next re-integration, by id.
-  [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
-  [[nodiscard]] std::uint64_t map_epoch() const { return map_epoch_; }
-  [[nodiscard]] std::uint64_t revision() const { return revision_; }
-  [[nodiscard]] std::size_t keyframes() const { return keyframes_.size() + final_keyframes_; }
-  /// Keyframes that can follow no correction any more because the storage failed: they are final, or, where
-  /// it gave back other bytes than it was given, not in the map any more.
-  [[nodiscard]] std::size_t corrections_lost() const { return corrections_lost_; }
-  [[nodiscard]] const MapperConfig& config() const { return config_; }
 
  private:
-  /// All that is made from keyframes and can be made again.
-  struct Map {
-    SemanticOctree octree;
-    ObjectDatabase objects;
-    SceneHistory history;
-  };
-  /// What an epoch starts with.
-  struct Start {
-    std::shared_ptr<Map> map;
-    LabelTable labels;
-    std::optional<Eigen::Vector3d> up;  // in the map, if it is known
-    std::uint64_t checksum = 0;         // of what it was read from
-  };
-  struct Keyframe {
-    std::int64_t stamp_ns;
-    std::int64_t time_ns;            // of clock_
-    geometry::Pose pose;             // map_from_camera, newest
-    geometry::Pose integrated_pose;  // that the map was made with
-  };
-
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(const geometry::CameraModel& camera) const;
-  /// The record of a keyframe with its newest pose; nullopt if the storage failed.
-  [[nodiscard]] std::optional<KeyframeRecord> record_of(std::uint64_t id) const;
-  void begin(std::uint64_t map_epoch);
-  void take_poses(std::span<const KeyframePose> poses);
-  [[nodiscard]] bool moved_enough() const;
   MapDelta rebuild();
-  /// @param history  what tells which doubtful surfaces stand, and which ones are suspect.
-  void integrate_into(Map& map, const KeyframeRecord& record, const SceneHistory& history, MapDelta& delta);
-  [[nodiscard]] std::int64_t time_of(std::uint64_t id, std::int64_t stamp_ns);
-  void set_times();
   void make_final(std::uint64_t id);
-  void lose(std::uint64_t id);
-  [[nodiscard]] map_file::Bytes final_map_bytes() const;
-  void know_surfaces(Map& map) const;
-  void take_over_records();
-  void keep_within_limits();
-  void go_on_from(Start start);
-  [[nodiscard]] Map empty_map() const {
-    return {SemanticOctree(config_.octree),
-            ObjectDatabase(config_.objects),
-            {{}, MovableHistory(config_.octree.resolution_m)}};
-  }
+  void go_on_from(SavedMap saved);
   [[nodiscard]] MapDelta new_delta() const;
 
-  MapperConfig config_;
   std::function<void()> progress_ = [] {};
-  std::uint64_t map_epoch_;
-  std::uint64_t revision_ = 0;
-  LabelTable labels_;
-  std::map<std::uint64_t, Keyframe> keyframes_;
-  KeyframeStore records_;             // of keyframes_
-  time::ContinuousTime clock_;        // at the newest keyframe
-  time::ContinuousTime final_clock_;  // at the newest one that is final, and all before it are
-  Start start_;                       // its map is nullptr unless there is a saved one
-  std::shared_ptr<Map> base_;  // what is final: the saved map, keyframes beyond the limit; nullptr if nothing
-  std::unique_ptr<Map> map_;
-  std::size_t final_keyframes_ = 0;
-  std::map<std::uint64_t, Keyframe> unsaved_final_;  // that the last checkpoint has as others
-  bool has_checkpoint_ = false;                      // since the last reset
-  std::size_t corrections_lost_ = 0;
+  KeyframeArchive archive_;
+  SavedMap saved_;
+  std::shared_ptr<Map> base_;  // of all that is final: the saved map, keyframes; nullptr if nothing
   bool boxes_waiting_ = false;
   Scan scan_;  // scratch
-  mutable geometry::CameraModel ray_camera_;
-  mutable std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
 };
-
-/// Labels without the first, which is always "".
-void put(map_file::ByteWriter& writer, const LabelTable& labels);
-LabelTable get_labels(map_file::ByteReader& reader);
-
-/// What SemanticMapper::to_bytes() gave, as far as one looks into a map with it: of any resolution.
-struct SavedTree {
-  std::unique_ptr<octomap::ColorOcTree> tree;
-  std::vector<std::string> labels;
-};
-tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes);
 
 }  // namespace rds::mapper

@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "rds_msgs/msg/KeyFrameImages.h"
-#include "services/mapper/core/types.hpp"
+#include "services/mapper/core/keyframe/keyframe_input.hpp"
 
 namespace rds::mapper {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/messages/conversions.hpp"
-#include "services/mapper/core/mapper_config.hpp"
-#include "services/mapper/core/types.hpp"
+#include "services/mapper/core/config/mapper_config.hpp"
+#include "services/mapper/core/keyframe/keyframe_input.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::mapper {

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/map_snapshot.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/picture/map_picture.hpp"
@@ -68,7 +68,7 @@ void write_picture(const rds::mapper::SemanticMapper& mapper, const std::filesys
   rds::tools::MapScene scene{mapper.tree(), mapper.labels().names(), {}, {}};
   for (const auto& o : mapper.objects())
     scene.objects.push_back({o.label, o.center - o.size / 2, o.center + o.size / 2});
-  for (const auto& pose : mapper.keyframe_poses())
+  for (const auto& pose : mapper.archive().poses())
     scene.trajectory.push_back(pose.map_from_camera.translation());
   rds::tools::PictureOptions options;
   options.up = mapper.up_in_map();
@@ -110,7 +110,7 @@ int run(const Options& options) {
   for (const auto& result :
        {rds::mapper::write_tree(out / "map.ot", mapper.tree()), rds::mapper::write_grid(out, grid),
         rds::mapper::write_objects(out / "objects.json", mapper.objects()),
-        rds::mapper::write_keyframes(out / "keyframes.txt", mapper.keyframe_poses())})
+        rds::mapper::write_keyframes(out / "keyframes.txt", mapper.archive().poses())})
     if (!result) throw std::runtime_error(result.error());
   start = Clock::now();
   write_picture(mapper, out / "map.png");

@@ -7,8 +7,9 @@
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
 
+#include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/core/evidence/classify.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
 #include "tests/bench/mapper/recording.hpp"
 
 namespace {
@@ -84,11 +85,12 @@ BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecon
 /// The points that the mapper uses, in the map.
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {
   const mapper::SamplingConfig sampling;
-  const auto record =
+  auto record =
       mapper::make_record(input, sampling, mapper::sample_rays(input.camera, sampling.stride_px));
+  mapper::classify_by_depth(record, sampling);
   octomap::Pointcloud cloud;
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (record.use[i] != mapper::PixelUse::kStatic) continue;
+    if (record.classes[i] != mapper::PixelClass::kStatic) continue;
     const Eigen::Vector3f p =
         (input.map_from_camera * record.point_in_camera(i).cast<double>()).cast<float>();
     cloud.push_back(p.x(), p.y(), p.z());

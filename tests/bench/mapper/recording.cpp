@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "services/mapper/core/mapper_config.hpp"
+#include "services/mapper/core/config/mapper_config.hpp"
 
 namespace rds::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/image/tum_dataset.hpp"
-#include "services/mapper/core/types.hpp"
+#include "services/mapper/core/keyframe/keyframe_input.hpp"
 
 namespace rds::bench {
 

@@ -23,7 +23,7 @@ import struct
 
 import numpy as np
 
-# As maps show labels (services/mapper/core/label_table.cpp).
+# As maps show labels (services/mapper/core/octree/label_table.cpp).
 COLORS = {
     "chair": (31, 119, 180), "sofa": (148, 103, 189), "diningtable": (255, 127, 14), "tvmonitor": (23, 190, 207),
     "bottle": (44, 160, 44), "pottedplant": (106, 191, 75)}

@@ -9,7 +9,7 @@
 #include "common/topics/endpoints.hpp"
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tools/rds/cli/wait.hpp"
 
 namespace rds::tools {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "services/mapper/core/color_labels.hpp"
-#include "services/mapper/core/voxel_walk.hpp"
+#include "services/mapper/core/octree/color_labels.hpp"
+#include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/map/map_diff.hpp"
 #include "tools/rds/map/map_export.hpp"

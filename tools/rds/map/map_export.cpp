@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/core/gravity.hpp"
-#include "services/mapper/core/label_table.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/core/segmentation/gravity.hpp"
 
 namespace rds::tools {
 namespace {

@@ -2,8 +2,8 @@
 #include "tools/rds/map/map_source.hpp"
 
 #include "common/map_file/saved_map.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/io/saved_tree.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "services/mapper/core/label_table.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "tools/rds/picture/map_picture_canvas.hpp"
 #include "tools/rds/picture/map_picture_legend.hpp"
 #include "tools/rds/picture/map_picture_voxels.hpp"

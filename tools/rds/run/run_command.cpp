@@ -10,7 +10,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/map_file/saved_map.hpp"
-#include "services/mapper/core/map_files.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/commander/topology.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "services/tracker/core/prediction/assignment.hpp"
+#include "services/tracker/core/prediction/sort/assignment.hpp"
 #include "services/tracker/core/prediction/observation_filter.hpp"
 #include "services/tracker/core/prediction/visibility.hpp"
 

@@ -11,7 +11,7 @@
 #include "common/geometry/box.hpp"
 #include "services/tracker/core/prediction/object_tracking.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
-#include "services/tracker/core/prediction/sort.hpp"
+#include "services/tracker/core/prediction/sort/sort.hpp"
 
 namespace rds::tracker::prediction {
 

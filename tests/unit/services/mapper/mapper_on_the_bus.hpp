@@ -15,8 +15,8 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/mapper_service.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"

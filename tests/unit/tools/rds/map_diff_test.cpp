@@ -3,9 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "services/mapper/core/label_table.hpp"
-#include "services/mapper/core/map_files.hpp"
-#include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/rds/map/map_command.hpp"
 #include "tools/rds/map/map_export.hpp"

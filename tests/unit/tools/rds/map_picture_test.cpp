@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "services/mapper/core/label_table.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 
 namespace rds::tools {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include "services/mapper/io/saved_tree.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
-#include "services/mapper/core/tree_bytes.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -52,7 +53,7 @@ TEST_F(SavedMapper, TheWholeMapComesBack) {
   EXPECT_EQ(to_json(mapper.objects()), objects);
   EXPECT_EQ(mapper.up_in_map(), up);
   EXPECT_THAT(mapper.labels().names(), testing::ElementsAre("", "tvmonitor"));
-  EXPECT_EQ(mapper.keyframes(), 0U) << "keyframes are not in it";
+  EXPECT_EQ(mapper.archive().size(), 0U) << "keyframes are not in it";
   EXPECT_EQ(mapper.map_epoch(), 7U);
   EXPECT_EQ(mapper.revision(), 1U);
 }

@@ -71,9 +71,9 @@ TEST_F(RestoredMap, IsTheMapAsItWasBitForBit) {
   const auto restored = after->restore(*checkpoint);
   ASSERT_TRUE(restored) << restored.error();
   EXPECT_EQ(after->map_epoch(), kEpoch);
-  EXPECT_EQ(after->keyframes(), 12U);
+  EXPECT_EQ(after->archive().size(), 12U);
   EXPECT_TRUE(after->to_bytes() == before->to_bytes());
-  EXPECT_EQ(after->corrections_lost(), 0U);
+  EXPECT_EQ(after->archive().lost(), 0U);
   EXPECT_GT(after->revision(), 0U);
 }
 
@@ -110,8 +110,8 @@ TEST_F(RestoredMap, KeyframesThatAreFinalAreInIt) {
   EXPECT_LT(rows_.size(), 110U);
   auto after = mapper_on(rows_, few);
   ASSERT_TRUE(after->restore(checkpoint));
-  EXPECT_EQ(after->keyframes(), 115U);
-  EXPECT_EQ(after->keyframe_poses().size(), 4U);
+  EXPECT_EQ(after->archive().size(), 115U);
+  EXPECT_EQ(after->archive().poses().size(), 4U);
   EXPECT_NEAR(static_cast<double>(after->tree().size()), static_cast<double>(before->tree().size()),
               0.05 * static_cast<double>(before->tree().size()));
 }
@@ -124,8 +124,8 @@ TEST_F(RestoredMap, RecordsThatAreGoneAreCountedAndLeftOut) {
   rows_[4].pop_back();
   auto after = mapper_on(rows_);
   ASSERT_TRUE(after->restore(*checkpoint));
-  EXPECT_EQ(after->keyframe_poses().size(), 4U);
-  EXPECT_EQ(after->corrections_lost(), 2U);
+  EXPECT_EQ(after->archive().poses().size(), 4U);
+  EXPECT_EQ(after->archive().lost(), 2U);
 }
 
 TEST_F(RestoredMap, IsNotMadeOnAnotherSavedMap) {
@@ -139,7 +139,7 @@ TEST_F(RestoredMap, IsNotMadeOnAnotherSavedMap) {
   const auto restored = after->restore(*checkpoint);
   ASSERT_FALSE(restored);
   EXPECT_THAT(restored.error(), HasSubstr("another saved map"));
-  EXPECT_EQ(after->keyframes(), 0U);
+  EXPECT_EQ(after->archive().size(), 0U);
 }
 
 TEST_F(RestoredMap, TornPartsAreRefusedAndChangeNothing) {

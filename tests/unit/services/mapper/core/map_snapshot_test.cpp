@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/unit/services/mapper/core/random_keyframes.hpp"
 
 namespace rds::mapper {

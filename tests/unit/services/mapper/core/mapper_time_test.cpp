@@ -2,7 +2,7 @@
 // Stamps of keyframes that go back: what is measured between sightings goes on.
 #include <gtest/gtest.h>
 
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -19,8 +19,8 @@ constexpr std::int64_t kAsIfLater = time::ContinuousTime::kUnknownNs - 300 * kMs
 constexpr std::int64_t kMuchLater = 10'000 * kMs;
 const Eigen::Vector3d kBag = test::point_at(225, 180, 1.5);
 
-/// A wall, before which somebody with a bag stands from keyframe kArrives on. From keyframe kSetBack on stamps
-/// are `later_ns` later.
+/// A wall, before which somebody with a bag stands from keyframe kArrives on. From keyframe kSetBack on
+/// stamps are `later_ns` later.
 std::vector<KeyframeInput> keyframes(std::int64_t later_ns) {
   std::vector<KeyframeInput> made;
   for (std::uint64_t k = 0; k < kEnd; ++k) {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "services/mapper/core/map_snapshot.hpp"
-#include "services/mapper/core/octree_replica.hpp"
+#include "services/mapper/core/octree/octree_replica.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper::test {

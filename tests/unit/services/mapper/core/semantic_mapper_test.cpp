@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "services/mapper/core/tree_bytes.hpp"
+#include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -262,8 +262,8 @@ TEST(SemanticMapper, KeyframesBeyondTheLimitBecomeFinalAndStayInTheMap) {
     unlimited.integrate(keyframe);
   }
   limited.settle({});
-  EXPECT_EQ(limited.keyframes(), 5U);
-  EXPECT_EQ(limited.keyframe_poses().size(), 2U);
+  EXPECT_EQ(limited.archive().size(), 5U);
+  EXPECT_EQ(limited.archive().poses().size(), 2U);
   EXPECT_EQ(to_bytes(limited.tree()), to_bytes(unlimited.tree()));
   EXPECT_FALSE(limited.set_boxes(0, {}));
 }
@@ -279,11 +279,11 @@ TEST(SemanticMapper, KeyframesThatNobodyTellsOfBecomeFinalAndStayInTheMap) {
   const std::vector<KeyframePose> told{{0, 0, shifted(0, 0, 0)}, {3, 0, shifted(0.3, 0, 0)}};
   mapper.make_others_final(told);  // 1 and 2; 4 is newer than what was told
   mapper.settle({});
-  EXPECT_EQ(mapper.keyframes(), 5U);
-  EXPECT_EQ(mapper.keyframe_poses().size(), 3U);
+  EXPECT_EQ(mapper.archive().size(), 5U);
+  EXPECT_EQ(mapper.archive().poses().size(), 3U);
   EXPECT_EQ(to_bytes(mapper.tree()), to_bytes(all.tree()));
   mapper.make_others_final({});
-  EXPECT_EQ(mapper.keyframe_poses().size(), 3U);
+  EXPECT_EQ(mapper.archive().poses().size(), 3U);
 }
 
 TEST(SemanticMapper, KeyframesFarOutsideTheOctreeAreHarmless) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/mapper/core/keyframe_objects.hpp"
+#include "services/mapper/core/evidence/classify.hpp"
+#include "services/mapper/core/pipeline.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 
 namespace rds::mapper::test {
@@ -57,11 +58,18 @@ class SyntheticKeyframe {
   KeyframeInput input_;
 };
 
-/// What the mapper makes of a keyframe and its boxes, doubts apart.
+/// A keyframe with classes by depth alone.
+inline KeyframeRecord measured(const KeyframeInput& input, const SamplingConfig& config = {}) {
+  auto record = make_record(input, config, sample_rays(input.camera, config.stride_px));
+  classify_by_depth(record, config);
+  return record;
+}
+
+/// What the mapper makes of a keyframe and its boxes.
 inline KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels,
                                 const MapperConfig& config = {}) {
   auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
-  if (input.boxes) apply_boxes(record, *input.boxes, config, labels);
+  interpret(record, input.boxes, config, labels);
   return record;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/prediction/assignment.hpp"
+#include "services/tracker/core/prediction/sort/assignment.hpp"
 
 #include <algorithm>
 #include <limits>

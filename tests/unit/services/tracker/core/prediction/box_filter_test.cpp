@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/prediction/box_filter.hpp"
+#include "services/tracker/core/prediction/sort/box_filter.hpp"
 
 #include <gtest/gtest.h>
 

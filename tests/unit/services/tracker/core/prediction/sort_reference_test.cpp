@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "services/tracker/core/prediction/sort.hpp"
+#include "services/tracker/core/prediction/sort/sort.hpp"
 #include "tests/support/shared_data.hpp"
 
 namespace rds::tracker::prediction {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/prediction/sort.hpp"
+#include "services/tracker/core/prediction/sort/sort.hpp"
 
 #include <gmock/gmock.h>
 

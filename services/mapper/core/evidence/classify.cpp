@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/evidence/classify.hpp"
+
+#include <algorithm>
+
+#include "services/mapper/core/evidence/confirmation.hpp"
+#include "services/mapper/core/evidence/near_points.hpp"
+#include "services/mapper/core/evidence/transient_surfaces.hpp"
+#include "services/mapper/core/segmentation/depth_edges.hpp"
+#include "services/mapper/core/segmentation/depth_surfaces.hpp"
+
+namespace rds::mapper {
+namespace {
+
+/// Rules 4 to 7.
+PixelClass class_of(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks) {
+  const PixelClass by_depth = record.classes[pixel];
+  const bool is_measured = by_depth == PixelClass::kStatic;
+  if (masks.is_background(pixel)) return PixelClass::kStatic;              // rule 4
+  if (masks.is_object(pixel) && is_measured) return PixelClass::kDynamic;  // rule 5
+  if (masks.is_beside(pixel) || is_in_movable_cell(record, pixel))         // rules 6 and 7
+    return is_measured ? PixelClass::kUnknown : PixelClass::kInvalid;
+  return by_depth;
+}
+
+/// Points [m, camera] of all that boxes or the tracker know as dynamic.
+std::vector<Eigen::Vector3f> dynamic_points(const KeyframeRecord& record, const SamplingConfig& config) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (!is_dynamic(record, i)) continue;
+    const float depth = record.depth_m(i);
+    if (depth >= static_cast<float>(config.min_range_m) && depth <= static_cast<float>(config.max_range_m))
+      points.push_back(record.point_in_camera(i));
+  }
+  return points;
+}
+
+/// Rule 8.
+Doubt doubt_of(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks,
+               const NearPoints& near_dynamic) {
+  if (masks.is_background(pixel)) return Doubt::kNone;
+  const PixelClass its_class = record.classes[pixel];
+  if (its_class == PixelClass::kUnknown)
+    return masks.is_beside(pixel) ? Doubt::kBesideDynamic : Doubt::kMovingCell;
+  const bool is_near =
+      its_class == PixelClass::kStatic && near_dynamic.contains(record.point_in_camera(pixel));
+  return is_near ? Doubt::kNearDynamic : Doubt::kNone;
+}
+
+DoubtfulPixels doubtful_pixels(const KeyframeRecord& record, const DynamicMasks& masks,
+                               const MapperConfig& config) {
+  if (!(config.confirmation.radius_m > 0)) return {};
+  const auto dynamic = dynamic_points(record, config.sampling);
+  if (dynamic.empty()) return {};
+  const NearPoints near(dynamic, static_cast<float>(config.confirmation.radius_m));
+  DoubtfulPixels doubt;
+  doubt.is_doubtful.resize(record.size());
+  for (std::size_t i = 0; i < record.size(); ++i)
+    doubt.is_doubtful[i] = doubt_of(i, record, masks, near) != Doubt::kNone;
+  if (std::ranges::find(doubt.is_doubtful, true) == doubt.is_doubtful.end()) return {};
+  doubt.surfaces = find_surfaces(record, config.sampling, doubt.surface);
+  return doubt;
+}
+
+}  // namespace
+
+void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
+  const cv::Mat1b no_return = without_depth_all_around(record);
+  const DepthSupport support(record, config);
+  const auto nearest = to_tenth_mm(static_cast<float>(config.min_range_m));
+  const auto farthest = to_tenth_mm(static_cast<float>(config.max_range_m));
+  for (int row = 0; row < record.height; ++row)
+    for (int column = 0; column < record.width; ++column) {
+      const auto i = static_cast<std::size_t>(row * record.width + column);
+      const auto depth = record.depth_tenth_mm[i];
+      auto& its_class = record.classes[i];
+      its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;  // rule 1
+      if (depth == 0 || depth < nearest || !support.has(column, row)) continue;                // rule 2
+      its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                  // rule 3
+    }
+}
+
+void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
+  for (std::size_t i = 0; i < record.size(); ++i) record.classes[i] = class_of(i, record, masks);
+  record.doubt = doubtful_pixels(record, masks, config);
+}
+
+PixelClasses resolve(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config) {
+  PixelClasses classes = record.classes;
+  const auto confirmed = confirmed_surfaces(record, history.statics, config);
+  for (std::size_t i = 0; i < record.doubt.is_doubtful.size(); ++i)
+    if (record.doubt.is_doubtful[i])
+      classes[i] = confirmed[record.doubt.surface[i]] ? PixelClass::kStatic : PixelClass::kInvalid;  // rule 9
+  std::ranges::replace(classes, PixelClass::kUnknown, PixelClass::kInvalid);  // rule 10
+  const auto transient = transient_pixels(record, history, config, classes);
+  for (std::size_t i = 0; i < transient.size(); ++i)
+    if (transient[i]) classes[i] = PixelClass::kInvalid;  // rule 11
+  return classes;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "services/mapper/core/config/mapper_config.hpp"
+#include "services/mapper/core/keyframe/keyframe_input.hpp"
+#include "services/mapper/core/keyframe/pixel_class.hpp"
+
+namespace rds::mapper {
+
+/// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
+/// with the pose.
+struct ObjectSighting {
+  static constexpr std::size_t kMaxPoints = 256;
+  std::uint16_t label = 0;
+  float score = 0;
+  bool cut_by_border = false;
+  std::vector<Eigen::Vector3f> points_in_camera;
+};
+
+/// Pixels of which it is in doubt whether they are static, and the connected surfaces by which resolve()
+/// decides; all empty where there is no doubt.
+struct DoubtfulPixels {
+  std::vector<bool> is_doubtful;
+  std::vector<std::uint16_t> surface;  // of each pixel, from 1; 0: of none
+  std::uint16_t surfaces = 0;
+
+  [[nodiscard]] bool empty() const { return surface.empty(); }
+};
+
+/// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
+std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
+                                                                int stride_px);
+
+/// A keyframe in the form in which it can be integrated again and again: strided, in camera coordinates.
+/// Vectors have width × height entries, row by row.
+struct KeyframeRecord {
+  std::uint64_t id = 0;
+  std::int64_t stamp_ns = 0;
+  std::int64_t time_ns = 0;  // of the mapper's ContinuousTime, not stored; the stamp where none is told
+  geometry::Pose map_from_camera = geometry::Pose::Identity();
+  geometry::CameraModel camera;  // of the full picture
+  int stride = 1;
+  int width = 0;   // sampled columns
+  int height = 0;  // sampled rows
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;
+  std::vector<std::uint16_t> depth_tenth_mm;  // 0 = none, 65535 = 6.5 m or more
+  std::vector<std::uint8_t> rgb;              // 3 per pixel
+  cv::Mat1b movable_cells;                    // as in KeyframeInput
+  PixelClasses classes;
+  DoubtfulPixels doubt;
+  std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
+  bool looked_for_objects = false;
+  std::vector<ObjectSighting> sightings;
+
+  int cell_px = 0;  // side of a movable cell; 0: there are none
+
+  [[nodiscard]] std::size_t size() const { return depth_tenth_mm.size(); }
+  [[nodiscard]] float depth_m(std::size_t i) const { return static_cast<float>(depth_tenth_mm[i]) * 1e-4F; }
+  [[nodiscard]] Eigen::Vector3f point_in_camera(std::size_t i) const { return (*rays)[i] * depth_m(i); }
+};
+
+/// Why a keyframe cannot be used, in one sentence; nullopt if it can.
+std::optional<std::string> check(const KeyframeInput& input);
+
+/// True if the tracker found something that moves there.
+bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
+
+/// True if boxes or the tracker know the pixel as dynamic.
+inline bool is_dynamic(const KeyframeRecord& record, std::size_t pixel) {
+  return record.classes[pixel] == PixelClass::kDynamic || is_in_movable_cell(record, pixel);
+}
+
+inline constexpr float kTenthMmPerM = 1e4F;
+/// As depth_tenth_mm holds it.
+std::uint16_t to_tenth_mm(float depth_m);
+
+/// Samples a checked keyframe. Classes are left invalid, and boxes are not looked at.
+/// @param rays  of this camera and stride, shared between records.
+KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
+                           std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
+
+}  // namespace rds::mapper

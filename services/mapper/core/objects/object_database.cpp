@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/objects/object_database.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "services/mapper/core/objects/trimmed_box.hpp"
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
+constexpr double kOutward = 4;        // a view that shows more of the object counts so often
+constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
+constexpr double kInViewShare = 0.8;  // of the projected box inside the picture
+constexpr double kOcclusionMarginM = 0.15;  // nearer than the object by this: something stands before it
+constexpr int kProbes = 5;                  // per side of the projected box
+
+double iou(const geometry::Box3& a, const geometry::Box3& b) {
+  const Eigen::Vector3d overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
+  const double common = overlap.prod();
+  const double all = a.size().prod() + b.size().prod() - common;
+  return all > 0 ? common / all : 0;
+}
+
+/// What the depth picture says about the place of an object.
+struct View {
+  int measured = 0;
+  int occluded = 0;
+  int seen_through = 0;
+};
+
+View look_at(const geometry::Box2& box, double near_m, double far_m, const KeyframeRecord& record) {
+  View view;
+  for (int row = 0; row < kProbes; ++row)
+    for (int column = 0; column < kProbes; ++column) {
+      const double x = box.x0 + box.width() * (column + 0.5) / kProbes;
+      const double y = box.y0 + box.height() * (row + 0.5) / kProbes;
+      const int sx = std::min(record.width - 1, static_cast<int>(x / record.stride));
+      const int sy = std::min(record.height - 1, static_cast<int>(y / record.stride));
+      const auto i = static_cast<std::size_t>(sy * record.width + sx);
+      if (record.depth_tenth_mm[i] == 0) continue;
+      ++view.measured;
+      const double depth = record.depth_m(i);
+      if (depth < near_m - kOcclusionMarginM || record.classes[i] == PixelClass::kDynamic) ++view.occluded;
+      if (depth > far_m + kOcclusionMarginM) ++view.seen_through;
+    }
+  return view;
+}
+
+nlohmann::json rounded(const Eigen::Vector3d& v) {
+  const auto round = [](double x) { return std::round(x * 1e4) / 1e4 + 0.0; };
+  return {round(v.x()), round(v.y()), round(v.z())};
+}
+
+}  // namespace
+
+geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
+  if (sighting.points_in_camera.empty()) return {};
+  std::vector<Eigen::Vector3d> in_map;
+  in_map.reserve(sighting.points_in_camera.size());
+  for (const auto& p : sighting.points_in_camera) in_map.emplace_back(map_from_camera * p.cast<double>());
+  return trimmed_box(in_map);
+}
+
+void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {
+  for (auto& entry : entries_) entry.seen_now = false;
+  for (const auto& sighting : record.sightings) fuse(sighting, record, labels);
+  merge_duplicates();
+  if (!record.looked_for_objects) return;
+  for (auto& entry : entries_)
+    if (!entry.seen_now) fade(entry, record);
+  std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
+}
+
+bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
+                             const geometry::Box3& b) const {
+  const double radius = config_.labels[label].radius_m;
+  return (a.center() - b.center()).norm() < radius || iou(a, b) > kMinOverlap || a.contains(b.center()) ||
+         b.contains(a.center());
+}
+
+ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
+  Entry* best = nullptr;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (auto& entry : entries_) {
+    if (entry.object.label != label || entry.seen_now)
+      continue;  // two sightings in one picture are two objects
+    const geometry::Box3 known{entry.min, entry.max};
+    const double distance = (known.center() - box.center()).norm();
+    if (distance < best_distance && is_same(label, known, box)) {
+      best = &entry;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+/// Parts of one object that were taken for several before it was seen as a whole.
+void ObjectDatabase::merge_duplicates() {
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    for (std::size_t j = entries_.size(); j-- > i + 1;) {
+      auto& a = entries_[i];
+      const auto& b = entries_[j];
+      const bool apart = a.object.label != b.object.label || (a.seen_now && b.seen_now) ||
+                         !is_same(a.object.label, {a.min, a.max}, {b.min, b.max});
+      if (apart) continue;
+      const double share = b.weight / (a.weight + b.weight);
+      a.min += (b.min - a.min) * share;
+      a.max += (b.max - a.max) * share;
+      a.weight += b.weight;
+      a.score_sum += b.score_sum;
+      a.existence = std::max(a.existence, b.existence);
+      a.seen_now = a.seen_now || b.seen_now;
+      a.object.observations += b.object.observations;
+      a.object.first_seen_ns = std::min(a.object.first_seen_ns, b.object.first_seen_ns);
+      a.object.last_seen_ns = std::max(a.object.last_seen_ns, b.object.last_seen_ns);
+      describe(a);
+      entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
+/// What the entry's sums say about its object.
+void ObjectDatabase::describe(Entry& entry) {
+  auto& object = entry.object;
+  object.score = static_cast<float>(entry.score_sum / object.observations);
+  object.center = (entry.min + entry.max) / 2;
+  object.size = entry.max - entry.min;
+}
+
+void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& record,
+                          const LabelTable& labels) {
+  const auto box = boundary_in_map(sighting, record.map_from_camera);
+  if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
+  const auto& label = labels.names()[sighting.label];
+  Entry* entry = nearest(label, box);
+  if (entry == nullptr) {
+    entry = &entries_.emplace_back();
+    entry->object.id = next_id_++;
+    entry->object.label = label;
+    entry->object.first_seen_ns = record.stamp_ns;
+  }
+  const double weight =
+      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? config_.border_weight : 1.0);
+  if (entry->weight == 0) {
+    entry->min = box.min;
+    entry->max = box.max;
+  }
+  entry->weight += weight;
+  const double gain =
+      weight / entry->weight;  // every observation counts by its weight, the thousandth as the first
+  const auto step = [&](double by, bool outward) {
+    return by * std::min(1.0, gain * (outward ? kOutward : kInward));
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    entry->min[axis] += step(box.min[axis] - entry->min[axis], box.min[axis] < entry->min[axis]);
+    entry->max[axis] += step(box.max[axis] - entry->max[axis], box.max[axis] > entry->max[axis]);
+  }
+  entry->score_sum += sighting.score;
+  entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
+  entry->seen_now = true;
+  ++entry->object.observations;
+  entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, record.stamp_ns);
+  describe(*entry);
+}
+
+void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
+  const geometry::Pose camera_from_map = record.map_from_camera.inverse();
+  const geometry::Box3 box{entry.min, entry.max};
+  const auto in_picture = geometry::project(box, camera_from_map, record.camera);
+  const Eigen::Vector3d center = camera_from_map * box.center();
+  if (!in_picture || center.z() <= 0) return;
+  geometry::CameraModel wide = record.camera;  // the same projection without the picture's limits
+  constexpr int kBorder = 2000;
+  wide.width += 2 * kBorder;
+  wide.height += 2 * kBorder;
+  wide.cx += kBorder;
+  wide.cy += kBorder;
+  const auto whole = geometry::project(box, camera_from_map, wide);
+  if (!whole || in_picture->area() < kInViewShare * whole->area()) return;
+  const double half_depth = box.size().norm() / 2;
+  const auto view = look_at(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
+  if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
+  entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
+}
+
+std::vector<geometry::Box3> ObjectDatabase::undetected(const KeyframeRecord& record,
+                                                       const LabelTable& labels) const {
+  std::vector<std::pair<std::string, geometry::Box3>> sighted;
+  for (const auto& sighting : record.sightings)
+    sighted.emplace_back(labels.names()[sighting.label], boundary_in_map(sighting, record.map_from_camera));
+  std::vector<geometry::Box3> boxes;
+  for (const auto& entry : entries_) {
+    const geometry::Box3 box{entry.min, entry.max};
+    const bool seen = std::ranges::any_of(sighted, [&](const auto& s) {
+      return s.first == entry.object.label && is_same(s.first, box, s.second);
+    });
+    if (!seen) boxes.push_back(box);
+  }
+  return boxes;
+}
+
+std::vector<MapObject> ObjectDatabase::objects() const {
+  std::vector<MapObject> reported;
+  for (const auto& entry : entries_)
+    if (entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations) &&
+        entry.score_sum >= config_.min_score_sum)
+      reported.push_back(entry.object);
+  return reported;
+}
+
+std::string to_json(std::span<const MapObject> objects) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& o : objects)
+    list.push_back({{"id", o.id},
+                    {"label", o.label},
+                    {"score", std::round(double{o.score} * 1e4) / 1e4},
+                    {"center", rounded(o.center)},
+                    {"size", rounded(o.size)},
+                    {"observations", o.observations},
+                    {"movable", false}});
+  return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rds::mapper

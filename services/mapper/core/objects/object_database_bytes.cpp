@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "common/map_file/geometry_bytes.hpp"
+#include "services/mapper/core/objects/object_database.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using map_file::ByteReader;
+using map_file::ByteWriter;
+
+constexpr std::uint8_t kNotMovable = 0;  // as all objects that the database holds
+constexpr std::size_t kObjectBytes = 8 + 8 + 4 + 16 + 1 + 48 + 24;
+
+}  // namespace
+
+void ObjectDatabase::put(ByteWriter& writer) const {
+  writer.put(next_id_);
+  writer.put_count(entries_.size());
+  for (const Entry& entry : entries_) {
+    writer.put(entry.object.id);
+    writer.put_text(entry.object.label);
+    writer.put(entry.object.observations);
+    writer.put(entry.object.first_seen_ns);
+    writer.put(entry.object.last_seen_ns);
+    writer.put(kNotMovable);
+    map_file::put(writer, entry.min);
+    map_file::put(writer, entry.max);
+    for (const double sum : {entry.weight, entry.score_sum, entry.existence}) writer.put(sum);
+  }
+}
+
+void ObjectDatabase::get(ByteReader& reader) {
+  next_id_ = reader.get<std::uint64_t>();
+  entries_.assign(reader.get_count(kObjectBytes), {});
+  std::uint64_t last_id = 0;
+  for (Entry& entry : entries_) {
+    entry.object.id = reader.get<std::uint64_t>();
+    entry.object.label = reader.get_text();
+    entry.object.observations = reader.get<std::uint32_t>();
+    entry.object.first_seen_ns = reader.get<std::int64_t>();
+    entry.object.last_seen_ns = reader.get<std::int64_t>();
+    (void)reader.get<std::uint8_t>();  // kNotMovable
+    entry.min = map_file::get_vector(reader);
+    entry.max = map_file::get_vector(reader);
+    for (double* sum : {&entry.weight, &entry.score_sum, &entry.existence}) *sum = reader.get<double>();
+    const bool possible = entry.object.id > last_id && entry.object.id < next_id_ &&
+                          entry.object.observations > 0 && entry.weight > 0 &&
+                          (entry.min.array() <= entry.max.array()).all();
+    if (!possible) reader.refuse(fmt::format("object {} with impossible values", entry.object.id));
+    if (!reader.ok()) return entries_.clear();
+    last_id = entry.object.id;
+    describe(entry);
+  }
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "services/mapper/core/objects/map_object.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
+#include "services/mapper/core/octree/semantic_octree.hpp"
+
+namespace rds::mapper {
+
+/// Gives each object the extent of the voxels that bear its label in and around its box.
+///
+/// A sighting shows a part of an object, and something of what overlaps it in the picture. The voxels' votes
+/// are of all views: overlaps are outvoted, and a back that few views showed counts as much as the front. A
+/// voxel belongs to the nearest object of its label. Objects without voxels keep their box.
+void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, const LabelTable& labels);
+
+}  // namespace rds::mapper

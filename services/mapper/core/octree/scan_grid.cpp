@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/octree/scan_grid.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace rds::mapper {
+namespace {
+
+/// Bits of a local coordinate 0…7 spread to every third place: the octree's child order (x lowest).
+constexpr std::array<std::uint16_t, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};
+
+std::size_t cell(int x, int y, int z) {
+  const auto spread = [](int key) { return kSpread[static_cast<std::size_t>(key & 7)]; };
+  return static_cast<std::size_t>(spread(x) | spread(y) << 1 | spread(z) << 2);
+}
+
+/// One coordinate of a voxel on a ray; no branches, as nobody can predict which one is next to change.
+struct RayAxis {
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  RayAxis(double from, double to)
+      : key(static_cast<int>(std::floor(from))), left(static_cast<int>(std::floor(to)) - key) {
+    step = left < 0 ? -1 : 1;
+    left = std::abs(left);
+    delta = 1 / std::abs(to - from);
+    next = left == 0 ? kNever : std::abs(key + (step > 0 ? 1 : 0) - from) * delta;
+  }
+  void advance(bool go) {
+    key += go ? step : 0;
+    left -= go ? 1 : 0;
+    next = left == 0 ? kNever : next + (go ? delta : 0);
+  }
+
+  int key;
+  int left;      // steps
+  int step;      // +1 or −1
+  double delta;  // share of the ray from border to border
+  double next;   // share of the ray up to the next border
+};
+
+}  // namespace
+
+void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest) {
+  std::size_t count = 1;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    first_block_[axis] = lowest[axis] >> kBlockBits;
+    size_[axis] = (highest[axis] >> kBlockBits) - first_block_[axis] + 1;
+    count *= static_cast<std::size_t>(size_[axis]);
+  }
+  index_.assign(count, -1);
+  blocks_.clear();
+}
+
+ScanGrid::Block& ScanGrid::block_of(const octomap::OcTreeKey& key) {
+  std::size_t at = 0;
+  for (unsigned axis = 3; axis-- > 0;)
+    at = at * static_cast<std::size_t>(size_[axis]) +
+         static_cast<std::size_t>((key[axis] >> kBlockBits) - first_block_[axis]);
+  auto& index = index_[at];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(blocks_.size());
+    auto& block = blocks_.emplace_back();
+    for (unsigned axis = 0; axis < 3; ++axis)
+      block.key[axis] = static_cast<std::uint16_t>(key[axis] & ~((1U << kBlockBits) - 1));
+  }
+  return blocks_[static_cast<std::size_t>(index)];
+}
+
+std::size_t ScanGrid::cell_of(const octomap::OcTreeKey& key) {
+  return cell(key[0], key[1], key[2]);
+}
+
+void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
+  RayAxis x(from.x(), to.x());
+  RayAxis y(from.y(), to.y());
+  RayAxis z(from.z(), to.z());
+  Block* block = nullptr;
+  int block_x = -1;  // a voxel of the block
+  int block_y = -1;
+  int block_z = -1;
+  for (int steps = x.left + y.left + z.left; steps > 0; --steps) {
+    if (((x.key ^ block_x) | (y.key ^ block_y) | (z.key ^ block_z)) >> kBlockBits != 0) {
+      block_x = x.key;
+      block_y = y.key;
+      block_z = z.key;
+      block = &block_of({static_cast<std::uint16_t>(x.key), static_cast<std::uint16_t>(y.key),
+                         static_cast<std::uint16_t>(z.key)});
+    }
+    block->flags[cell(x.key, y.key, z.key)] |= flag;
+    const bool go_x = (x.next <= y.next) & (x.next <= z.next);
+    const bool go_y = !go_x & (y.next <= z.next);
+    x.advance(go_x);
+    y.advance(go_y);
+    z.advance(!(go_x | go_y));
+  }
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/octree/tree_bytes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "services/mapper/core/octree/editable_octree.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using Node = octomap::ColorOcTreeNode;
+constexpr const char* kTooManyVoxels = "leaves larger than any map";
+constexpr std::size_t kNodeBytes = 8;  // float log-odds, r, g, b, children
+
+void append(const octomap::ColorOcTree& tree, const Node& node, std::vector<std::uint8_t>& bytes) {
+  const auto value = std::bit_cast<std::array<std::uint8_t, 4>>(node.getLogOdds());
+  bytes.insert(bytes.end(), value.begin(), value.end());
+  const auto color = node.getColor();
+  std::uint8_t children = 0;
+  for (unsigned i = 0; i < 8; ++i)
+    if (tree.nodeChildExists(&node, i)) children = static_cast<std::uint8_t>(children | 1U << i);
+  bytes.insert(bytes.end(), {color.r, color.g, color.b, children});
+  for (unsigned i = 0; i < 8; ++i)
+    if ((children >> i & 1) != 0) append(tree, *tree.getNodeChild(&node, i), bytes);
+}
+
+/// Counts the voxels that a reader makes against what its input may ask for.
+class VoxelBudget {
+ public:
+  VoxelBudget(std::size_t bytes, std::uint64_t voxels_per_byte)
+      : left_(std::min(kMaxVoxels, kFreeVoxels + voxels_per_byte * bytes)) {}
+
+  /// A leaf at this depth stands for all voxels below it. @return false if these are too many.
+  bool take_leaf(unsigned depth) {
+    const std::uint64_t voxels = std::uint64_t{1} << 3 * (EditableOcTree::kDepth - depth);
+    if (voxels > left_) return false;
+    left_ -= voxels;
+    return true;
+  }
+
+ private:
+  std::uint64_t left_;
+};
+
+/// Gives a leaf the voxels that it stands for.
+void expand(EditableOcTree& tree, Node* leaf, unsigned depth) {
+  if (depth == EditableOcTree::kDepth) return;
+  tree.expandNode(leaf);
+  for (unsigned i = 0; i < 8; ++i) expand(tree, tree.getNodeChild(leaf, i), depth + 1);
+}
+
+/// Reads nodes in the order in which writeData writes them. The depth is bounded, so recursion is.
+class FullReader {
+ public:
+  FullReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
+      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerByte) {}
+
+  /// Fault in one sentence; empty if all bytes were read.
+  std::string read() {
+    std::array<Node*, EditableOcTree::kDepth + 1> path{};
+    if (!node(tree_.descend({0, 0, 0}, 0, path), 0)) return fault_;
+    if (at_ != bytes_.size()) return fmt::format("{} bytes after the last node", bytes_.size() - at_);
+    return {};
+  }
+
+ private:
+  bool node(Node* node, unsigned depth) {
+    if (bytes_.size() - at_ < kNodeBytes)
+      return fail(fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size()));
+    float value = 0;
+    std::memcpy(&value, &bytes_[at_], 4);
+    const std::uint8_t children = bytes_[at_ + 7];
+    if (!std::isfinite(value)) return fail(fmt::format("the log-odds at byte {} are not finite", at_));
+    node->setLogOdds(value);
+    node->setColor(bytes_[at_ + 4], bytes_[at_ + 5], bytes_[at_ + 6]);
+    at_ += kNodeBytes;
+    if (children == 0) {
+      if (!budget_.take_leaf(depth)) return fail(kTooManyVoxels);
+      expand(tree_, node, depth);
+      return true;
+    }
+    if (depth == EditableOcTree::kDepth) return fail("a node below the finest level");
+    for (unsigned i = 0; i < 8; ++i)
+      if ((children >> i & 1) != 0 && !this->node(tree_.child(node, i), depth + 1)) return false;
+    EditableOcTree::refresh(node);
+    return true;
+  }
+
+  bool fail(std::string fault) {
+    fault_ = std::move(fault);
+    return false;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  EditableOcTree& tree_;
+  std::size_t at_ = 0;
+  VoxelBudget budget_;
+  std::string fault_;
+};
+
+/// What two bits say of a child.
+enum Child : unsigned { kUnknown = 0, kFree = 1, kOccupied = 2, kInner = 3 };
+
+class BinaryWriter {
+ public:
+  BinaryWriter(const octomap::ColorOcTree& tree, std::vector<std::uint8_t>& bytes)
+      : tree_(tree), bytes_(bytes) {}
+
+  /// Writes a node and all below it; nothing if one state says the same, unless it is the root.
+  Child write(const Node& node, bool is_root) {
+    const std::size_t at = bytes_.size();
+    bytes_.insert(bytes_.end(), {0, 0});
+    std::array<unsigned, 8> children{};
+    for (unsigned i = 0; i < 8; ++i) {
+      children[i] = child_of(node, i);
+      auto& byte = bytes_[at + i / 4];
+      byte = static_cast<std::uint8_t>(byte | children[i] << 2 * (i % 4));
+    }
+    const bool is_one = std::ranges::all_of(children, [&](unsigned c) { return c == children[0]; });
+    if (is_root || !is_one || children[0] == kInner) return kInner;
+    bytes_.resize(at);
+    return static_cast<Child>(children[0]);
+  }
+
+ private:
+  Child child_of(const Node& node, unsigned index) {
+    const bool is_pruned = !tree_.nodeHasChildren(&node);
+    if (!is_pruned && !tree_.nodeChildExists(&node, index)) return kUnknown;
+    const Node& child = is_pruned ? node : *tree_.getNodeChild(&node, index);
+    if (!is_pruned && tree_.nodeHasChildren(&child)) return write(child, false);
+    return tree_.isNodeOccupied(child) ? kOccupied : kFree;
+  }
+
+  const octomap::ColorOcTree& tree_;
+  std::vector<std::uint8_t>& bytes_;
+};
+
+class BinaryReader {
+ public:
+  BinaryReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
+      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerBinaryByte) {}
+
+  /// Fault in one sentence; empty if all bytes were read.
+  std::string read() {
+    std::array<Node*, EditableOcTree::kDepth + 1> path{};
+    Node* root = tree_.descend({0, 0, 0}, 0, path);
+    if (auto fault = children_of(root, 0); !fault.empty()) return fault;
+    if (!tree_.nodeHasChildren(root)) tree_.clear();
+    return at_ == bytes_.size() ? "" : fmt::format("{} bytes after the last node", bytes_.size() - at_);
+  }
+
+ private:
+  std::string children_of(Node* node, unsigned depth) {
+    if (depth == EditableOcTree::kDepth) return "a node below the finest level";
+    if (bytes_.size() - at_ < 2)
+      return fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size());
+    const unsigned bits = bytes_[at_] | static_cast<unsigned>(bytes_[at_ + 1]) << 8;
+    at_ += 2;
+    for (unsigned i = 0; i < 8; ++i) {
+      const unsigned state = bits >> 2 * i & 3;
+      if (state == kUnknown) continue;
+      Node* child = tree_.child(node, i);
+      if (state == kInner) {
+        if (auto fault = children_of(child, depth + 1); !fault.empty()) return fault;
+        continue;
+      }
+      if (!budget_.take_leaf(depth + 1)) return kTooManyVoxels;
+      child->setLogOdds(state == kOccupied ? kBinaryLogOdds : -kBinaryLogOdds);
+      expand(tree_, child, depth + 1);
+    }
+    if (!tree_.nodeHasChildren(node)) return depth == 0 ? "" : "an inner node without children";
+    EditableOcTree::refresh(node);
+    return {};
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  EditableOcTree& tree_;
+  std::size_t at_ = 0;
+  VoxelBudget budget_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> to_binary_bytes(const octomap::ColorOcTree& tree) {
+  std::vector<std::uint8_t> bytes;
+  if (tree.getRoot() != nullptr) BinaryWriter(tree, bytes).write(*tree.getRoot(), true);
+  return bytes;
+}
+
+std::vector<std::uint8_t> to_bytes(const octomap::ColorOcTree& tree) {
+  std::vector<std::uint8_t> bytes;
+  if (tree.getRoot() == nullptr) return bytes;
+  bytes.reserve(tree.size() * kNodeBytes);
+  append(tree, *tree.getRoot(), bytes);
+  return bytes;
+}
+
+namespace {
+
+/// Reads either payload. @tparam Reader  FullReader or BinaryReader.
+template <class Reader>
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree_bytes(
+    std::span<const std::uint8_t> bytes, double resolution_m) {
+  if (!(resolution_m > 1e-4 && resolution_m < 1e3))
+    return tl::unexpected(fmt::format("a resolution of {} m is not possible", resolution_m));
+  auto tree = std::make_unique<EditableOcTree>(resolution_m);
+  if (bytes.empty()) return tree;
+  if (auto fault = Reader(bytes, *tree).read(); !fault.empty()) return tl::unexpected(std::move(fault));
+  return tree;
+}
+
+}  // namespace
+
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> tree_from_bytes(
+    std::span<const std::uint8_t> bytes, double resolution_m) {
+  return read_tree_bytes<FullReader>(bytes, resolution_m);
+}
+
+tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> tree_from_binary_bytes(
+    std::span<const std::uint8_t> bytes, double resolution_m) {
+  return read_tree_bytes<BinaryReader>(bytes, resolution_m);
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/segmentation/background.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "services/mapper/core/segmentation/planes.hpp"
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kWiderThanAPersonM = 0.16;  // standard deviation along the narrower side: 0.55 m
+constexpr float kParallel = 0.9F;            // cosine between a pixel's normal and its plane's
+constexpr int kToNeighbour = 3;              // sampled pixels, between which a normal is measured
+
+bool is_in_a_box(const KeyframeRecord& record, std::size_t pixel, std::span<const geometry::Box2> boxes) {
+  const auto width = static_cast<std::size_t>(record.width);
+  const auto x = static_cast<double>(pixel % width) * record.stride;
+  const auto y = static_cast<double>(pixel / width) * record.stride;
+  return std::ranges::any_of(boxes, [&](const geometry::Box2& box) { return box.contains(x, y); });
+}
+
+bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
+                     std::span<const geometry::Box2> movable, const SegmentationConfig& config) {
+  PointSums outside;
+  for (const auto i : surface.pixels)
+    if (!is_dynamic(record, i) && !is_in_a_box(record, i, movable))
+      outside.add(record.point_in_camera(i).cast<double>());
+  return outside.count() >= config.min_plane_share * static_cast<double>(record.size()) &&
+         outside.narrow_deviation_m() >= kWiderThanAPersonM;
+}
+
+/// True where the normal at a pixel is that of the plane: the plane's pixels include those of a person who
+/// stands in it.
+bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel) {
+  const int column = static_cast<int>(pixel) % record.width;
+  const int row = static_cast<int>(pixel) / record.width;
+  if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.width ||
+      row + kToNeighbour >= record.height)
+    return false;
+  const auto aside = static_cast<std::size_t>(kToNeighbour);
+  const std::size_t down = aside * static_cast<std::size_t>(record.width);
+  const std::array around{pixel + aside, pixel - aside, pixel + down, pixel - down};
+  if (std::ranges::any_of(around, [&](std::size_t i) { return record.classes[i] != PixelClass::kStatic; }))
+    return false;
+  const auto between = [&](std::size_t a, std::size_t b) -> Eigen::Vector3f {
+    return record.point_in_camera(a) - record.point_in_camera(b);
+  };
+  const Eigen::Vector3f normal = between(around[0], around[1]).cross(between(around[2], around[3]));
+  return std::abs(normal.dot(plane.normal.cast<float>())) > kParallel * normal.norm();
+}
+
+}  // namespace
+
+std::vector<bool> find_background(const KeyframeRecord& record, std::span<const geometry::Box2> movable,
+                                  const SegmentationConfig& config) {
+  if (movable.empty()) return {};
+  std::vector<bool> background(record.size(), false);
+  for (const FlatSurface& surface : find_planes(record, config)) {
+    if (!goes_on_outside(surface, record, movable, config)) continue;
+    for (const auto i : surface.pixels)
+      if (lies_along(surface.plane, record, i)) background[i] = true;
+  }
+  return background;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "services/mapper/core/keyframe/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// The pixels on background planes: walls, floors and table tops that go on outside of all boxes of movable
+/// objects for more than a person's width.
+///
+/// @param record   with classes by depth.
+/// @param movable  boxes [px of the full picture], rims included.
+/// @return per pixel; empty without boxes.
+std::vector<bool> find_background(const KeyframeRecord& record, std::span<const geometry::Box2> movable,
+                                  const SegmentationConfig& config);
+
+}  // namespace rds::mapper

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/segmentation/dynamic_masks.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "services/mapper/core/segmentation/background.hpp"
+#include "services/mapper/core/segmentation/object_region.hpp"
+
+namespace rds::mapper {
+namespace {
+
+/// A mask grown by rim_px to all sides.
+std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int rim_px, const KeyframeRecord& record) {
+  std::vector<std::uint8_t> rim(mask.size());
+  const int radius = (rim_px + record.stride - 1) / record.stride;
+  cv::Mat1b to(record.height, record.width, rim.data());
+  cv::dilate(cv::Mat1b(record.height, record.width, mask.data()), to,
+             cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
+  return rim;
+}
+
+}  // namespace
+
+DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
+                             const MapperConfig& config) {
+  const double margin = config.region.margin_px;
+  std::vector<geometry::Box2> boxes_px;
+  std::vector<ObjectRegion> regions;
+  for (const auto& box : boxes) {
+    const auto px = box.movable ? image_box(box, record) : std::nullopt;
+    if (!px) continue;
+    boxes_px.push_back({px->x0 - margin, px->y0 - margin, px->x1 + margin, px->y1 + margin});
+    regions.push_back(object_region(record, box, config.region));
+  }
+  if (boxes_px.empty()) return {};
+  DynamicMasks masks;
+  masks.background = find_background(record, boxes_px, config.segmentation);
+  masks.object.resize(record.size());
+  for (const auto& region : regions)
+    for (const auto i : region.pixels) masks.object[i] = 1;
+  masks.beside = grown(masks.object, config.region.rim_px, record);
+  for (const auto& region : regions)
+    if (!region.pixels.empty())
+      for (const auto i : region.small_parts) masks.beside[i] = 1;
+  return masks;
+}
+
+}  // namespace rds::mapper

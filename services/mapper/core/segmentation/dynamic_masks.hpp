@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "services/mapper/core/keyframe/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// What the boxes of movable objects tell of a keyframe's sampled pixels. All empty without such boxes.
+struct DynamicMasks {
+  std::vector<std::uint8_t> object;  // 1 in the depth cut of an object
+  std::vector<std::uint8_t> beside;  // 1 in the rim around a cut, and in small parts apart from it
+  std::vector<bool> background;      // on a plane that goes on outside of all boxes
+
+  [[nodiscard]] bool is_object(std::size_t pixel) const { return !object.empty() && object[pixel] != 0; }
+  [[nodiscard]] bool is_beside(std::size_t pixel) const { return !beside.empty() && beside[pixel] != 0; }
+  [[nodiscard]] bool is_background(std::size_t pixel) const {
+    return !background.empty() && background[pixel];
+  }
+};
+
+/// Cuts movable objects out of their boxes.
+/// @param record  with classes by depth. @param boxes  of all objects; static ones are passed over.
+DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
+                             const MapperConfig& config);
+
+}  // namespace rds::mapper

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/mapper/core/keyframe/keyframe_record.hpp"
+
+namespace rds::mapper {
+
+/// Image box [px of the full picture] of a labelled box: its own, or the projection of its 3-D box.
+/// @return nullopt if it is not finite or has no area inside the picture.
+std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record);
+
+/// Sampled pixels of an object, ascending.
+struct ObjectRegion {
+  std::vector<std::size_t> pixels;
+  std::vector<std::size_t> small_parts;  // of a movable object's cut; they may belong to other things
+};
+
+/// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.
+///
+/// The object's depth is the mean of median and lower third of the depths in the box's inner part (or near
+/// `box.depth_m`, or inside the 3-D box, if given); its pixels are those near that depth in the widened box,
+/// in connected parts that lie in the box.
+/// @return nothing if the box has no usable depth.
+/// Source: depth mask inside the box (NGD-SLAM); paper §IV-C asks for points inside the 3-D box.
+ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box, const RegionConfig& config);
+
+/// Where an object is in a keyframe: inside this box of the picture, between these depths.
+struct ObjectPlace {
+  geometry::Box2 box_px;  // widened by the margin
+  float min_depth_m = 0;
+  float max_depth_m = 0;
+
+  [[nodiscard]] bool is_in_box(const KeyframeRecord& record, std::size_t pixel) const;
+  [[nodiscard]] bool contains(const KeyframeRecord& record, std::size_t pixel) const;
+};
+
+/// The place of an object: its 3-D box if known, else its depth in the picture give or take half_depth_m.
+/// @return nullopt if the box has no usable depth.
+std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
+                                        const RegionConfig& config);
+
+}  // namespace rds::mapper

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/segmentation/segmentation.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/comparator.h>
+#include <pcl/segmentation/organized_connected_component_segmentation.h>
+
+namespace rds::mapper {
+namespace {
+
+using Point = pcl::PointXYZ;
+using Cloud = pcl::PointCloud<Point>;
+using LabelCloud = pcl::PointCloud<pcl::Label>;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr int kSameSurfaceTenthMm =
+    500;  // depth step between a point of a cluster and the pixels it stands for
+
+/// Neighbours belong together when they are nearer than a share of their depth (PCL's own comparator grows
+/// with depth², and joins everything at 3 m).
+class NearInSpace : public pcl::Comparator<Point> {
+ public:
+  explicit NearInSpace(float share_of_depth) : share_of_depth_(share_of_depth) {}
+  bool compare(int a, int b) const override {
+    const auto p = (*input_)[static_cast<std::size_t>(a)].getVector3fMap();
+    const auto q = (*input_)[static_cast<std::size_t>(b)].getVector3fMap();
+    return (p - q).norm() < share_of_depth_ * p.z();  // false for NaN
+  }
+
+ private:
+  float share_of_depth_;
+};
+
+/// The static points that are on no plane, NaN for all others.
+Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>& on_plane, int stride) {
+  auto cloud = pcl::make_shared<Cloud>();
+  for (int y = 0; y < record.height; y += stride)
+    for (int x = 0; x < record.width; x += stride) {
+      const auto i = static_cast<std::size_t>(y * record.width + x);
+      const bool used = record.classes[i] == PixelClass::kStatic && !on_plane[i];
+      const Eigen::Vector3f p = used ? record.point_in_camera(i) : Eigen::Vector3f::Constant(kNan);
+      cloud->push_back(Point(p.x(), p.y(), p.z()));
+    }
+  cloud->width = static_cast<std::uint32_t>((record.width + stride - 1) / stride);
+  cloud->height = static_cast<std::uint32_t>((record.height + stride - 1) / stride);
+  cloud->is_dense = false;
+  return cloud;
+}
+
+std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud, const SegmentationConfig& config) {
+  const auto near = pcl::make_shared<NearInSpace>(static_cast<float>(config.cluster_distance));
+  near->setInputCloud(cloud);
+  pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(near);
+  clustering.setInputCloud(cloud);
+  LabelCloud labels;
+  std::vector<pcl::PointIndices> clusters;
+  clustering.segment(labels, clusters);
+  const double needed = config.min_cluster_share * static_cast<double>(cloud->size());
+  std::erase_if(clusters, [&](const auto& c) { return static_cast<double>(c.indices.size()) < needed; });
+  return clusters;
+}
+
+/// All sampled pixels that the points of a cluster, which are every `stride`-th of every `stride`-th row,
+/// stand for.
+std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, const KeyframeRecord& record,
+                                   const std::vector<bool>& on_plane) {
+  const int columns = (record.width + stride - 1) / stride;
+  std::vector<std::size_t> pixels;
+  for (const int index : indices) {
+    const int x0 = index % columns * stride;
+    const int y0 = index / columns * stride;
+    const int depth = record.depth_tenth_mm[static_cast<std::size_t>(y0 * record.width + x0)];
+    for (int y = y0; y < std::min(record.height, y0 + stride); ++y)
+      for (int x = x0; x < std::min(record.width, x0 + stride); ++x) {
+        const auto i = static_cast<std::size_t>(y * record.width + x);
+        if (!on_plane[i] && std::abs(record.depth_tenth_mm[i] - depth) <= kSameSurfaceTenthMm)
+          pixels.push_back(i);
+      }
+  }
+  std::ranges::sort(pixels);
+  return pixels;
+}
+
+geometry::Box2 box_around(const std::vector<std::size_t>& pixels, const KeyframeRecord& record) {
+  geometry::Box2 box{1e9, 1e9, -1e9, -1e9};
+  const double s = record.stride;
+  for (const auto i : pixels) {
+    const auto x = static_cast<double>(i % static_cast<std::size_t>(record.width));
+    const auto y = static_cast<double>(i / static_cast<std::size_t>(record.width));
+    box = {std::min(box.x0, x * s), std::min(box.y0, y * s), std::max(box.x1, (x + 1) * s),
+           std::max(box.y1, (y + 1) * s)};
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationConfig& config) {
+  std::vector<Segment> segments;
+  std::vector<bool> on_plane(record.size(), false);
+  for (auto& surface : find_planes(record, config)) {
+    for (const auto i : surface.pixels) on_plane[i] = true;
+    const auto box = box_around(surface.pixels, record);
+    segments.push_back({box, std::move(surface.pixels), surface.plane});
+  }
+  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride), config)) {
+    auto pixels = pixels_of(cluster.indices, config.stride, record, on_plane);
+    const auto box = box_around(pixels, record);
+    segments.push_back({box, std::move(pixels), std::nullopt});
+  }
+  return segments;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/segmentation/static_object.hpp"
+
+#include <algorithm>
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kMostly = 0.5;   // share of a segment's pixels in the object's place
+constexpr double kOneSide = 0.9;  // share of the object's other pixels on one side of a plane that bounds it
+constexpr double kStandsOut = 0.1;  // share of the object's pixels off the plane; with less it is flush
+
+bool overlap(const geometry::Box2& a, const geometry::Box2& b) {
+  return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
+
+bool lies_in(const ObjectPlace& place, const Segment& segment, const KeyframeRecord& record) {
+  const auto inside =
+      std::ranges::count_if(segment.pixels, [&](std::size_t i) { return place.contains(record, i); });
+  return static_cast<double>(inside) >= kMostly * static_cast<double>(segment.pixels.size());
+}
+
+/// Takes the pixels on a plane away, if the others lie on one side of it: a plane that passes through an
+/// object, as that of a table top through the chair before it, does not bound it.
+void remove_support(const Plane& plane, const KeyframeRecord& record, const SegmentationConfig& config,
+                    std::vector<std::size_t>& pixels) {
+  std::vector<std::size_t> others;
+  double above = 0;
+  for (const auto i : pixels) {
+    const Eigen::Vector3f point = record.point_in_camera(i);
+    if (lies_on(plane, point, config)) continue;
+    others.push_back(i);
+    above += plane.distance_m(point.cast<double>()) > 0 ? 1 : 0;
+  }
+  const auto count = static_cast<double>(others.size());
+  const bool bounds = std::max(above, count - above) >= kOneSide * count;
+  if (bounds && count >= kStandsOut * static_cast<double>(pixels.size())) pixels = std::move(others);
+}
+
+bool is_flush(const std::vector<std::size_t>& region, std::span<const Plane> planes,
+              const KeyframeRecord& record, const SegmentationConfig& config) {
+  return std::ranges::any_of(planes, [&](const Plane& plane) {
+    const auto out = std::ranges::count_if(
+        region, [&](std::size_t i) { return !lies_on(plane, record.point_in_camera(i), config); });
+    return static_cast<double>(out) < kStandsOut * static_cast<double>(region.size());
+  });
+}
+
+}  // namespace
+
+StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
+                           std::span<const Segment> segments, const MapperConfig& config) {
+  const auto place = object_place(record, box, config.region);
+  if (!place) return {};
+  std::vector<bool> is_object(record.size(), false);
+  const auto region = object_region(record, box, config.region).pixels;
+  for (const auto i : region) is_object[i] = true;
+  std::vector<Plane> elsewhere;
+  for (const auto& segment : segments) {
+    if (!overlap(segment.box_px, place->box_px)) continue;
+    const bool own = lies_in(*place, segment, record);
+    for (const auto i : segment.pixels) is_object[i] = own && place->is_in_box(record, i);
+    if (!own && segment.plane) elsewhere.push_back(*segment.plane);
+  }
+  StaticObject object{{}, is_flush(region, elsewhere, record, config.segmentation)};
+  if (object.flush)
+    for (const auto i : region) is_object[i] = true;
+  for (std::size_t i = 0; i < is_object.size(); ++i)
+    if (is_object[i] && record.classes[i] == PixelClass::kStatic) object.pixels.push_back(i);
+  for (const auto& plane : elsewhere) remove_support(plane, record, config.segmentation, object.pixels);
+  return object;
+}
+
+}  // namespace rds::mapper

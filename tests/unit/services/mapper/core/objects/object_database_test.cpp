@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/objects/object_database.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using test::point_at;
+using test::SyntheticKeyframe;
+
+const cv::Rect kChair(100, 80, 80, 80);
+constexpr double kChairM = 2.0;
+
+SyntheticKeyframe with_chair(std::uint64_t id, float score = 0.8F) {
+  return SyntheticKeyframe(id).rectangle(kChair, kChairM).box("chair", kChair, false, score);
+}
+
+TEST(ObjectDatabase, FusesSightingsOfTheSameObjectIntoOne) {
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 5; ++id) mapper.integrate(with_chair(id).make());
+  const auto objects = mapper.objects();
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].label, "chair");
+  EXPECT_EQ(objects[0].observations, 5U);
+  EXPECT_NEAR(objects[0].score, 0.8, 1e-6);
+  EXPECT_LT((objects[0].center - point_at(140, 120, kChairM)).norm(), 0.05);
+  EXPECT_NEAR(objects[0].size.x(), 80 * kChairM / 290, 0.08);
+  EXPECT_EQ(objects[0].first_seen_ns, 0);
+  EXPECT_EQ(objects[0].last_seen_ns, 400'000'000);
+}
+
+TEST(ObjectDatabase, ReportsAnObjectOnlyAfterEnoughSightings) {
+  SemanticMapper mapper(MapperConfig{});
+  mapper.integrate(with_chair(0).make());
+  EXPECT_TRUE(mapper.objects().empty());
+  mapper.integrate(with_chair(1).make());
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
+TEST(ObjectDatabase, ReportsAnObjectOfWeakBoxesAfterMoreSightings) {
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 3; ++id) mapper.integrate(with_chair(id, 0.3F));
+  EXPECT_TRUE(mapper.objects().empty());
+  mapper.integrate(with_chair(3, 0.3F));
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
+TEST(ObjectDatabase, KeepsNeighboursOfTheSameClassApart) {
+  const cv::Rect left(20, 80, 60, 60);
+  const cv::Rect right(230, 80, 60, 60);
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 3; ++id)
+    mapper.integrate(SyntheticKeyframe(id)
+                         .rectangle(left, 2.0)
+                         .rectangle(right, 2.0)
+                         .box("chair", left, false)
+                         .box("chair", right, false)
+                         .make());
+  EXPECT_EQ(mapper.objects().size(), 2U);
+}
+
+TEST(ObjectDatabase, ASightingWhoseMiddleLiesInAnObjectIsOfIt) {
+  const cv::Rect table(0, 80, 240, 80);
+  const cv::Rect end_and_more(170, 60, 130, 140);
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 3; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(table, 2.0).box("diningtable", table, false));
+  for (; id < 5; ++id)
+    mapper.integrate(
+        SyntheticKeyframe(id).rectangle(end_and_more, 2.0).box("diningtable", end_and_more, false));
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
+TEST(ObjectDatabase, KeepsWithItsLabelsWhatTheDetectorSeldomFinds) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 2; ++id) mapper.integrate(with_chair(id));
+  for (; id < 25; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  EXPECT_EQ(mapper.objects().size(), 1U);
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  EXPECT_EQ((Rgb{color.r, color.g, color.b}), label_color("chair"));
+}
+
+TEST(ObjectDatabase, WhatIsFoundLateHasItsLabelWhenTheMapSettles) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 20; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  for (; id < 24; ++id) mapper.integrate(with_chair(id));
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = [&] {
+    const auto c = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+    return Rgb{c.r, c.g, c.b};
+  };
+  EXPECT_NE(color(), label_color("chair"));
+  mapper.settle({});
+  EXPECT_EQ(color(), label_color("chair"));
+}
+
+TEST(ObjectDatabase, ForgetsWhatWasFoundTwiceAndThenNeverAgain) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 2; ++id) mapper.integrate(with_chair(id));
+  for (; id < 60; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  EXPECT_TRUE(mapper.objects().empty());
+  for (; id < 80; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
+  const auto middle = point_at(140, 120, kChairM);
+  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  EXPECT_NE((Rgb{color.r, color.g, color.b}), label_color("chair"));
+}
+
+TEST(ObjectDatabase, MovableObjectsNeverEnter) {
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 4; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("person", kChair, true).make());
+  EXPECT_TRUE(mapper.objects().empty());
+}
+
+TEST(ObjectDatabase, ForgetsWhatIsSeenThrough) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 4; ++id) mapper.integrate(with_chair(id).make());
+  ASSERT_EQ(mapper.objects().size(), 1U);
+  for (; id < 12; ++id) mapper.integrate(SyntheticKeyframe(id).looked_for_objects().make());
+  EXPECT_TRUE(mapper.objects().empty());
+}
+
+TEST(ObjectDatabase, KeepsWhatIsHiddenOrOutOfViewOrNotLookedFor) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 3; ++id) mapper.integrate(with_chair(id).make());
+  const geometry::Pose turned(Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitY()));
+  for (; id < 15; ++id) {
+    mapper.integrate(SyntheticKeyframe(id).rectangle({60, 0, 200, 240}, 1.0).looked_for_objects().make());
+    mapper.integrate(SyntheticKeyframe(id + 1000).looked_for_objects().pose(turned).make());
+    mapper.integrate(SyntheticKeyframe(id + 2000).make());
+  }
+  EXPECT_EQ(mapper.objects().size(), 1U);
+}
+
+TEST(ObjectDatabase, WritesJson) {
+  MapObject chair{.id = 3,
+                  .label = "ch\"air",
+                  .score = 0.75F,
+                  .center = {1, 2, 3},
+                  .size = {0.5, 0.25, 1},
+                  .observations = 7,
+                  .first_seen_ns = 0,
+                  .last_seen_ns = 1};
+  const auto json = nlohmann::json::parse(to_json(std::vector{chair}));
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["id"], 3);
+  EXPECT_EQ(json[0]["label"], "ch\"air");
+  EXPECT_EQ(json[0]["center"], (std::vector{1.0, 2.0, 3.0}));
+  EXPECT_EQ(json[0]["size"], (std::vector{0.5, 0.25, 1.0}));
+  EXPECT_EQ(json[0]["observations"], 7);
+  EXPECT_EQ(json[0]["movable"], false);
+  EXPECT_EQ(to_json({}), "[]\n");
+}
+
+}  // namespace
+}  // namespace rds::mapper

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/io/map_files.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "services/mapper/core/octree/tree_bytes.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
+
+namespace rds::mapper {
+namespace {
+
+class MapFiles : public testing::Test {
+ protected:
+  MapFiles() { mapper_.integrate(test::SyntheticKeyframe(0).make()); }
+
+  std::string refusal(const std::string& content) {
+    std::ofstream(folder_.path() / "bad.ot", std::ios::binary) << content;
+    const auto read = read_tree(folder_.path() / "bad.ot");
+    EXPECT_FALSE(read.has_value());
+    return read ? "" : read.error();
+  }
+  std::string content(const std::string& name) {
+    std::ifstream in(folder_.path() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  rds::test::TemporaryFolder folder_;
+  SemanticMapper mapper_{MapperConfig{}};
+};
+
+TEST_F(MapFiles, ATreeReadsBackAndOctoMapReadsItToo) {
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
+  auto read = read_tree(folder_.path() / "map.ot");
+  ASSERT_TRUE(read.has_value()) << read.error();
+  EXPECT_TRUE(looks_like_tree(folder_.path() / "map.ot"));
+  EXPECT_FALSE(looks_like_tree(folder_.path()));
+  EXPECT_EQ((*read)->getResolution(), 0.05);
+  EXPECT_EQ(to_bytes(**read), to_bytes(mapper_.tree()));
+  const std::unique_ptr<octomap::AbstractOcTree> octomaps(
+      octomap::AbstractOcTree::read((folder_.path() / "map.ot").string()));
+  ASSERT_NE(octomaps, nullptr);
+  EXPECT_EQ(octomaps->getTreeType(), "ColorOcTree");
+  EXPECT_EQ(octomaps->size(), mapper_.tree().size());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "map.ot.partial"));
+}
+
+TEST_F(MapFiles, ASavedMapGoesOn) {
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
+  auto read = read_tree(folder_.path() / "map.ot");
+  ASSERT_TRUE(read.has_value());
+  SemanticMapper continued{MapperConfig{}};
+  ASSERT_TRUE(continued.start_from(std::move(**read)));
+  EXPECT_EQ(to_bytes(continued.tree()), to_bytes(mapper_.tree()));
+  continued.integrate(test::SyntheticKeyframe(1).make());
+  mapper_.integrate(test::SyntheticKeyframe(1).make());
+  EXPECT_EQ(continued.tree().size(), mapper_.tree().size());
+  continued.settle({});
+  EXPECT_FLOAT_EQ(test::log_odds_at(continued.tree(), test::point_at(20, 20, 3.0)), 1.7F);
+  EXPECT_FALSE(continued.start_from(octomap::ColorOcTree(0.1)));
+}
+
+TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
+  const auto good = content("map.ot");
+  EXPECT_THAT(refusal(good.substr(0, good.size() / 2)),
+              testing::HasSubstr("bad.ot: is damaged: the tree ends after"));
+  EXPECT_THAT(refusal(good + "x"), testing::HasSubstr("1 bytes after the last node"));
+  EXPECT_THAT(refusal("P5 picture"), testing::HasSubstr("is not an OctoMap .ot or .bt file"));
+  EXPECT_THAT(refusal(""), testing::HasSubstr("is not an OctoMap .ot or .bt file"));
+  EXPECT_THAT(refusal("# Octomap OcTree file\nid OcTree\nsize 0\nres 0.05\ndata\n"),
+              testing::HasSubstr("'OcTree'"));
+  EXPECT_THAT(refusal("# Octomap OcTree file\nid ColorOcTree\nres x\ndata\n"),
+              testing::HasSubstr("resolution"));
+  EXPECT_THAT(read_tree(folder_.path() / "none.ot").error(), testing::HasSubstr("none.ot: cannot be read"));
+  EXPECT_THAT(read_tree(folder_.path()).error(), testing::HasSubstr("cannot be read"));
+}
+
+TEST_F(MapFiles, WritesTheOtherFilesOfARun) {
+  ASSERT_TRUE(write_objects(folder_.path() / "objects.json", mapper_.objects()));
+  ASSERT_TRUE(write_grid(folder_.path(), mapper_.grid()));
+  ASSERT_TRUE(write_keyframes(folder_.path() / "keyframes.txt", mapper_.archive().poses()));
+  EXPECT_EQ(content("objects.json"), "[]\n");
+  EXPECT_THAT(content("grid.pgm"), testing::StartsWith("P5\n"));
+  EXPECT_THAT(content("grid.yaml"), testing::HasSubstr("image: grid.pgm"));
+  EXPECT_THAT(content("keyframes.txt"), testing::HasSubstr("0.000000000 0.000000000"));
+  EXPECT_THAT(write_objects(folder_.path() / "no" / "objects.json", {}).error(),
+              testing::HasSubstr("cannot be written"));
+}
+
+}  // namespace
+}  // namespace rds::mapper

@@ -159,7 +159,7 @@ TEST_P(SecuredBus, AForeignClientHearsNothing) {
     GTEST_SKIP() << "no Python package cyclonedds (set RDS_PYTHON)";
   start({"--secure", secured_});
   const ProcessResult client =
-      run_process({interpreter, "-B", RDS_SOURCE_DIR "/tests/integration/external_client.py", "--domain", kDomain,
+      run_process({interpreter, "-B", RDS_SOURCE_DIR "/tests/integration/bus/external_client.py", "--domain", kDomain,
                    "--seconds", "6", "--loopback", "--topic", "rds/odometry", "--topic", "rds/map/full"},
                   60s);
   EXPECT_EQ(client.status, 1) << client.standard_output << client.standard_error;

@@ -153,7 +153,7 @@ TEST(Strangers, ChangeNothingOfALockstepRun) {
   EXPECT_GE(impostor.spoken(), 5);
   for (const char* file : {"trajectory.txt", "keyframes.txt", "predictions.jsonl", "objects.json", "map.ot"})
     EXPECT_EQ(read_text(place / "alone" / file), read_text(place / "disturbed" / file)) << file;
-  EXPECT_THAT(read_text(place / "disturbed/log/rds-mapper.log"), HasSubstr("another tracker"));
+  EXPECT_THAT(read_text(place / "disturbed/log/rds-loop-closer.log"), HasSubstr("another tracker"));
   EXPECT_THAT(read_text(place / "disturbed/log/rds-mapper.log"), HasSubstr("in another one's name"));
   EXPECT_THAT(read_text(place / "disturbed/log/rds-tracker.log"), HasSubstr("\\xFF\\xFF"));
 }

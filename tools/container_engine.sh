@@ -47,7 +47,7 @@ launch_engine() {
   fail "the Docker engine did not start, see $engine_folder/engine.log"
 }
 
-# Ends the engine and every process of its containers with SIGKILL.
+# Ends the engine and every process of its containers with SIGKILL, as when the power fails.
 kill_engine() {
   local shims
   kill -9 "$engine_pid"
@@ -57,7 +57,10 @@ kill_engine() {
   [ -z "$shims" ] || kill -9 $shims 2>/dev/null || true
   pkill -9 -f "containerd.*$engine_run" || true
   wait "$engine_pid" 2>/dev/null || true
-  rm -f "$engine_run/pid"
+  # What lies in memory does not outlast a failure of the power.
+  umount "$engine_run"/exec/netns/* 2>/dev/null || true
+  find "$engine_run/exec" -name rootfs -exec umount -l {} + 2>/dev/null || true
+  rm -rf "$engine_run/exec" "$engine_run/pid" "$engine_run/docker.sock"
 }
 
 stop_engine() {

@@ -15,7 +15,7 @@ import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parents[1]
-sys.path.insert(0, str(FOLDER.parent / "integration"))
+sys.path.insert(0, str(FOLDER.parent / "integration" / "bus"))
 from peer_process import VENDORS, Peer  # noqa: E402
 
 BUS_PEER = sys.argv.pop(1)

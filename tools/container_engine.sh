@@ -49,26 +49,26 @@ launch_engine() {
 
 # Ends the engine and every process of its containers with SIGKILL, as when the power fails.
 kill_engine() {
-  local shims
+  local shim
   kill -9 "$engine_pid"
-  shims=$(pgrep -f "containerd-shim.*$engine_run" || true)
-  # shellcheck disable=SC2086
-  for shim in $shims; do pkill -9 -P "$shim" || true; done
-  [ -z "$shims" ] || kill -9 $shims 2>/dev/null || true
+  for shim in $(pgrep -f "containerd-shim.*$engine_run"); do pkill -9 -P "$shim" || true; done
   pkill -9 -f "containerd.*$engine_run" || true
   wait "$engine_pid" 2>/dev/null || true
-  # What lies in memory does not outlast a failure of the power.
-  umount "$engine_run"/exec/netns/* 2>/dev/null || true
-  find "$engine_run/exec" -name rootfs -exec umount -l {} + 2>/dev/null || true
-  rm -rf "$engine_run/exec" "$engine_run/pid" "$engine_run/docker.sock"
+  forget_run
 }
 
 stop_engine() {
   [ -n "$engine_pid" ] || return 0
   kill "$engine_pid" 2>/dev/null || true
   wait "$engine_pid" 2>/dev/null || true
-  umount "$engine_run"/exec/netns/* 2>/dev/null || true
+  forget_run
   rm -rf "$engine_run"
+}
+
+# What an engine keeps in memory: it outlasts no failure of the power.
+forget_run() {
+  umount "$engine_run"/exec/netns/* 2>/dev/null || true
+  rm -rf "${engine_run:?}"/*
 }
 
 # Where Debian's packages come from on this machine.

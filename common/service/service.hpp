@@ -29,7 +29,6 @@ struct ServiceContext {
   Diagnostics& diagnostics;
   int domain = 0;
   std::uint64_t instance = random_id();  // of this process, in all that it publishes
-  std::shared_ptr<InstanceOwners> owners = std::make_shared<InstanceOwners>();
 };
 
 struct CommandOutcome {
@@ -118,7 +117,7 @@ class Service {
     return topics::subscribe(
         context_.bus, topic, process,
         [this, topic, callback](std::shared_ptr<const Message> message, const bus::ParticipantId& writer) {
-          if (context_.owners->owns(writer, message->instance())) return callback(std::move(message));
+          if (owners_.owns(writer, message->instance())) return callback(std::move(message));
           context_.diagnostics.reject(topic.name, Rejection::kForeign, "written in another one's name");
         });
   }
@@ -129,6 +128,7 @@ class Service {
 
  private:
   static constexpr std::chrono::milliseconds kBeatInterval{500};
+  InstanceOwners owners_;
   std::atomic<std::chrono::steady_clock::rep> last_beat_;
 };
 

@@ -36,15 +36,12 @@ std::vector<Eigen::Vector3f> dynamic_points(const KeyframeRecord& record, const 
 }
 
 /// Rule 8.
-Doubt doubt_of(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks,
-               const NearPoints& near_dynamic) {
-  if (masks.is_background(pixel)) return Doubt::kNone;
+bool is_doubtful(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks,
+                 const NearPoints& near_dynamic) {
+  if (masks.is_background(pixel)) return false;
   const PixelClass its_class = record.classes[pixel];
-  if (its_class == PixelClass::kUnknown)
-    return masks.is_beside(pixel) ? Doubt::kBesideDynamic : Doubt::kMovingCell;
-  const bool is_near =
-      its_class == PixelClass::kStatic && near_dynamic.contains(record.point_in_camera(pixel));
-  return is_near ? Doubt::kNearDynamic : Doubt::kNone;
+  return its_class == PixelClass::kUnknown ||
+         (its_class == PixelClass::kStatic && near_dynamic.contains(record.point_in_camera(pixel)));
 }
 
 DoubtfulPixels doubtful_pixels(const KeyframeRecord& record, const DynamicMasks& masks,
@@ -56,7 +53,7 @@ DoubtfulPixels doubtful_pixels(const KeyframeRecord& record, const DynamicMasks&
   DoubtfulPixels doubt;
   doubt.is_doubtful.resize(record.size());
   for (std::size_t i = 0; i < record.size(); ++i)
-    doubt.is_doubtful[i] = doubt_of(i, record, masks, near) != Doubt::kNone;
+    doubt.is_doubtful[i] = is_doubtful(i, record, masks, near);
   if (std::ranges::find(doubt.is_doubtful, true) == doubt.is_doubtful.end()) return {};
   doubt.surfaces = find_surfaces(record, config.sampling, doubt.surface);
   return doubt;

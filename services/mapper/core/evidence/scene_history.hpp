@@ -16,10 +16,11 @@ struct SceneHistory {
     dynamics.see(record, config);
   }
 
-  /// Doubt::kGhost. @param time_ns  of the keyframe that asks.
+  /// Static in fewer keyframes than dynamic, and in none later than the one that asks. @param time_ns  of the keyframe that asks.
   [[nodiscard]] bool is_ghost(const octomap::OcTreeKey& key, std::int64_t time_ns) const;
 
-  /// Doubt::kTransient. @param apart_ns  so long before the first dynamic sighting or after the last one a
+  /// Static only at times at which others saw something dynamic there, and in fewer keyframes.
+  /// @param apart_ns  so long before the first dynamic sighting or after the last one a
   /// static one is at another time.
   [[nodiscard]] bool is_transient(const octomap::OcTreeKey& key, std::int64_t apart_ns) const;
 };

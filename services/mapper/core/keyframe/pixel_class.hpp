@@ -17,18 +17,9 @@ enum class PixelClass : std::uint8_t {
 };
 using PixelClasses = std::vector<PixelClass>;
 
-/// Why something that was measured as a surface may not be static.
-enum class Doubt : std::uint8_t {
-  kNone,
-  // Of a pixel, by its own keyframe: classify().
-  kBesideDynamic,  // in the rim of a dynamic object, or in a small part of its depth cut
-  kMovingCell,     // in a cell of the picture in which the tracker found motion
-  kNearDynamic,    // static, but within confirmation.radius_m of something dynamic
-  // Of a place, by all keyframes: SceneHistory.
-  kTransient,  // static only at times at which others saw something dynamic there, and in fewer keyframes
-  kGhost,      // static in fewer keyframes than dynamic, and in none later than the one that asks
-  // Of an occupied voxel: SemanticOctree.
-  kSeldomSeen,  // hit in no more than octree.weak_sightings keyframes
-};
+// What was measured as a surface is in doubt where
+//   a pixel is unknown, or static and near something dynamic (classify()),
+//   a place is a ghost or transient (SceneHistory),
+//   an occupied voxel is a ghost, or was hit in no more than octree.weak_sightings keyframes (SemanticOctree).
 
 }  // namespace rds::mapper

@@ -97,7 +97,7 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
     const auto flags = block.flags[first_cell + index];
     if ((flags & kMeasured) == 0 &&
         ((flags & kNoReturnRay) == 0 ||
-         doubt_of(parent, index, child_key(base, index, 1), update) == Doubt::kNone))
+         !is_doubtful(parent, index, child_key(base, index, 1), update)))
       continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
@@ -108,14 +108,13 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
 }
 
 /// Whether it is in doubt that a voxel is occupied; of one that is not there is none.
-Doubt SemanticOctree::doubt_of(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                               const Update& update) const {
-  if (!tree_.nodeChildExists(parent, index)) return Doubt::kNone;
-  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return Doubt::kNone;
-  if (update.history.is_ghost(key, update.time_ns)) return Doubt::kGhost;
+bool SemanticOctree::is_doubtful(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                                 const Update& update) const {
+  if (!tree_.nodeChildExists(parent, index)) return false;
+  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
+  if (update.history.is_ghost(key, update.time_ns)) return true;
   const auto found = memory_.find(packed(key));
-  const bool seldom_seen = found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
-  return seldom_seen ? Doubt::kSeldomSeen : Doubt::kNone;
+  return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
 }
 
 /// Paper §IV-C; deviation: a ray through a ghost takes suspect_miss.

@@ -16,8 +16,8 @@ namespace rds::mapper {
 /// with dynamic points or that a ray passes (a miss), clamped; occupied above p = 0.5.
 ///
 /// Each voxel changes at most once per keyframe; a hit wins over a miss. Deviations: a ray that passes a
-/// ghost (Doubt::kGhost) takes −1.2; a ray without return is a miss for voxels in doubt (kGhost, kSeldomSeen)
-/// only. Labels: keyframes vote on them, see VoxelMemory.
+/// ghost takes −1.2; a ray without return is a miss for voxels in doubt only (ghosts, and seldom seen ones).
+/// Labels: keyframes vote on them, see VoxelMemory.
 class SemanticOctree {
  public:
   /// One keyframe's news for the octree.
@@ -57,8 +57,8 @@ class SemanticOctree {
   void update_block(const ScanGrid::Block& block, const Update& update);
   void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
                        unsigned first_cell, const Update& update);
-  [[nodiscard]] Doubt doubt_of(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                               const Update& update) const;
+  [[nodiscard]] bool is_doubtful(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                                 const Update& update) const;
   [[nodiscard]] double step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,

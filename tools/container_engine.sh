@@ -65,9 +65,10 @@ stop_engine() {
   rm -rf "$engine_run"
 }
 
-# What an engine keeps in memory: it outlasts no failure of the power.
+# What an engine that has ended leaves in memory, mounts too: it outlasts no failure of the power.
 forget_run() {
-  umount "$engine_run"/exec/netns/* 2>/dev/null || true
+  findmnt --raw --noheadings --output TARGET | grep -E "^($engine_folder|$engine_run)/" | sort --reverse |
+    xargs --no-run-if-empty umount --lazy || true
   rm -rf "${engine_run:?}"/*
 }
 

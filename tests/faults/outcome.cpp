@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "tests/integration/run_support.hpp"
-#include "tools/evaluation/map_score.hpp"
 #include "tools/evaluation/octree_file.hpp"
 #include "tools/evaluation/voxel_set.hpp"
 
@@ -31,25 +30,12 @@ double recall_of_map(const std::filesystem::path& out, const std::filesystem::pa
   return static_cast<double>(found) / static_cast<double>(expected.size());
 }
 
-double recall_of_surfaces(const RecordingPair& recording, const std::filesystem::path& out,
-                          const std::filesystem::path& undisturbed) {
-  const auto map = evaluation::score_map({.dataset = recording.dataset,
-                                          .background = recording.background,
-                                          .out = out,
-                                          .every = 5,
-                                          .seen_by = undisturbed});
-  if (!map) throw std::runtime_error(map.error());
-  return map->static_recall;
-}
-
 }  // namespace
 
-Figures figures_of(const RecordingPair& recording, const std::filesystem::path& out,
+Figures figures_of(const std::filesystem::path& recording, const std::filesystem::path& out,
                    const std::filesystem::path& undisturbed) {
-  const auto path = score(recording.dataset, out);
-  const double recall = recording.background.empty() ? recall_of_map(out, undisturbed)
-                                                     : recall_of_surfaces(recording, out, undisturbed);
-  return {path["ate_live"].get<double>(), path["ate_final"].get<double>(), recall};
+  const auto path = score(recording, out);
+  return {path["ate_live"].get<double>(), path["ate_final"].get<double>(), recall_of_map(out, undisturbed)};
 }
 
 }  // namespace rds::test

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "tests/faults/recordings.hpp"
 
 namespace rds::test {
 
@@ -11,15 +10,14 @@ namespace rds::test {
 struct Figures {
   double ate_live_m = 0;
   double ate_final_m = 0;
-  double recall = 0;  // of the static surfaces that the undisturbed run's keyframes have seen; of its map's
-                      // voxels where nobody walks
+  double recall = 0;  // of the voxels of the undisturbed run's map
 };
 
-/// A camera that only turns tells too little of where truth's frame lies to compare its map with truth: there
-/// the undisturbed map stands for it.
+/// The undisturbed map stands for the truth: a camera that moves as little as in these seconds tells too little
+/// of where the truth's frame lies.
 /// @param out  results of a trial. @param undisturbed  those it is compared with, which may be the same.
 /// @throws std::runtime_error with one sentence if they cannot be scored.
-Figures figures_of(const RecordingPair& recording, const std::filesystem::path& out,
+Figures figures_of(const std::filesystem::path& recording, const std::filesystem::path& out,
                    const std::filesystem::path& undisturbed);
 
 }  // namespace rds::test

@@ -14,30 +14,27 @@ constexpr double kLengthS = 30;
 
 /// A recording, and where the part begins in which people, if any, come and go [s].
 struct Source {
-  RecordingPair whole;
+  std::filesystem::path dataset;
   double from_s;
 };
 
 Source source_of(const std::string& name) {
   if (name == "walkers") {
     const TestRecording people = recording_with_people();
-    if (people.rendered) return {{people.folder, rendered_recording("room_empty")}, 0};
-    return {{people.folder, shared() / "data/7scenes_kitchen"}, 6};
+    return {people.folder, people.rendered ? 0.0 : 6.0};
   }
   if (name != "rpy") throw std::runtime_error(name + ": no such recording");
-  const auto folder = why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy"
-                                                                 : rendered_recording("room_empty");
-  return {{folder, {}}, 0};
+  return {why_not_shared("data/tum_fr1_rpy").empty() ? shared() / "data/tum_fr1_rpy"
+                                                     : rendered_recording("room_empty"),
+          0};
 }
 
 }  // namespace
 
-RecordingPair to_and_fro(const std::string& name, const std::filesystem::path& place) {
-  const auto [whole, from_s] = source_of(name);
-  make_to_and_fro(whole.dataset, place / name, from_s, kTurnS, kLengthS);
-  if (whole.background.empty()) return {place / name, {}};
-  make_to_and_fro(whole.background, place / (name + "_background"), from_s, kTurnS, kLengthS);
-  return {place / name, place / (name + "_background")};
+std::filesystem::path to_and_fro(const std::string& name, const std::filesystem::path& place) {
+  const auto [dataset, from_s] = source_of(name);
+  make_to_and_fro(dataset, place / name, from_s, kTurnS, kLengthS);
+  return place / name;
 }
 
 }  // namespace rds::test

@@ -37,8 +37,7 @@ class SanitizedFaults : public testing::TestWithParam<Row> {
 TEST_P(SanitizedFaults, NothingIsReported) {
   const Row& row = GetParam();
   const TemporaryFolder place;
-  const RecordingPair recording = to_and_fro(row.recording, place.path());
-  const Trial::Report report = Trial(recording.dataset, row, kTiming, place / "out", kPatience).run();
+  const Trial::Report report = Trial(to_and_fro(row.recording, place.path()), row, kTiming, place / "out", kPatience).run();
   for (const auto& [service, ends] : report.ends)
     EXPECT_EQ(ends, service == row.service ? row.expected_ends() : std::vector<int>{}) << service;
   EXPECT_THAT(report.faults, IsEmpty());

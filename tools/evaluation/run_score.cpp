@@ -79,7 +79,7 @@ Result add_boxes(const RunScoreInput& input, Figures& figures) {
 
 Result add_map(const RunScoreInput& input, Figures& figures) {
   if (!input.background || !std::filesystem::exists(input.out / "map.ot")) return {};
-  const auto score = score_map({input.dataset, *input.background, input.out, input.every, {}});
+  const auto score = score_map({input.dataset, *input.background, input.out, input.every});
   if (!score) return tl::unexpected(score.error());
   figures["map_nodes"] = score->nodes;
   figures["map_occupied"] = score->occupied;

@@ -11,7 +11,7 @@
 namespace rds::secure {
 
 /// What holds for everybody in the domains 0 to 230: pictures are encrypted as they are, of all other topics
-/// every submessage is. common/bus/README.md gives the reasons.
+/// every submessage is. README.md gives the reasons.
 std::string governance(const std::vector<std::string>& camera_topics);
 
 /// What the holder of the certificate with this subject may do; anything else is denied.

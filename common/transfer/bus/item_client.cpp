@@ -14,6 +14,7 @@ constexpr std::size_t kMostOffers = 100;
 constexpr std::size_t kMostChunks = 8192;  // 10 MB
 constexpr Time kHelloPeriod = std::chrono::seconds(1);
 constexpr milliseconds kLongestWait{500};
+constexpr Time kPatience = std::chrono::seconds(2);
 constexpr std::size_t kMostRows = 40;  // in one datagram
 
 Time now() {
@@ -55,15 +56,25 @@ ItemClient::~ItemClient() {
 }
 
 void ItemClient::run(const std::stop_token& stop) {
+  started_ = now();
   while (!stop.stop_requested()) {
     const auto due = receiver_.next_due();
     const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
     mailbox_.wait_for(stop, std::clamp(wait, milliseconds(0), kLongestWait),
                       [this] { return !offers_.locked_empty() || !chunks_.locked_empty(); });
-    while (const auto offers = offers_.try_pop()) take(**offers);
-    while (const auto chunk = chunks_.try_pop()) take(**chunk, now());
-    if (where_ == Where::kElsewhere && !stop.stop_requested()) ask(now());
+    try {
+      step();
+    } catch (const std::exception& e) {
+      context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
+    }
   }
+}
+
+void ItemClient::step() {
+  while (const auto offers = offers_.try_pop()) take(**offers);
+  while (const auto chunk = chunks_.try_pop()) take(**chunk, now());
+  if (where_ == Where::kUnknown && now() - started_ > kPatience) be(Where::kHere);
+  if (where_ == Where::kElsewhere) ask(now());
 }
 
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
@@ -88,7 +99,10 @@ void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
     receiver_ = {};
     for (const Stream stream : streams_) receiver_.want(stream, stream == Stream::kMap);
   }
-  const Where where = offers.host() == host_ ? Where::kHere : Where::kElsewhere;
+  be(offers.host() == host_ ? Where::kHere : Where::kElsewhere);
+}
+
+void ItemClient::be(Where where) {
   if (std::exchange(where_, where) != where) callbacks_.where(where);
 }
 

@@ -24,7 +24,7 @@ namespace rds::transfer {
 /// Fetches what a service on another machine offers, on a thread of its own.
 class ItemClient {
  public:
-  /// Where the service is whose offers are followed.
+  /// Where the service is whose offers are followed; kHere too for one that has offered nothing for 2 s.
   enum class Where : std::uint8_t { kUnknown, kHere, kElsewhere };
   struct Callbacks {
     std::function<void(std::uint64_t map_epoch, Item)> item;  // a whole item, on the client's thread
@@ -43,9 +43,11 @@ class ItemClient {
   using Chunks = std::shared_ptr<const rds_msgs::msg::TransferChunk>;
 
   void run(const std::stop_token& stop);
+  void step();
   void take(const rds_msgs::msg::TransferOffer& offers);
   void follow(const rds_msgs::msg::TransferOffer& offers);
   void take(const rds_msgs::msg::TransferChunk& chunk, Time now);
+  void be(Where where);
   void ask(Time now);
   void send(std::span<const Request> requests);
 
@@ -59,6 +61,7 @@ class ItemClient {
   std::uint64_t writer_ = 0;  // instance
   std::uint64_t map_epoch_ = 0;
   Where where_ = Where::kUnknown;
+  Time started_{};
   Receiver receiver_;
   Time last_hello_{};
   std::atomic<std::size_t> lacking_ = 0;  // these are read by diagnostics

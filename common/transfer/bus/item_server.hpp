@@ -33,6 +33,9 @@ class ItemServer {
   ItemServer(const ItemServer&) = delete;
   ItemServer& operator=(const ItemServer&) = delete;
 
+  /// Whether a reader on another machine has ever been there.
+  [[nodiscard]] bool has_readers() const { return has_readers_; }
+
   /// Offers an item, of any thread. `make` is called on the server's thread, if at all; an empty result or an
   /// exception: there is no such item. An item of another epoch makes those of before forgotten.
   void share(std::uint64_t map_epoch, const ItemId& id, std::function<Bytes()> make);

@@ -24,6 +24,8 @@ inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, 
 inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};
 /// As many keyframes' boxes as a mapper may still wait for, so that one which starts again gets them.
 inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 100};
+/// What the reader itself asks for again.
+inline constexpr Qos kDatagrams{.reliable = false, .depth = 256};
 inline constexpr Qos kDelta{.reliable = true, .depth = 64};
 inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1};
 /// For a reader of a latched topic that must see every message, not only the newest; so must one of a topic

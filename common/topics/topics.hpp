@@ -27,6 +27,9 @@ class OctreeDelta;
 class PredictedBoxes;
 class ServiceStatus;
 class TrackingState;
+class TransferChunk;
+class TransferOffer;
+class TransferRequest;
 }  // namespace rds_msgs::msg
 namespace sensor_msgs::msg {
 class CameraInfo;
@@ -98,6 +101,25 @@ inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
     "rds/map/markers", {{kMapper, bus::kLatched}}, {}};
 inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{"rds/map/grid", {{kMapper, bus::kLatched}}, {}};
 
+// To readers on other machines, in place of the topics of keyframes (common/transfer).
+inline constexpr Process kFarReaders = kDetector | kMapper | kLoopCloser;
+inline constexpr Topic<rds_msgs::msg::TransferOffer> kTransferOffers{
+    "rds/transfer/offers", {{kTracker, bus::kLatched}}, {{kFarReaders, bus::kLatched}}};
+inline constexpr Topic<rds_msgs::msg::TransferRequest> kTransferRequests{
+    "rds/transfer/requests", {{kFarReaders, bus::kDatagrams}}, {{kTracker, bus::kDatagrams}}};
+inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToDetector{
+    "rds/transfer/detector", {{kTracker, bus::kDatagrams}}, {{kDetector, bus::kDatagrams}}};
+inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToMapper{
+    "rds/transfer/mapper", {{kTracker, bus::kDatagrams}}, {{kMapper, bus::kDatagrams}}};
+inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToLoopCloser{
+    "rds/transfer/loop_closer", {{kTracker, bus::kDatagrams}}, {{kLoopCloser, bus::kDatagrams}}};
+/// The one that a reader hears alone, so that none has to take what another one asks for.
+inline const Topic<rds_msgs::msg::TransferChunk>& transfer_to(Process reader) {
+  return reader == kDetector ? kTransferToDetector
+         : reader == kMapper ? kTransferToMapper
+                             : kTransferToLoopCloser;
+}
+
 // Every service.
 inline constexpr Topic<rds_msgs::msg::Command> kCommand{
     "rds/command", {{kPlayer | kTool, bus::kCommand}}, {{kServices, bus::kCommand}}};
@@ -110,11 +132,35 @@ inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
     "diagnostics", {{kServices, bus::kStream}}, {}};
 
-inline constexpr std::tuple kAllTopics{
-    kColor,         kCameraInfo,     kDepth,         kOdometry,       kTransforms,
-    kTrackingState, kPredictedBoxes, kFeatures,      kKeyframeImages, kKeyframeFeatures,
-    kKeyframePoses, kDetections,     kBoxes,         kMapDelta,       kMapFull,
-    kMapBinary,     kMapPoints,      kMapInfo,       kMapObjects,     kMapMarkers,
-    kMapGrid,       kCommand,        kCommandResult, kServiceStatus,  kDiagnostics};
+inline constexpr std::tuple kAllTopics{kColor,
+                                       kCameraInfo,
+                                       kDepth,
+                                       kOdometry,
+                                       kTransforms,
+                                       kTrackingState,
+                                       kPredictedBoxes,
+                                       kFeatures,
+                                       kKeyframeImages,
+                                       kKeyframeFeatures,
+                                       kKeyframePoses,
+                                       kDetections,
+                                       kBoxes,
+                                       kMapDelta,
+                                       kMapFull,
+                                       kMapBinary,
+                                       kMapPoints,
+                                       kMapInfo,
+                                       kMapObjects,
+                                       kMapMarkers,
+                                       kMapGrid,
+                                       kTransferOffers,
+                                       kTransferRequests,
+                                       kTransferToDetector,
+                                       kTransferToMapper,
+                                       kTransferToLoopCloser,
+                                       kCommand,
+                                       kCommandResult,
+                                       kServiceStatus,
+                                       kDiagnostics};
 
 }  // namespace rds::topics

@@ -47,8 +47,12 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(topics::advertise(context.bus, topics::kDetections, topics::kDetector)),
-      subscription_(subscribe_to_instances(topics::kKeyframeImages, topics::kDetector,
-                                           [this](Keyframe m) { receive(std::move(m)); })) {
+      source_of_keyframes_(
+          context, topics::kDetector,
+          [this](auto receiver) {
+            return subscribe_to_instances(topics::kKeyframeImages, topics::kDetector, std::move(receiver));
+          },
+          [this](Keyframe m) { receive(std::move(m)); }) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/keyframe_transfer/keyframe_source.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
@@ -44,7 +45,8 @@ class DetectorService : public service::Service {
   std::unique_ptr<DetectionSource> source_;
   concurrency::Inbox<Arrival> keyframes_;
   bus::Publisher<vision_msgs::msg::Detection2DArray> detections_;
-  bus::Subscription subscription_;  // last: its callback fills the inbox
+  keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>
+      source_of_keyframes_;  // last: fills the inbox
 };
 
 }  // namespace rds::detector

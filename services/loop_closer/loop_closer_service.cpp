@@ -36,8 +36,12 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
-    subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser,
-                                                    [this](Features m) { features_.push(std::move(m)); }));
+    source_.emplace(
+        context, topics::kLoopCloser,
+        [this](auto receiver) {
+          return subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser, std::move(receiver));
+        },
+        [this](Features m) { features_.push(std::move(m)); });
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });

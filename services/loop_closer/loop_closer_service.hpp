@@ -9,6 +9,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/keyframe_transfer/keyframe_source.hpp"
 #include "common/map_commands/map_commands.hpp"
 #include "common/service/peers/epoch_confirmation.hpp"
 #include "common/service/peers/peers.hpp"
@@ -62,7 +63,7 @@ class LoopCloserService : public service::Service {
   int repeats_ = 0;                         // answers that still carry its poses
   concurrency::Inbox<Features> features_;
   bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
-  std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inbox
+  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>> source_;  // last: fills the inbox
 };
 
 }  // namespace rds::loop_closer

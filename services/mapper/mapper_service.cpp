@@ -81,8 +81,12 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe_to_keyframes() {
-  subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeImages, topics::kMapper,
-                                                  [this](Images m) { images_inbox_.push(std::move(m)); }));
+  keyframes_.emplace(
+      context_, topics::kMapper,
+      [this](auto receiver) {
+        return subscribe_to_instances(topics::kKeyframeImages, topics::kMapper, std::move(receiver));
+      },
+      [this](Images m) { images_inbox_.push(std::move(m)); });
   subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
                                              [this](Boxes m) { boxes_inbox_.push(std::move(m)); }));
 }

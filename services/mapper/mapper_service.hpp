@@ -12,6 +12,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/keyframe_transfer/keyframe_source.hpp"
 #include "common/map_commands/map_commands.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/peers/epoch_confirmation.hpp"
@@ -109,6 +110,7 @@ class MapperService : public service::Service {
   concurrency::Inbox<Images> images_inbox_;
   concurrency::Inbox<Boxes> boxes_inbox_;
   concurrency::Inbox<Poses> poses_inbox_;
+  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>> keyframes_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inboxes
 };
 

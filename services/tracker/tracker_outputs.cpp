@@ -45,7 +45,8 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
       features_(topics::advertise(context.bus, topics::kFeatures, topics::kTracker)),
       keyframe_images_(topics::advertise(context.bus, topics::kKeyframeImages, topics::kTracker)),
       keyframe_features_(topics::advertise(context.bus, topics::kKeyframeFeatures, topics::kTracker)),
-      keyframe_poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kTracker)) {}
+      keyframe_poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kTracker)),
+      sharing_(context) {}
 
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
@@ -141,6 +142,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.depth(messages::to_image_message(report.frame.depth, header));
   images.movable(movable_cells(report.result.movable, header));
   keyframe_images_.write(images);
+  sharing_.share(std::move(images));
   if (!keyframe.in_map) return;
   rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);
   features.header(header);
@@ -148,6 +150,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   features.map_epoch(map_epoch_);
   features.frame_index(report.frame_index);
   keyframe_features_.write(features);
+  sharing_.share(std::move(features));
 }
 
 void TrackerOutputs::publish_state(const FrameReport& report) {

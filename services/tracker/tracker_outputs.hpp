@@ -7,6 +7,7 @@
 
 #include "common/geometry/pose.hpp"
 #include "common/image/rgbd_frame.hpp"
+#include "common/keyframe_transfer/keyframe_sharing.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/service.hpp"
 #include "nav_msgs/msg/Odometry.h"
@@ -84,6 +85,7 @@ class TrackerOutputs {
   bus::Publisher<rds_msgs::msg::KeyFrameImages> keyframe_images_;
   bus::Publisher<rds_msgs::msg::KeyFrameFeatures> keyframe_features_;
   bus::Publisher<rds_msgs::msg::KeyFramePoses> keyframe_poses_;
+  keyframe_transfer::KeyframeSharing sharing_;
 };
 
 }  // namespace rds::tracker

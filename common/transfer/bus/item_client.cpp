@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/transfer/bus/item_client.hpp"
+
+#include <algorithm>
+
+#include "common/topics/topics.hpp"
+
+namespace rds::transfer {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kMostOffers = 100;
+constexpr std::size_t kMostChunks = 8192;  // 10 MB
+constexpr Time kHelloPeriod = std::chrono::seconds(1);
+constexpr milliseconds kLongestWait{500};
+constexpr Time kPatience = std::chrono::seconds(2);
+constexpr std::size_t kMostRows = 40;  // in one datagram
+
+Time now() {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+}  // namespace
+
+ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, std::vector<Stream> streams,
+                       Callbacks callbacks, std::uint64_t host)
+    : context_(context),
+      process_(process),
+      streams_(std::move(streams)),
+      callbacks_(std::move(callbacks)),
+      host_(host),
+      followed_(context.bus),
+      requests_(topics::advertise(context.bus, topics::kTransferRequests, process)),
+      offers_(mailbox_, kMostOffers),
+      chunks_(mailbox_, kMostChunks) {
+  subscriptions_.push_back(topics::subscribe(context.bus, topics::kTransferOffers, process,
+                                             [this](Offers offers, const bus::ParticipantId& writer) {
+                                               if (owners_.owns(writer, offers->instance()))
+                                                 offers_.push(std::move(offers));
+                                             }));
+  subscriptions_.push_back(topics::subscribe(context.bus, topics::transfer_to(process), process,
+                                             [this](Chunks chunk, const bus::ParticipantId& writer) {
+                                               if (chunk->reader() == context_.instance &&
+                                                   owners_.owns(writer, chunk->instance()))
+                                                 chunks_.push(std::move(chunk));
+                                             }));
+  context.diagnostics.gauge("transfer items lacking", [this] { return lacking_.load(); });
+  context.diagnostics.gauge("transfer round trip us", [this] { return round_trip_us_.load(); });
+  context.diagnostics.gauge("transfer chunks asked again", [this] { return asked_again_.load(); });
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+ItemClient::~ItemClient() {
+  subscriptions_.clear();
+}
+
+void ItemClient::run(const std::stop_token& stop) {
+  started_ = now();
+  while (!stop.stop_requested()) {
+    const auto due = receiver_.next_due();
+    const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
+    mailbox_.wait_for(stop, std::clamp(wait, milliseconds(0), kLongestWait),
+                      [this] { return !offers_.locked_empty() || !chunks_.locked_empty(); });
+    try {
+      step();
+    } catch (const std::exception& e) {
+      context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
+    }
+  }
+}
+
+void ItemClient::step() {
+  while (const auto offers = offers_.try_pop()) take(**offers);
+  while (const auto chunk = chunks_.try_pop()) take(**chunk, now());
+  if (where_ == Where::kUnknown && now() - started_ > kPatience) be(Where::kHere);
+  if (where_ == Where::kElsewhere) ask(now());
+}
+
+void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
+  const std::size_t rows = offers.streams().size();
+  if (offers.oldest().size() != rows || offers.newest().size() != rows)
+    return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kInvalid,
+                                       "rows of different lengths");
+  if (!followed_.accept(offers.instance(), offers.map_epoch() == map_epoch_ && map_epoch_ != 0))
+    return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kForeign,
+                                       "another service");
+  follow(offers);
+  for (std::size_t i = 0; i < rows; ++i)
+    if (offers.streams()[i] < kStreams)
+      receiver_.offer({static_cast<Stream>(offers.streams()[i]), offers.oldest()[i], offers.newest()[i]});
+}
+
+void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
+  const bool new_map = offers.map_epoch() != map_epoch_ || writer_ == 0;
+  writer_ = offers.instance();
+  map_epoch_ = offers.map_epoch();
+  if (new_map) {
+    receiver_ = {};
+    for (const Stream stream : streams_) receiver_.want(stream, stream == Stream::kMap);
+  }
+  be(offers.host() == host_ ? Where::kHere : Where::kElsewhere);
+}
+
+void ItemClient::be(Where where) {
+  if (std::exchange(where_, where) != where) callbacks_.where(where);
+}
+
+void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
+  if (chunk.instance() != writer_ || chunk.map_epoch() != map_epoch_ || chunk.stream() >= kStreams) return;
+  auto item = receiver_.take({{static_cast<Stream>(chunk.stream()), chunk.number()},
+                              chunk.item_bytes(),
+                              chunk.index(),
+                              chunk.data()},
+                             now);
+  if (item) callbacks_.item(map_epoch_, std::move(*item));
+}
+
+void ItemClient::ask(Time now) {
+  const std::vector<Request> due = receiver_.due(now);
+  for (std::size_t i = 0; i < due.size(); i += kMostRows)
+    send(std::span(due).subspan(i, std::min(kMostRows, due.size() - i)));
+  if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
+  if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
+  std::size_t lacking = 0;
+  for (const Stream stream : streams_) lacking += receiver_.lacking(stream);
+  lacking_ = lacking;
+  asked_again_ = receiver_.statistics().asked_again;
+  round_trip_us_ = static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
+}
+
+void ItemClient::send(std::span<const Request> requests) {
+  rds_msgs::msg::TransferRequest message;
+  message.instance(context_.instance);
+  message.writer(writer_);
+  message.map_epoch(map_epoch_);
+  message.reader(static_cast<std::uint8_t>(process_));
+  for (const Request& request : requests) {
+    message.streams().push_back(static_cast<std::uint8_t>(request.item.stream));
+    message.numbers().push_back(request.item.number);
+    message.firsts().push_back(request.first);
+    message.counts().push_back(request.count);
+  }
+  requests_.write(message);
+}
+
+}  // namespace rds::transfer

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "common/concurrency/mailbox.hpp"
+#include "common/service/peers/instance_owners.hpp"
+#include "common/service/peers/peers.hpp"
+#include "common/service/service.hpp"
+#include "common/transfer/bus/host.hpp"
+#include "common/transfer/receiver.hpp"
+#include "rds_msgs/msg/TransferChunk.h"
+#include "rds_msgs/msg/TransferOffer.h"
+#include "rds_msgs/msg/TransferRequest.h"
+
+namespace rds::transfer {
+
+/// Fetches what a service on another machine offers, on a thread of its own.
+class ItemClient {
+ public:
+  /// Where the service is whose offers are followed; kHere too for one that has offered nothing for 2 s.
+  enum class Where : std::uint8_t { kUnknown, kHere, kElsewhere };
+  struct Callbacks {
+    std::function<void(std::uint64_t map_epoch, Item)> item;  // a whole item, on the client's thread
+    std::function<void(Where)> where = [](Where) {};          // on the client's thread, when it changes
+  };
+
+  /// @param streams  that are wanted. @param host  for tests.
+  ItemClient(service::ServiceContext& context, topics::Process process, std::vector<Stream> streams,
+             Callbacks callbacks, std::uint64_t host = this_host());
+  ~ItemClient();
+  ItemClient(const ItemClient&) = delete;
+  ItemClient& operator=(const ItemClient&) = delete;
+
+ private:
+  using Offers = std::shared_ptr<const rds_msgs::msg::TransferOffer>;
+  using Chunks = std::shared_ptr<const rds_msgs::msg::TransferChunk>;
+
+  void run(const std::stop_token& stop);
+  void step();
+  void take(const rds_msgs::msg::TransferOffer& offers);
+  void follow(const rds_msgs::msg::TransferOffer& offers);
+  void take(const rds_msgs::msg::TransferChunk& chunk, Time now);
+  void be(Where where);
+  void ask(Time now);
+  void send(std::span<const Request> requests);
+
+  service::ServiceContext& context_;
+  topics::Process process_;
+  std::vector<Stream> streams_;
+  Callbacks callbacks_;
+  std::uint64_t host_;
+  service::InstanceOwners owners_;
+  service::FollowedWriter followed_;
+  std::uint64_t writer_ = 0;  // instance
+  std::uint64_t map_epoch_ = 0;
+  Where where_ = Where::kUnknown;
+  Time started_{};
+  Receiver receiver_;
+  Time last_hello_{};
+  std::atomic<std::size_t> lacking_ = 0;  // these are read by diagnostics
+  std::atomic<std::uint64_t> round_trip_us_ = 0;
+  std::atomic<std::uint64_t> asked_again_ = 0;
+  bus::Publisher<rds_msgs::msg::TransferRequest> requests_;
+  concurrency::Mailbox mailbox_;
+  concurrency::Inbox<Offers> offers_;
+  concurrency::Inbox<Chunks> chunks_;
+  std::vector<bus::Subscription> subscriptions_;
+  std::jthread thread_;
+};
+
+}  // namespace rds::transfer

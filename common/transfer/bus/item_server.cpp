@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/transfer/bus/item_server.hpp"
+
+#include <algorithm>
+
+#include "common/concurrency/priority.hpp"
+#include "common/topics/topics.hpp"
+
+namespace rds::transfer {
+namespace {
+
+// Each holds a keyframe's pictures until they are compressed.
+constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMostRequests = 256;
+/// Of one request; a reader's window is smaller.
+constexpr std::uint32_t kMostChunks = 4096;
+constexpr int kNice = 10;  // tracking has the processor first
+
+}  // namespace
+
+ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
+                       std::uint64_t host)
+    : context_(context),
+      memory_bytes_(memory_bytes),
+      host_(host),
+      offers_(topics::advertise(context.bus, topics::kTransferOffers, process)),
+      shared_(mailbox_, kMostWaiting),
+      requests_(mailbox_, kMostRequests) {
+  for (const topics::Process reader : {topics::kDetector, topics::kMapper, topics::kLoopCloser})
+    chunks_.emplace(reader, topics::advertise(context.bus, topics::transfer_to(reader), process));
+  subscription_ =
+      topics::subscribe(context.bus, topics::kTransferRequests, process, [this](const Request& request) {
+        if (request->writer() == context_.instance) requests_.push(request);
+      });
+  context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+ItemServer::~ItemServer() {
+  subscription_ = {};
+}
+
+void ItemServer::share(std::uint64_t map_epoch, const ItemId& id, std::function<Bytes()> make) {
+  if (has_readers_) shared_.push({map_epoch, id, std::move(make)});
+}
+
+void ItemServer::run(const std::stop_token& stop) {
+  concurrency::give_way(kNice);
+  offer();
+  while (mailbox_.wait(stop, [this] { return !shared_.locked_empty() || !requests_.locked_empty(); })) {
+    while (const auto request = requests_.try_pop()) answer(**request);
+    if (auto shared = shared_.try_pop()) take(std::move(*shared));
+  }
+}
+
+void ItemServer::take(Shared shared) {
+  Bytes item;
+  try {
+    item = shared.make();
+  } catch (const std::exception& e) {
+    context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
+  }
+  if (shared.map_epoch != map_epoch_) {
+    items_.clear();
+    bytes_ = 0;
+    map_epoch_ = shared.map_epoch;
+  }
+  if (item.empty() || item.size() > kMaxItemBytes) return;
+  bytes_ += item.size();
+  const auto [known, added] = items_.try_emplace(shared.id);
+  bytes_ -= known->second.size();
+  known->second = std::move(item);
+  while (bytes_ > memory_bytes_ && items_.size() > 1) forget_most();
+  offer();
+}
+
+/// The oldest item of the stream that takes most memory.
+void ItemServer::forget_most() {
+  std::map<Stream, std::size_t> sizes;
+  for (const auto& [id, item] : items_) sizes[id.stream] += item.size();
+  const auto most = std::ranges::max_element(sizes, {}, [](const auto& entry) { return entry.second; });
+  const auto oldest = items_.lower_bound({most->first, 0});
+  bytes_ -= oldest->second.size();
+  items_.erase(oldest);
+}
+
+void ItemServer::offer() {
+  rds_msgs::msg::TransferOffer offer;
+  offer.instance(context_.instance);
+  offer.host(host_);
+  offer.map_epoch(map_epoch_);
+  for (auto it = items_.begin(); it != items_.end();) {
+    const Stream stream = it->first.stream;
+    const auto end = std::find_if(it, items_.end(), [&](const auto& e) { return e.first.stream != stream; });
+    offer.streams().push_back(static_cast<std::uint8_t>(stream));
+    offer.oldest().push_back(it->first.number);
+    offer.newest().push_back(std::prev(end)->first.number);
+    it = end;
+  }
+  offers_.write(offer);
+}
+
+void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
+  has_readers_ = true;
+  const auto to = chunks_.find(static_cast<topics::Process>(request.reader()));
+  const std::size_t rows = request.streams().size();
+  if (to == chunks_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
+      request.firsts().size() != rows || request.counts().size() != rows)
+    return;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const ItemId id{static_cast<Stream>(request.streams()[i]), request.numbers()[i]};
+    const auto item = items_.find(id);
+    if (item == items_.end()) {
+      send(to->second, request.instance(), {id, 0, request.firsts()[i], {}});
+      continue;
+    }
+    const std::uint64_t first = request.firsts()[i];
+    const std::uint64_t end = first + std::min(request.counts()[i], kMostChunks);
+    for (std::uint64_t k = first; k < std::min<std::uint64_t>(end, chunks_in(item->second.size())); ++k)
+      send(to->second, request.instance(), chunk_of(id, item->second, static_cast<std::uint32_t>(k)));
+  }
+}
+
+void ItemServer::send(bus::Publisher<rds_msgs::msg::TransferChunk>& to, std::uint64_t reader,
+                      const Chunk& chunk) {
+  rds_msgs::msg::TransferChunk message;
+  message.instance(context_.instance);
+  message.reader(reader);
+  message.map_epoch(map_epoch_);
+  message.stream(static_cast<std::uint8_t>(chunk.item.stream));
+  message.number(chunk.item.number);
+  message.item_bytes(chunk.item_bytes);
+  message.index(chunk.index);
+  message.data().assign(chunk.data.begin(), chunk.data.end());
+  to.write(message);
+}
+
+}  // namespace rds::transfer

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "common/concurrency/mailbox.hpp"
+#include "common/service/service.hpp"
+#include "common/transfer/bus/host.hpp"
+#include "common/transfer/transfer.hpp"
+#include "rds_msgs/msg/TransferChunk.h"
+#include "rds_msgs/msg/TransferOffer.h"
+#include "rds_msgs/msg/TransferRequest.h"
+
+namespace rds::transfer {
+
+/// What a service has for readers on other machines, and the thread that answers them. Nothing is made before
+/// the first of them says that it is there.
+class ItemServer {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+
+  /// @param memory_bytes  of items; beyond, the oldest of the stream that has most are forgotten.
+  /// @param host  for tests.
+  ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
+             std::uint64_t host = this_host());
+  ~ItemServer();
+  ItemServer(const ItemServer&) = delete;
+  ItemServer& operator=(const ItemServer&) = delete;
+
+  /// Whether a reader on another machine has ever been there.
+  [[nodiscard]] bool has_readers() const { return has_readers_; }
+
+  /// Offers an item, of any thread. `make` is called on the server's thread, if at all; an empty result or an
+  /// exception: there is no such item. An item of another epoch makes those of before forgotten.
+  void share(std::uint64_t map_epoch, const ItemId& id, std::function<Bytes()> make);
+
+ private:
+  struct Shared {
+    std::uint64_t map_epoch = 0;
+    ItemId id;
+    std::function<Bytes()> make;
+  };
+  using Request = std::shared_ptr<const rds_msgs::msg::TransferRequest>;
+
+  void run(const std::stop_token& stop);
+  void take(Shared shared);
+  void forget_most();
+  void offer();
+  void answer(const rds_msgs::msg::TransferRequest& request);
+  void send(bus::Publisher<rds_msgs::msg::TransferChunk>& to, std::uint64_t reader, const Chunk& chunk);
+
+  service::ServiceContext& context_;
+  std::size_t memory_bytes_;
+  std::uint64_t host_;
+  std::atomic<bool> has_readers_ = false;
+  std::uint64_t map_epoch_ = 0;
+  std::map<ItemId, Bytes> items_;
+  std::size_t bytes_ = 0;
+  std::map<topics::Process, bus::Publisher<rds_msgs::msg::TransferChunk>> chunks_;
+  bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
+  concurrency::Mailbox mailbox_;
+  concurrency::Inbox<Shared> shared_;
+  concurrency::Inbox<Request> requests_;
+  bus::Subscription subscription_;
+  std::jthread thread_;
+};
+
+}  // namespace rds::transfer

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+/// Large data to readers on other machines. A reader asks for pieces of what is offered, each small enough
+/// for one datagram, as fast as its link takes them; a writer only answers. So each reader has its own pace,
+/// what it has missed it asks for, and a lost piece costs that piece.
+namespace rds::transfer {
+
+/// Since any fixed moment, as of a clock that never steps.
+using Time = std::chrono::nanoseconds;
+
+/// Bytes of an item in one chunk: with the headers of RTPS, its security and IP below 1400.
+inline constexpr std::size_t kChunkBytes = 1200;
+/// Larger items are refused: what claims to be larger is an error.
+inline constexpr std::size_t kMaxItemBytes = std::size_t{256} << 20U;
+
+/// Kinds of items; what comes first is asked for first.
+enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures, kMap };
+inline constexpr std::size_t kStreams = 3;
+
+struct ItemId {
+  Stream stream = Stream::kKeyframeImages;
+  std::uint64_t number = 0;  // counts up within the stream: keyframe id, revision
+  auto operator<=>(const ItemId&) const = default;
+};
+
+/// The numbers that a writer can send. One between them may be absent: its chunk then says so.
+struct Offer {
+  Stream stream = Stream::kKeyframeImages;
+  std::uint64_t oldest = 0;
+  std::uint64_t newest = 0;
+};
+
+/// Asks for chunks first … first + count - 1 of an item; those beyond its end are not answered.
+struct Request {
+  ItemId item;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct Chunk {
+  ItemId item;
+  std::uint32_t item_bytes = 0;  // of the whole item; 0: the writer does not have it
+  std::uint32_t index = 0;
+  std::span<const std::uint8_t> data;  // kChunkBytes, fewer in the last one
+};
+
+inline std::uint32_t chunks_in(std::size_t item_bytes) {
+  return static_cast<std::uint32_t>((item_bytes + kChunkBytes - 1) / kChunkBytes);
+}
+
+/// Chunk `index` of an item. @param index  below chunks_in(item.size())
+inline Chunk chunk_of(const ItemId& id, std::span<const std::uint8_t> item, std::uint32_t index) {
+  const std::size_t begin = index * kChunkBytes;
+  const std::size_t size = std::min(kChunkBytes, item.size() - begin);
+  return {id, static_cast<std::uint32_t>(item.size()), index, item.subspan(begin, size)};
+}
+
+}  // namespace rds::transfer

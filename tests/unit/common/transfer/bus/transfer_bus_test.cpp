@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Server and client over a real bus, in one process that pretends to be two machines.
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/transfer/bus/item_client.hpp"
+#include "common/transfer/bus/item_server.hpp"
+
+namespace rds::transfer {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t kRobot = 1;
+constexpr std::uint64_t kServerRoom = 2;
+constexpr std::uint64_t kEpoch = 77;
+constexpr std::size_t kMemory = std::size_t{16} << 20U;
+
+ItemServer::Bytes item_of(std::uint64_t number) {
+  ItemServer::Bytes item(100'000 + 1000 * number);
+  for (std::size_t i = 0; i < item.size(); ++i) item[i] = static_cast<std::uint8_t>(i * 31 + number);
+  return item;
+}
+
+/// A process on the bus.
+struct Node {
+  Node(bus::Vendor vendor, const std::string& name)
+      : bus(bus::Participant::create({.vendor = vendor,
+                                      .domain = 10 + static_cast<int>(getpid() % 200),
+                                      .node_name = name,
+                                      .loopback_only = true})),
+        context{name, *bus, diagnostics} {}
+  std::unique_ptr<bus::Participant> bus;
+  service::Diagnostics diagnostics;
+  service::ServiceContext context;
+};
+
+class TransferBus : public testing::TestWithParam<bus::Vendor> {
+ protected:
+  std::unique_ptr<ItemClient> make_client(std::uint64_t host) {
+    return std::make_unique<ItemClient>(
+        there_.context, topics::kMapper, std::vector{Stream::kKeyframeImages},
+        ItemClient::Callbacks{
+            .item = [this](std::uint64_t epoch, Item item) { take(epoch, std::move(item)); },
+            .where = [this](ItemClient::Where where) { say(where); }},
+        host);
+  }
+  void take(std::uint64_t epoch, Item item) {
+    const std::lock_guard lock(mutex_);
+    EXPECT_EQ(epoch, kEpoch);
+    EXPECT_EQ(item.bytes, item_of(item.id.number));
+    arrived_[item.id.number]++;
+    changed_.notify_all();
+  }
+  void say(ItemClient::Where where) {
+    const std::lock_guard lock(mutex_);
+    where_ = where;
+    changed_.notify_all();
+  }
+  template <class Condition>
+  bool wait_for(Condition condition, std::chrono::seconds limit = 30s) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, limit, condition);
+  }
+  /// Until readers are known nothing is kept.
+  void share(ItemServer& server, std::uint64_t number) {
+    server.share(kEpoch, {Stream::kKeyframeImages, number}, [number] { return item_of(number); });
+  }
+
+  Node here_{GetParam(), "tracker"};
+  Node there_{GetParam(), "mapper"};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::uint64_t, int> arrived_;
+  ItemClient::Where where_ = ItemClient::Where::kUnknown;
+};
+
+TEST_P(TransferBus, EveryItemComesOnce) {
+  ItemServer server(here_.context, topics::kTracker, kMemory, kRobot);
+  const auto client = make_client(kServerRoom);
+  ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kElsewhere; }));
+  std::uint64_t number = 0;
+  for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
+    share(server, number);
+    std::this_thread::sleep_for(50ms);
+  }
+  const std::uint64_t first = arrived_.begin()->first;
+  for (const std::uint64_t end = number + 30; number < end; ++number) {
+    share(server, number);
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_TRUE(wait_for([&] { return arrived_.size() == number - first; }))
+      << arrived_.size() << " of " << number - first;
+  for (const auto& [id, times] : arrived_) EXPECT_EQ(times, 1) << id;
+}
+
+TEST_P(TransferBus, WhoComesLaterHasEverythingThatIsKept) {
+  ItemServer server(here_.context, topics::kTracker, 2'000'000, kRobot);
+  {
+    const auto first = make_client(kServerRoom);
+    std::uint64_t number = 0;
+    for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
+      share(server, number);
+      std::this_thread::sleep_for(50ms);
+    }
+  }
+  arrived_.clear();
+  for (std::uint64_t number = 100; number < 120; ++number) {
+    share(server, number);
+    std::this_thread::sleep_for(20ms);
+  }
+  const auto later = make_client(kServerRoom);
+  EXPECT_TRUE(wait_for([&] { return arrived_.size() == 9; }))
+      << "two megabytes of items of 218 kB: " << arrived_.size();
+  EXPECT_EQ(arrived_.rbegin()->first, 119U);
+}
+
+TEST_P(TransferBus, OnOneMachineNothingIsMade) {
+  ItemServer server(here_.context, topics::kTracker, kMemory, kRobot);
+  const auto client = make_client(kRobot);
+  ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kHere; }));
+  std::atomic<bool> made = false;
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    server.share(kEpoch, {Stream::kKeyframeImages, number}, [&] {
+      made = true;
+      return item_of(0);
+    });
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_FALSE(made);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
+                         [](const auto& vendor) { return bus::name_of(vendor.param); });
+
+}  // namespace
+}  // namespace rds::transfer

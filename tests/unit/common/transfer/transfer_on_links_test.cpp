@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/transfer/receiver.hpp"
+#include "tests/unit/common/transfer/link.hpp"
+
+namespace rds::transfer {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kHeaderBytes = 150;
+constexpr Time kRepair = 50ms;
+
+/// Keyframes of a walking robot, offered five times a second to readers behind one uplink.
+class Transfer {
+ public:
+  Transfer(const LinkQuality& quality, int readers)
+      : uplink_(events_, quality, 1), downlink_(events_, quality, 2) {
+    for (int i = 0; i < readers; ++i) {
+      readers_.emplace_back();
+      readers_.back().receiver.want(Stream::kKeyframeImages, false);
+    }
+  }
+
+  void run(int keyframes, std::size_t bytes) {
+    for (int i = 0; i < keyframes; ++i) events_.at(i * 200ms, [this, i, bytes] { make(i, bytes); });
+    events_.run(keyframes * 200ms + 10s);
+  }
+  void cut(Time from, Time to) {
+    events_.at(from, [this] { uplink_.connected = downlink_.connected = false; });
+    events_.at(to, [this] { uplink_.connected = downlink_.connected = true; });
+  }
+
+  [[nodiscard]] std::size_t arrived(int reader) const { return readers_[reader].delays.size(); }
+  [[nodiscard]] Time delay(int reader, double quantile) const {
+    std::vector<Time> delays = readers_[reader].delays;
+    std::ranges::sort(delays);
+    return delays.at(static_cast<std::size_t>(quantile * static_cast<double>(delays.size() - 1)));
+  }
+  [[nodiscard]] double repeated() const {
+    double all = 0;
+    double repeated = 0;
+    for (const Reader& r : readers_) {
+      all += static_cast<double>(r.receiver.statistics().chunks);
+      repeated += static_cast<double>(r.receiver.statistics().repeated);
+    }
+    return repeated / all;
+  }
+  [[nodiscard]] const Receiver& receiver(int reader) const { return readers_[reader].receiver; }
+
+ private:
+  struct Reader {
+    Receiver receiver;
+    std::vector<Time> delays;
+    std::uint64_t timer = 0;
+  };
+
+  void make(int number, std::size_t bytes) {
+    items_[number] = std::vector<std::uint8_t>(bytes, static_cast<std::uint8_t>(number));
+    made_[number] = events_.now();
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      auto heard = std::make_shared<bool>(false);
+      send_offer(i, number, heard);
+    }
+  }
+  /// The bus repeats an offer that was lost.
+  void send_offer(std::size_t i, int number, const std::shared_ptr<bool>& heard) {
+    if (*heard) return;
+    uplink_.send(kHeaderBytes, [this, i, number, heard] {
+      *heard = true;
+      offer(i, number);
+    });
+    events_.at(events_.now() + kRepair, [=, this] { send_offer(i, number, heard); });
+  }
+  void offer(std::size_t i, int newest) {
+    readers_[i].receiver.offer({Stream::kKeyframeImages, 0, static_cast<std::uint64_t>(newest)});
+    ask(i);
+  }
+  void ask(std::size_t i) {
+    Reader& reader = readers_[i];
+    for (const Request& request : reader.receiver.due(events_.now()))
+      downlink_.send(kHeaderBytes, [this, i, request] { answer(i, request); });
+    const std::uint64_t timer = ++reader.timer;
+    if (const auto due = reader.receiver.next_due())
+      events_.at(*due, [this, i, timer] {
+        if (readers_[i].timer == timer) ask(i);
+      });
+  }
+  void answer(std::size_t i, const Request& request) {
+    const auto& item = items_.at(static_cast<int>(request.item.number));
+    for (std::uint32_t k = request.first; k < std::min(request.first + request.count, chunks_in(item.size()));
+         ++k)
+      uplink_.send(kChunkBytes + kHeaderBytes,
+                   [this, i, id = request.item, &item, k] { take(i, chunk_of(id, item, k)); });
+  }
+  void take(std::size_t i, const Chunk& chunk) {
+    if (const auto item = readers_[i].receiver.take(chunk, events_.now())) {
+      EXPECT_EQ(item->bytes, items_.at(static_cast<int>(item->id.number)));
+      readers_[i].delays.push_back(events_.now() - made_.at(static_cast<int>(item->id.number)));
+    }
+    ask(i);
+  }
+
+  Events events_;
+  Link uplink_;
+  Link downlink_;
+  std::map<int, std::vector<std::uint8_t>> items_;
+  std::map<int, Time> made_;
+  std::vector<Reader> readers_;
+};
+
+struct Case {
+  std::string name;
+  LinkQuality quality;
+  Time p95;  // of a keyframe's way, from offer to whole
+};
+
+class TransferOnLinks : public testing::TestWithParam<Case> {};
+
+TEST_P(TransferOnLinks, NothingIsMissingAndLittleRepeated) {
+  Transfer transfer(GetParam().quality, 2);
+  transfer.run(100, 120'000);
+  for (const int reader : {0, 1}) {
+    EXPECT_EQ(transfer.arrived(reader), 100U);
+    EXPECT_LE(transfer.delay(reader, 0.95), GetParam().p95)
+        << "p50 " << transfer.delay(reader, 0.5) / 1ms << " ms, p95 " << transfer.delay(reader, 0.95) / 1ms
+        << " ms";
+    RecordProperty("p95_ms", static_cast<int>(transfer.delay(reader, 0.95) / 1ms));
+  }
+  EXPECT_LE(transfer.repeated(), 0.10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, TransferOnLinks,
+    testing::Values(Case{"Gigabit", {}, 20ms}, Case{"Mbit100", {.mbit_per_s = 100}, 60ms},
+                    Case{"Mbit40", {.mbit_per_s = 40}, 100ms}, Case{"Mbit20", {.mbit_per_s = 20}, 200ms},
+                    Case{"Loss1", {.loss = 0.01}, 40ms}, Case{"Loss5", {.loss = 0.05}, 80ms},
+                    Case{"Jitter", {.delay = 20ms, .jitter = 10ms}, 200ms},
+                    Case{"WiFi", {.mbit_per_s = 40, .delay = 3ms, .loss = 0.01}, 200ms}),
+    [](const auto& of) { return of.param.name; });
+
+TEST(Transfer, SlowLinkCarriesFreshWholeItems) {
+  Transfer transfer({.mbit_per_s = 2}, 1);  // 4.8 are made in a second, .5 of a second is needed for one
+  transfer.run(50, 120'000);
+  EXPECT_GE(transfer.arrived(0), 18U + 16U);  // 10 s while they are made, 10 s afterwards
+  EXPECT_LE(transfer.delay(0, 0.3), 1200ms);
+  EXPECT_LE(transfer.repeated(), 0.10);
+}
+
+TEST(Transfer, GapIsFilledAfterwards) {
+  Transfer transfer({.mbit_per_s = 100}, 1);
+  transfer.cut(3s, 13s);
+  transfer.run(100, 120'000);
+  EXPECT_EQ(transfer.arrived(0), 100U);
+  EXPECT_EQ(transfer.receiver(0).lacking(Stream::kKeyframeImages), 0U);
+}
+
+}  // namespace
+}  // namespace rds::transfer

@@ -42,18 +42,25 @@ void prepare_library() {
 }
 
 /// UDP only. Shared memory stays off: after a kill -9 a restarted reader waits for seconds or for ever.
-void set_transport(dds::DomainParticipantQos& qos, bool loopback_only) {
+/// Who is told of this participant without multicast: the first participants of a machine.
+void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
+  rtps::Locator_t peer;
+  peer.kind = LOCATOR_KIND_UDPv4;
+  rtps::IPLocator::setIPv4(peer, address);
+  qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+}
+
+void set_transport(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBuffer;
   udp->receiveBufferSize = kSocketBuffer;
-  if (loopback_only) {
-    udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  if (options.loopback_only) udp->interfaceWhiteList.emplace_back("127.0.0.1");
+  if (options.loopback_only || !options.peers.empty()) {
     udp->maxInitialPeersRange = kLoopbackParticipants;
-    rtps::Locator_t peer;
-    peer.kind = LOCATOR_KIND_UDPv4;
-    rtps::IPLocator::setIPv4(peer, 127, 0, 0, 1);
-    qos.wire_protocol().builtin.initialPeersList.push_back(peer);
+    add_peer(qos, "127.0.0.1");
   }
+  if (!options.loopback_only)
+    for (const std::string& address : options.peers) add_peer(qos, address);
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(std::move(udp));
 }
@@ -92,7 +99,7 @@ dds::DomainParticipantQos fastdds_participant_qos(const ParticipantOptions& opti
   dds::DomainParticipantQos qos =
       dds::DomainParticipantFactory::get_instance()->get_default_participant_qos();
   if (qos == dds::PARTICIPANT_QOS_DEFAULT) {
-    set_transport(qos, options.loopback_only);
+    set_transport(qos, options);
     set_discovery(qos);
   }
   qos.name(options.node_name.c_str());

@@ -34,6 +34,7 @@ struct ParticipantOptions {
   int domain = 0;
   std::string node_name;                        // as `ros2 node list` shows it, without the leading slash
   bool loopback_only = false;                   // this machine only: no multicast, nobody else is disturbed
+  std::vector<std::string> peers = {};          // IPv4 addresses of other machines, found without multicast
   std::optional<Credentials> credentials = {};  // of a secured domain; without them the bus is open
 };
 

@@ -7,6 +7,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
 #include "common/service/process/stop_signals.hpp"
@@ -19,6 +20,7 @@ struct Options {
   std::string vendor = "fastdds";
   int domain = 0;
   bool loopback_only = false;
+  std::string peers;
   std::string secure;
   std::string config_path;
   std::string log_level = "info";
@@ -41,6 +43,8 @@ void add_options(CLI::App& app, Options& options) {
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   app.add_flag("--loopback", options.loopback_only, "this machine only");
+  app.add_option("--peers", options.peers, "Other machines, names or addresses: robot,nas.local,10.0.0.7")
+      ->envname("RDS_PEERS");
   app.add_option("--secure", options.secure, "folder of rds secure init, for a secured domain")
       ->envname("RDS_SECURE");
   app.add_option("--config", options.config_path, "YAML file");
@@ -69,6 +73,7 @@ int start(const std::string& name, const Options& options,
                                                .domain = options.domain,
                                                .node_name = name,
                                                .loopback_only = options.loopback_only,
+                                               .peers = bus::peer_addresses(options.peers),
                                                .credentials = credentials(name, options)});
   Diagnostics diagnostics;
   ServiceContext context{name, *participant, diagnostics, options.domain};

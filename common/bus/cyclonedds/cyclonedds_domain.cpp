@@ -25,6 +25,9 @@ constexpr const char* kCommonSettings =
     "<MaxQueuedRexmitBytes>8MB</MaxQueuedRexmitBytes><NackDelay>10ms</NackDelay>"
     "</Internal>";
 
+/// What several read goes to each of them: by multicast it would go to every machine, and pictures too.
+constexpr const char* kNetworkSettings = "<General><AllowMulticast>spdp</AllowMulticast></General>";
+
 constexpr const char* kLoopbackSettings =
     "<General><Interfaces><NetworkInterface address=\"127.0.0.1\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General>";
@@ -34,31 +37,35 @@ constexpr const char* kNoSharedMemory =
     "<CycloneDDS><Domain "
     "Id=\"any\"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>";
 
-std::string discovery_settings(bool loopback_only) {
+std::string discovery_settings(const ParticipantOptions& options) {
   std::string text = "<Discovery><SPDPInterval>" + std::to_string(kAnnouncementPeriodS) + "s</SPDPInterval>" +
                      "<LeaseDuration>" + std::to_string(kLeaseDurationS) + "s</LeaseDuration>";
-  if (loopback_only) {
+  if (options.loopback_only || !options.peers.empty()) {
     text += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
             std::to_string(kLoopbackParticipants) +
-            "</MaxAutoParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers>";
+            "</MaxAutoParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/>";
+    for (const std::string& address : options.peers) text += "<Peer Address=\"" + address + "\"/>";
+    text += "</Peers>";
   }
   return text + "</Discovery>";
 }
 
 /// Later parts win, element by element.
-std::string configuration(bool loopback_only) {
-  std::string text = std::string(kCommonSettings) + (loopback_only ? kLoopbackSettings : "") +
-                     discovery_settings(loopback_only) + "</Domain></CycloneDDS>,";
+std::string configuration(const ParticipantOptions& options) {
+  std::string text = std::string(kCommonSettings) +
+                     (options.loopback_only ? kLoopbackSettings : kNetworkSettings) +
+                     discovery_settings(options) + "</Domain></CycloneDDS>,";
   const char* user = std::getenv("CYCLONEDDS_URI");
   if (user != nullptr && *user != '\0') text += std::string(user) + ",";
   return text + kNoSharedMemory;
 }
 
 struct Domain {
-  Domain(int domain, bool only_loopback) : loopback_only(only_loopback) {
-    handle = dds_create_domain(static_cast<dds_domainid_t>(domain), configuration(only_loopback).c_str());
+  explicit Domain(const ParticipantOptions& options) : loopback_only(options.loopback_only) {
+    handle =
+        dds_create_domain(static_cast<dds_domainid_t>(options.domain), configuration(options).c_str());
     if (handle < 0) {
-      throw BusError("Cyclone DDS could not join domain " + std::to_string(domain) + ": " +
+      throw BusError("Cyclone DDS could not join domain " + std::to_string(options.domain) + ": " +
                      dds_strretcode(handle) + " (its configuration is ours and CYCLONEDDS_URI)");
     }
   }
@@ -78,7 +85,7 @@ std::shared_ptr<void> join_cyclonedds_domain(const ParticipantOptions& options) 
   const std::lock_guard lock(mutex);
   std::shared_ptr<Domain> domain = domains[options.domain].lock();
   if (domain == nullptr) {
-    domain = std::make_shared<Domain>(options.domain, options.loopback_only);
+    domain = std::make_shared<Domain>(options);
     domains[options.domain] = domain;
   } else if (domain->loopback_only != options.loopback_only) {
     throw BusError("this process is already in domain " + std::to_string(options.domain) +

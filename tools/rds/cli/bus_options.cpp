@@ -13,6 +13,8 @@ void add_bus_options(CLI::App& command, BusOptions& options) {
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   command.add_flag("--loopback", options.loopback_only, "this machine only");
+  command.add_option("--peers", options.peers, "Other machines, names or addresses: robot,nas.local,10.0.0.7")
+      ->envname("RDS_PEERS");
   add_secure_options(command, options.secure);
 }
 

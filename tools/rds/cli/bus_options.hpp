@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 
 #include "common/bus/participant.hpp"
+#include "common/bus/peer_addresses.hpp"
 #include "tools/rds/cli/secure_options.hpp"
 
 namespace rds {
@@ -15,19 +16,21 @@ struct BusOptions {
   std::string vendor = "fastdds";
   int domain = 0;
   bool loopback_only = false;
+  std::string peers;
   SecureOptions secure;
 
-  /// @throws std::runtime_error with one sentence if there is something wrong with the credentials.
+  /// @throws std::runtime_error with one sentence: a peer that is not known, something wrong with the credentials.
   [[nodiscard]] bus::ParticipantOptions participant(const std::string& node_name) const {
     return {.vendor = bus::vendor_from_name(vendor),
             .domain = domain,
             .node_name = node_name,
             .loopback_only = loopback_only,
+            .peers = bus::peer_addresses(peers),
             .credentials = secure.credentials()};
   }
 };
 
-/// Adds --bus, --domain (default: ROS_DOMAIN_ID or 0), --loopback, --secure and --identity.
+/// Adds --bus, --domain (default: ROS_DOMAIN_ID or 0), --loopback, --peers, --secure and --identity.
 void add_bus_options(CLI::App& command, BusOptions& options);
 
 }  // namespace rds

@@ -11,7 +11,7 @@
 #include "common/bus/participant.hpp"
 
 /// What a DDS vendor has to provide. Everything else (threads, statistics, node announcement) is written
-/// once, in participant.cpp. Topic names are DDS names here ("rt/rds/odometry").
+/// once, in participant_*.hpp. Topic names are DDS names here ("rt/rds/odometry").
 namespace rds::bus::detail {
 
 /// Where a back end puts a received message: it hands the bytes to decode() while it holds them, unless the

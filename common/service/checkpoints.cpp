@@ -38,8 +38,8 @@ std::unique_ptr<store::CheckpointWriter> open_checkpoints(ServiceContext& contex
   store::CheckpointWriter::Limits limits;
   limits.backup = std::chrono::duration_cast<std::chrono::milliseconds>(backup);
   auto writer = std::make_unique<store::CheckpointWriter>(std::move(*checkpoint), limits, report);
-  context.diagnostics.gauge("checkpoints written", [writer = writer.get()] { return writer->written(); });
-  context.diagnostics.gauge("checkpoint writes failed", [writer = writer.get()] { return writer->failed(); });
+  context.diagnostics.gauge("checkpoints written", [writer = writer.get()] { return writer->log().written(); });
+  context.diagnostics.gauge("checkpoint writes failed", [writer = writer.get()] { return writer->log().failed(); });
   return writer;
 }
 

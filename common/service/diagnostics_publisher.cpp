@@ -2,13 +2,16 @@
 #include "common/service/diagnostics_publisher.hpp"
 
 #include <chrono>
+#include <ctime>
+#include <fstream>
 
 #include <malloc.h>
+#include <systemd/sd-daemon.h>
+#include <unistd.h>
 
 #include "common/messages/conversions.hpp"
 #include "common/service/process/freed_memory.hpp"
-#include "common/service/process/process_usage.hpp"
-#include "common/service/process/supervisor.hpp"
+#include "common/service/process/printable.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::service {
@@ -19,6 +22,19 @@ constexpr double kHangS = 5;  // a worker that is silent for longer hangs
 
 bool hangs(const WorkerState& worker) {
   return worker.there && worker.silent_s > kHangS;
+}
+
+/// User and system time of all threads of this process.
+double cpu_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double total_pages = 0;
+  double resident_pages = 0;
+  statm >> total_pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 diagnostic_msgs::msg::KeyValue key_value(const std::string& key, const std::string& value) {
@@ -60,10 +76,10 @@ Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t misma
 }
 
 void DiagnosticsPublisher::tell_supervisor(const WorkerState& worker, const Health& health) {
-  if (!hangs(worker)) tell_supervisor_alive();
+  if (!hangs(worker)) sd_notify(0, "WATCHDOG=1");
   std::string status = presence_.is_active() ? "active" : "stand-by";
   if (!health.message.empty()) status += ": " + health.message;
-  if (status != told_) tell_supervisor_status(status);
+  if (status != told_) sd_notify(0, ("STATUS=" + printable(status)).c_str());
   told_ = std::move(status);
 }
 
@@ -82,12 +98,11 @@ void DiagnosticsPublisher::publish() {
   status.level(health_now.level);
   status.message(health_now.message);
   auto& values = status.values();
-  const ProcessUsage usage = process_usage();
   values.push_back(key_value("instance", fmt::format("{:016x}", context_.instance)));
   values.push_back(key_value("role", presence_.is_active() ? "active" : "stand-by"));
   values.push_back(key_value("worker silent [s]", fmt::format("{:.1f}", worker.silent_s)));
-  values.push_back(key_value("cpu [s]", fmt::format("{:.2f}", usage.cpu_s)));
-  values.push_back(key_value("rss [MB]", fmt::format("{:.1f}", static_cast<double>(usage.rss_bytes) / 1e6)));
+  values.push_back(key_value("cpu [s]", fmt::format("{:.2f}", cpu_s())));
+  values.push_back(key_value("rss [MB]", fmt::format("{:.1f}", resident_mb())));
   values.push_back(
       key_value("freed, kept [MB]", fmt::format("{:.1f}", static_cast<double>(mallinfo2().fordblks) / 1e6)));
   for (const auto& [name, value] : context_.diagnostics.figures()) values.push_back(key_value(name, value));

@@ -115,11 +115,9 @@ class Service {
       const topics::Topic<Message>& topic, topics::Process process,
       std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
     return topics::subscribe(
-        context_.bus, topic, process,
-        [this, topic, callback](std::shared_ptr<const Message> message, const bus::ParticipantId& writer) {
-          if (owners_.owns(writer, message->instance())) return callback(std::move(message));
-          context_.diagnostics.reject(topic.name, Rejection::kForeign, "written in another one's name");
-        });
+        context_.bus, topic, process, owners_.only_owned(std::move(callback), [this, name = topic.name] {
+          context_.diagnostics.reject(name, Rejection::kForeign, "written in another one's name");
+        }));
   }
 
   ServiceContext& context_;

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 #include "common/service/process/stop_signals.hpp"
-#include "common/service/process/supervisor.hpp"
 
 namespace rds::service {
 namespace {
@@ -33,7 +33,7 @@ ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, 
 
 int ServiceProcess::run() {
   activate();
-  tell_supervisor_ready();
+  sd_notify(0, "READY=1");  // where nobody supervises the process, nothing happens
   std::jthread watcher([this](const std::stop_token& stop) { watch(stop); });
   while (true) {
     mailbox_.wait_for({}, kRoleCheck, [this] { return !events_.locked_empty(); });
@@ -41,7 +41,7 @@ int ServiceProcess::run() {
     if (event == Event::kSignal || event == Event::kWorkerEnded) break;
     change_role();
   }
-  tell_supervisor_stopping();
+  sd_notify(0, "STOPPING=1");
   stand_by();
   presence_.say_goodbye();
   return failed_ ? 1 : 0;

@@ -14,7 +14,7 @@ constexpr std::chrono::hours kNoHurry{24};
 CheckpointWriter::CheckpointWriter(Checkpoint checkpoint, Limits limits, Report report)
     : checkpoint_(std::move(checkpoint)),
       limits_(limits),
-      report_(std::move(report)),
+      log_(std::move(report)),
       is_copied_(checkpoint_.store.rows() == 0),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -26,49 +26,42 @@ CheckpointWriter::~CheckpointWriter() {
   if (limits_.backup.count() > 0) copy(deadline);
 }
 
-bool CheckpointWriter::write(Batch& batch) {
-  bool fits = false;
-  {
-    const std::lock_guard lock(mutex_);
-    const std::size_t waiting = waiting_.bytes() + under_way_.bytes();
-    fits = waiting == 0 || waiting + batch.bytes() <= limits_.max_waiting_bytes;
-    if (fits) waiting_.add(std::exchange(batch, {}));
-    asked_ = true;
-  }
+/// The thread is to try what waits. @param lock  of mutex_.
+void CheckpointWriter::ask(std::unique_lock<std::mutex> lock) {
+  asked_ = true;
+  lock.unlock();
   changed_.notify_all();
+}
+
+bool CheckpointWriter::write(Batch& batch) {
+  std::unique_lock lock(mutex_);
+  const std::size_t waiting = queue_.bytes();
+  const bool fits = waiting == 0 || waiting + batch.bytes() <= limits_.max_waiting_bytes;
+  if (fits) queue_.add(std::exchange(batch, {}));
+  ask(std::move(lock));
   return fits;
 }
 
 void CheckpointWriter::try_again() {
-  {
-    const std::lock_guard lock(mutex_);
-    asked_ = true;
-  }
-  changed_.notify_all();
+  ask(std::unique_lock(mutex_));
 }
 
 void CheckpointWriter::write(Snapshot snapshot) {
-  {
-    const std::lock_guard lock(mutex_);
-    snapshot_ = std::move(snapshot);
-    asked_ = true;
-  }
-  changed_.notify_all();
+  std::unique_lock lock(mutex_);
+  queue_.add(std::move(snapshot));
+  ask(std::move(lock));
 }
 
 void CheckpointWriter::keep_previous() {
-  {
-    const std::lock_guard lock(mutex_);
-    copy_asked_ = asked_ = true;
-  }
-  changed_.notify_all();
+  std::unique_lock lock(mutex_);
+  copy_asked_ = true;
+  ask(std::move(lock));
 }
 
 std::optional<Bytes> CheckpointWriter::get(const std::string& kind, std::uint64_t id) const {
   {
     const std::lock_guard lock(mutex_);
-    for (const Batch* batch : {&waiting_, &under_way_})
-      if (const auto* row = batch->find({kind, id})) return *row;
+    if (const auto* row = queue_.find({kind, id})) return *row;
   }
   const std::lock_guard lock(store_mutex_);
   auto row = checkpoint_.store.get(kind, id);
@@ -86,7 +79,7 @@ bool CheckpointWriter::flush(Clock::time_point deadline) {
   asked_ = true;
   changed_.notify_all();
   const bool in_time = changed_.wait_until(lock, deadline, [this] { return !asked_ && !is_writing_; });
-  return in_time && !has_work();
+  return in_time && queue_.empty() && !copy_asked_;
 }
 
 void CheckpointWriter::run(const std::stop_token& stop) {
@@ -113,41 +106,26 @@ void CheckpointWriter::run(const std::stop_token& stop) {
 }
 
 void CheckpointWriter::write_waiting() {
-  Snapshot snapshot;
   {
     const std::lock_guard lock(mutex_);
-    under_way_ = std::exchange(waiting_, {});
-    snapshot = std::exchange(snapshot_, nullptr);
+    if (queue_.empty()) return;
+    queue_.begin();
   }
-  if (under_way_.empty() && !snapshot) return;
-  const auto result = write_now(snapshot);
+  const auto result = write_now();
   {
     const std::lock_guard lock(mutex_);
-    if (!result) {  // to be tried again, before what has come since
-      under_way_.add(std::exchange(waiting_, {}));
-      waiting_ = std::exchange(under_way_, {});
-      if (!snapshot_) snapshot_ = std::move(snapshot);
-    }
-    under_way_ = {};
+    queue_.end(result.has_value());
   }
-  note(result);
+  if (result) is_copied_ = false;
+  log_.note(result);
 }
 
-tl::expected<void, std::string> CheckpointWriter::write_now(const Snapshot& snapshot) {
+tl::expected<void, std::string> CheckpointWriter::write_now() {
   const std::lock_guard lock(store_mutex_);
-  if (!under_way_.empty())
-    if (auto done = checkpoint_.store.apply(under_way_); !done) return done;
+  if (!queue_.batch().empty())
+    if (auto done = checkpoint_.store.apply(queue_.batch()); !done) return done;
+  const Snapshot& snapshot = queue_.snapshot();
   return snapshot ? checkpoint_.store.apply(snapshot(checkpoint_.store)) : tl::expected<void, std::string>();
-}
-
-void CheckpointWriter::note(const tl::expected<void, std::string>& result) {
-  if (result) {
-    ++written_;
-    is_copied_ = false;
-  } else {
-    ++failed_;
-  }
-  if (std::exchange(last_failed_, !result) != !result) report_(result ? std::string() : result.error());
 }
 
 void CheckpointWriter::copy(Clock::time_point deadline) {

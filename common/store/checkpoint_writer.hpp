@@ -12,8 +12,31 @@
 #include <thread>
 
 #include "common/store/generations.hpp"
+#include "common/store/write_queue.hpp"
 
 namespace rds::store {
+
+/// Counts what was written and what failed, and tells when the one turns into the other. Written by one thread.
+class WriteLog {
+ public:
+  /// A sentence when writing begins to fail, an empty one when it succeeds again.
+  using Report = std::function<void(const std::string& failure)>;
+
+  explicit WriteLog(Report report) : report_(std::move(report)) {}
+  void note(const tl::expected<void, std::string>& result) {
+    ++(result ? written_ : failed_);
+    if (std::exchange(last_failed_, !result) != !result) report_(result ? std::string() : result.error());
+  }
+  /// Batches and snapshots (any thread).
+  [[nodiscard]] std::uint64_t written() const { return written_; }
+  [[nodiscard]] std::uint64_t failed() const { return failed_; }
+
+ private:
+  Report report_;
+  bool last_failed_ = false;
+  std::atomic<std::uint64_t> written_ = 0;
+  std::atomic<std::uint64_t> failed_ = 0;
+};
 
 /// Writes a checkpoint on a thread of its own: who hands changes over waits for no disk.
 ///
@@ -28,11 +51,9 @@ class CheckpointWriter {
     std::chrono::milliseconds last_words{
         5000};  // what the destructor gives to the last changes, and to a copy
   };
-  /// Told on the writer's thread: a sentence when writing begins to fail, an empty one when it succeeds
-  /// again.
-  using Report = std::function<void(const std::string& failure)>;
-  /// Changes that make a store what the caller has in mind. Called on the writer's thread.
-  using Snapshot = std::function<Batch(const Store& written)>;
+  /// Called on the writer's thread, and so is a snapshot.
+  using Report = WriteLog::Report;
+  using Snapshot = WriteQueue::Snapshot;
 
   CheckpointWriter(Checkpoint checkpoint, Limits limits, Report report);
   /// Writes what waits, and makes the present store the previous one, as far as time allows.
@@ -60,34 +81,26 @@ class CheckpointWriter {
   /// Tries to write all that waits. @return false if that failed, or the time is over.
   bool flush(Clock::time_point deadline);
 
-  /// Batches and snapshots.
-  [[nodiscard]] std::uint64_t written() const { return written_; }
-  [[nodiscard]] std::uint64_t failed() const { return failed_; }
+  [[nodiscard]] const WriteLog& log() const { return log_; }
 
  private:
   void run(const std::stop_token& stop);
-  [[nodiscard]] bool has_work() const { return !waiting_.empty() || snapshot_ || copy_asked_; }
+  void ask(std::unique_lock<std::mutex> lock);
   void write_waiting();
-  tl::expected<void, std::string> write_now(const Snapshot& snapshot);
-  void note(const tl::expected<void, std::string>& result);
+  tl::expected<void, std::string> write_now();
   void copy(Clock::time_point deadline);
 
   Checkpoint checkpoint_;
   Limits limits_;
-  Report report_;
+  WriteLog log_;
   mutable std::mutex store_mutex_;  // of checkpoint_; never taken while mutex_ is held
   mutable std::mutex mutex_;        // of what follows
   std::condition_variable_any changed_;
-  Batch waiting_;
-  Batch under_way_;  // changed by the writer alone
-  Snapshot snapshot_;
+  WriteQueue queue_;  // what is under way is changed by the writer alone
   bool copy_asked_ = false;
   bool asked_ = false;  // something is to be tried
   bool is_writing_ = false;
-  bool last_failed_ = false;
   bool is_copied_ = false;  // the previous store is as this one
-  std::atomic<std::uint64_t> written_ = 0;
-  std::atomic<std::uint64_t> failed_ = 0;
   std::jthread thread_;  // last: it uses the members above
 };
 

@@ -13,7 +13,8 @@ namespace {
 constexpr int kDescriptorBytes = 32;
 constexpr int kSignatureOffset = 24;
 constexpr int kSignatureBits = 64;
-constexpr int kMaxTables = 12;  // words of two bytes in front of the signature
+constexpr int kTables = 6;  // hash tables, each with a word of two bytes; at most 12 lie in front of the signature
+constexpr int kMaxSignatureBits = 9;  // a posting counts if at most so many bits differ: kAgreementSigma of 64
 constexpr std::size_t kWords = 1U << 16U;
 constexpr double kAgreementSigma = 0.15;  // share of bits that differ between two views of a point
 
@@ -53,16 +54,11 @@ struct PlaceIndex::Tally {
   std::vector<std::uint32_t> hit;  // slots the current feature has hit
 };
 
-PlaceIndex::PlaceIndex(const PlaceIndexConfig& config) : config_(config) {
-  if (config.tables < 1 || config.tables > kMaxTables)
-    throw std::invalid_argument("place index: tables must be 1 … 12");
-  if (config.max_signature_bits < 0 || config.max_signature_bits > kSignatureBits)
-    throw std::invalid_argument("place index: max_signature_bits must be 0 … 64");
-  for (int bits = 0; bits <= config.max_signature_bits; ++bits) {
+PlaceIndex::PlaceIndex() : buckets_(kTables * kWords) {
+  for (int bits = 0; bits <= kMaxSignatureBits; ++bits) {
     const double share = bits / (kAgreementSigma * kSignatureBits);
     agreement_.push_back(std::exp(-share * share));
   }
-  buckets_.resize(static_cast<std::size_t>(config.tables) * kWords);
 }
 
 void PlaceIndex::add(std::uint64_t id, const cv::Mat& descriptors) {
@@ -77,11 +73,10 @@ void PlaceIndex::add(std::uint64_t id, const cv::Mat& descriptors) {
   slot_of_id_[id] = slot;
   Keyframe& keyframe = keyframes_[slot];
   keyframe.id = id;
-  keyframe.words.reserve(static_cast<std::size_t>(descriptors.rows) *
-                         static_cast<std::size_t>(config_.tables));
+  keyframe.words.reserve(static_cast<std::size_t>(descriptors.rows) * kTables);
   for (int row = 0; row < descriptors.rows; ++row) {
     const auto* descriptor = descriptors.ptr<std::uint8_t>(row);
-    for (int table = 0; table < config_.tables; ++table) {
+    for (int table = 0; table < kTables; ++table) {
       const std::uint16_t word = word_of(descriptor, table);
       buckets_[bucket_of(table, word)].push_back({slot, signature_of(descriptor)});
       keyframe.words.push_back(word);
@@ -94,9 +89,8 @@ void PlaceIndex::remove(std::uint64_t id) {
   if (found == slot_of_id_.end()) return;
   const std::uint32_t slot = found->second;
   Keyframe& keyframe = keyframes_[slot];
-  const auto tables = static_cast<std::size_t>(config_.tables);
   for (std::size_t i = 0; i < keyframe.words.size(); ++i)
-    std::erase_if(buckets_[bucket_of(static_cast<int>(i % tables), keyframe.words[i])],
+    std::erase_if(buckets_[bucket_of(static_cast<int>(i % kTables), keyframe.words[i])],
                   [slot](const Posting& posting) { return posting.slot == slot; });
   keyframe = Keyframe{};
   free_slots_.push_back(slot);
@@ -104,17 +98,17 @@ void PlaceIndex::remove(std::uint64_t id) {
 }
 
 void PlaceIndex::clear() {
-  *this = PlaceIndex(config_);
+  *this = PlaceIndex();
 }
 
 /// Best agreement of one feature in every slot it hits.
 void PlaceIndex::collect_hits(const std::uint8_t* descriptor, Tally& tally) const {
   const auto signature = signature_of(descriptor);
-  for (int table = 0; table < config_.tables; ++table) {
+  for (int table = 0; table < kTables; ++table) {
     for (const Posting& posting : buckets_[bucket_of(table, word_of(descriptor, table))]) {
       const int distance = std::popcount(posting.signature[0] ^ signature[0]) +
                            std::popcount(posting.signature[1] ^ signature[1]);
-      if (distance > config_.max_signature_bits || distance >= tally.distance[posting.slot]) continue;
+      if (distance > kMaxSignatureBits || distance >= tally.distance[posting.slot]) continue;
       if (tally.distance[posting.slot] == Tally::kUnseen) tally.hit.push_back(posting.slot);
       tally.distance[posting.slot] = distance;
     }

@@ -10,13 +10,6 @@
 
 namespace rds::vision {
 
-struct PlaceIndexConfig {
-  int tables = 6;              // hash tables, 1 … 12
-  int max_signature_bits = 9;  // a posting counts if at most so many of 64 further bits differ, 0 … 64
-
-  bool operator==(const PlaceIndexConfig&) const = default;
-};
-
 /// A keyframe that looks like the query.
 struct PlaceCandidate {
   std::uint64_t id = 0;
@@ -40,7 +33,7 @@ struct PlaceCandidate {
 /// sampling); Jégou, Douze & Schmid 2008 (Hamming embedding); Sivic & Zisserman 2003 (inverted file, tf-idf).
 class PlaceIndex {
  public:
-  explicit PlaceIndex(const PlaceIndexConfig& config = {});
+  PlaceIndex();
 
   /// Adds a keyframe; one with this id that is already there is replaced.
   /// @param descriptors  N×32 CV_8U, may be empty. @throws std::invalid_argument for another form.
@@ -73,7 +66,6 @@ class PlaceIndex {
   void collect_hits(const std::uint8_t* descriptor, Tally& tally) const;
   void count_hits(Tally& tally) const;
 
-  PlaceIndexConfig config_;
   std::vector<double> agreement_;              // weight of a hit by differing signature bits
   std::vector<std::vector<Posting>> buckets_;  // tables × 2^16
   std::vector<Keyframe> keyframes_;            // by slot; freed slots are reused

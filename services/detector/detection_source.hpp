@@ -37,16 +37,16 @@ class NetworkSource : public DetectionSource {
 /// distance).
 ///
 /// A keyframe gets the boxes of the record with the nearest stamp within 5 ms, or none. Boxes without a depth
-/// get it from the keyframe's depth picture.
+/// get it from the keyframe's depth picture, where it is at most `max_depth_m`.
 class RecordedSource : public DetectionSource {
  public:
   /// @throws DetectorError naming the file and line that is not understood.
-  explicit RecordedSource(const std::filesystem::path& file, BoxDepthConfig depth);
+  RecordedSource(const std::filesystem::path& file, double max_depth_m);
   std::vector<Detection> detections(const image::RgbdFrame& frame) override;
 
  private:
   std::map<std::int64_t, std::vector<Detection>> by_stamp_;
-  BoxDepthConfig depth_;
+  double max_depth_m_;
 };
 
 }  // namespace rds::detector

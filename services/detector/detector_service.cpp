@@ -28,7 +28,7 @@ void warn_of_unknown_labels(const NetworkDescription& network, const labels::Tab
 std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config) {
   if (!config.detections_file.empty()) {
     spdlog::info("boxes from {}", config.detections_file);
-    return std::make_unique<RecordedSource>(config.detections_file, config.detector.depth);
+    return std::make_unique<RecordedSource>(config.detections_file, config.detector.max_depth_m);
   }
   const Network network = load_network(config.detector.network, model_folders(config.model_dir));
   warn_of_unknown_labels(network.description, config.detector.labels);

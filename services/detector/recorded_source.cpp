@@ -49,7 +49,8 @@ void read_truth(const json& truth, std::map<std::int64_t, std::vector<Detection>
 
 }  // namespace
 
-RecordedSource::RecordedSource(const std::filesystem::path& file, BoxDepthConfig depth) : depth_(depth) {
+RecordedSource::RecordedSource(const std::filesystem::path& file, double max_depth_m)
+    : max_depth_m_(max_depth_m) {
   std::ifstream in(file);
   if (!in) throw DetectorError(fmt::format("{}: cannot be read", file.string()));
   int number = 0;
@@ -78,7 +79,7 @@ std::vector<Detection> RecordedSource::detections(const image::RgbdFrame& frame)
     record = next;
   std::vector<Detection> detections = record->second;
   for (Detection& d : detections)
-    if (!(d.depth_m > 0)) d.depth_m = box_depth(frame.depth, d.box, depth_);
+    if (!(d.depth_m > 0)) d.depth_m = box_depth(frame.depth, d.box, max_depth_m_);
   return detections;
 }
 

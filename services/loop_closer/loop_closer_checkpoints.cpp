@@ -19,13 +19,11 @@ store::Bytes to_bytes(std::uint64_t number) {
 
 }  // namespace
 
-tl::expected<std::optional<LoopCloserCheckpoints::Last>, std::string> LoopCloserCheckpoints::restore(
-    std::uint64_t start, LoopCloser& loop_closer) {
-  start_ = start;
-  if (!writer_) return std::nullopt;
-  if (const auto began_with = writer_->get(kStart, 0); began_with != to_bytes(start)) {
-    clear(start);
-    return std::nullopt;
+tl::expected<void, std::string> LoopCloserCheckpoints::restore(LoopCloser& loop_closer) {
+  if (!writer_) return {};
+  if (const auto began_with = writer_->get(kStart, 0); began_with != to_bytes(start_)) {
+    begin_anew();
+    return {};
   }
   std::optional<Last> last;
   std::string fault;
@@ -35,26 +33,31 @@ tl::expected<std::optional<LoopCloserCheckpoints::Last>, std::string> LoopCloser
     if (!fault.empty()) return;
     if (loop_closer.add(*keyframe).refused.empty()) last = Last{keyframe->map_epoch, keyframe->id};
   });
-  if (!read) return tl::unexpected(read.error());
+  if (!read) return read;
   if (!fault.empty()) return tl::unexpected(fault);
   if (last) map_epoch_ = last->map_epoch;
   loop_closer.count_anew();
-  return last;
+  restored_ = last;
+  return {};
 }
 
 void LoopCloserCheckpoints::add(const KeyframeFeatures& keyframe) {
   if (!writer_) return;
-  if (map_epoch_ != keyframe.map_epoch) clear(start_);
+  if (map_epoch_ != keyframe.map_epoch) begin_anew();
   map_epoch_ = keyframe.map_epoch;
   schedule_.note_keyframe();
   if (changes_.bytes() < kMaxWaitingBytes) changes_.put(kKeyframe, keyframe.id, to_bytes(keyframe));
 }
 
-void LoopCloserCheckpoints::clear(std::uint64_t start) {
-  start_ = start;
+void LoopCloserCheckpoints::clear() {
+  restored_.reset();
+  begin_anew();
+}
+
+void LoopCloserCheckpoints::begin_anew() {
   map_epoch_.reset();
   changes_.clear();
-  changes_.put(kStart, 0, to_bytes(start));
+  changes_.put(kStart, 0, to_bytes(start_));
 }
 
 void LoopCloserCheckpoints::save(bool now) {

@@ -17,26 +17,32 @@ class LoopCloserCheckpoints {
   LoopCloserCheckpoints(std::unique_ptr<store::CheckpointWriter> writer, double period_s)
       : writer_(std::move(writer)), schedule_(period_s) {}
 
+  /// @param start  checksum of the part of the saved map that the loop closer begins with; 0 without one.
+  void begin_with(std::uint64_t start) { start_ = start; }
   /// Shows all keyframes to a loop closer again, in order. What began with another saved map goes.
-  /// @param start  checksum of the saved map's part, 0 without one.
-  /// @return the last one's epoch and id; nullopt if there is none. Or why the checkpoint cannot be used.
+  /// @return or why the checkpoint cannot be used.
+  tl::expected<void, std::string> restore(LoopCloser& loop_closer);
+  /// The last keyframe that restore() has shown.
   struct Last {
     std::uint64_t map_epoch = 0;
     std::uint64_t id = 0;
   };
-  tl::expected<std::optional<Last>, std::string> restore(std::uint64_t start, LoopCloser& loop_closer);
+  [[nodiscard]] const std::optional<Last>& restored() const { return restored_; }
 
   void add(const KeyframeFeatures& keyframe);
-  /// Forgets all. @param start  as for restore().
-  void clear(std::uint64_t start);
+  /// Forgets all.
+  void clear();
   /// Hands over what has come since, if it is time. @param now  whether it is time or not.
   void save(bool now = false);
 
  private:
+  void begin_anew();
+
   std::unique_ptr<store::CheckpointWriter> writer_;
   store::Batch changes_;
   std::optional<std::uint64_t> map_epoch_;
   std::uint64_t start_ = 0;
+  std::optional<Last> restored_;
   store::CheckpointSchedule schedule_;
 };
 

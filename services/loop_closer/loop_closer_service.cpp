@@ -9,18 +9,13 @@
 #include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "common/map_file/saved_map.hpp"
-#include "common/messages/conversions.hpp"
-#include "common/messages/keyframe_conversions.hpp"
 #include "common/service/checkpoints.hpp"
-#include "common/topics/endpoints.hpp"
 #include "services/loop_closer/feature_message.hpp"
 
 namespace rds::loop_closer {
 namespace {
 // As many as the bus keeps: one that starts late, or again, meets them all at once.
 constexpr std::size_t kMaxWaiting = bus::kKeyframeFeatures.max_samples;
-constexpr int kRepeats = 32;
-constexpr std::uint8_t kLoop = 1;
 }  // namespace
 
 LoopCloserService::LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config)
@@ -31,8 +26,8 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
           config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
-      features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
-      poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kLoopCloser)) {
+      answers_(context.bus, context.instance),
+      features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting) {
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
@@ -58,17 +53,16 @@ void LoopCloserService::read_start(const LoopCloserServiceConfig& config) {
 
 /// With the keyframes that the process before this one knew; nothing of it is published.
 void LoopCloserService::go_on_from_checkpoint() {
-  const auto last = checkpoints_.restore(start_checksum_, loop_closer_);
-  if (!last) {
-    spdlog::warn("the keyframes of the checkpoint are not used: {}", last.error());
+  if (const auto restored = checkpoints_.restore(loop_closer_); !restored) {
+    spdlog::warn("the keyframes of the checkpoint are not used: {}", restored.error());
     loop_closer_.reset();
-    return checkpoints_.clear(start_checksum_);
+    return checkpoints_.clear();
   }
-  known_ = *last;
   keyframes_ = loop_closer_.keyframes();
-  if (!known_) return;
-  corrected_.map_epoch(known_->map_epoch);
-  spdlog::info("goes on with {} keyframes, epoch {:016x}", loop_closer_.keyframes(), known_->map_epoch);
+  const auto& last = checkpoints_.restored();
+  if (!last) return;
+  answers_.begin(last->map_epoch);
+  spdlog::info("goes on with {} keyframes, epoch {:016x}", loop_closer_.keyframes(), last->map_epoch);
 }
 
 void LoopCloserService::run(const std::stop_token& stop) {
@@ -85,35 +79,36 @@ void LoopCloserService::run(const std::stop_token& stop) {
 
 /// A keyframe that the bus still has, and the checkpoint had.
 bool LoopCloserService::is_known(const Features& features) const {
-  return known_ && features->map_epoch() == known_->map_epoch && features->keyframe_id() <= known_->id;
+  const auto& last = checkpoints_.restored();
+  return last && features->map_epoch() == last->map_epoch && features->keyframe_id() <= last->id;
 }
 
 /// Where there are keyframes to lose, another epoch begins with its second one; the first is answered, and
 /// waits.
 bool LoopCloserService::is_confirmed(const Features& features) {
-  if (features->map_epoch() == corrected_.map_epoch()) another_epoch_.deny();
-  if (features->map_epoch() == corrected_.map_epoch() || loop_closer_.keyframes() == 0) return true;
+  const bool goes_on = features->map_epoch() == answers_.map_epoch();
+  if (goes_on) another_epoch_.deny();
+  if (goes_on || loop_closer_.keyframes() == 0) return true;
   if (!another_epoch_.confirm(features->instance(), features->map_epoch(), features->keyframe_id())) {
     first_of_epoch_ = features;
-    poses_.write(answer_to(features));
+    answers_.acknowledge(features);
     return false;
   }
   const Features first = std::exchange(first_of_epoch_, nullptr);
   if (first && first->map_epoch() == features->map_epoch()) {
-    corrected_ = {};
-    corrected_.map_epoch(first->map_epoch());
+    answers_.begin(first->map_epoch());
     take(first);
   }
   return true;
 }
 
 void LoopCloserService::take(const Features& features) {
-  if (!tracker_.accept(features->instance(), features->map_epoch() == corrected_.map_epoch()))
+  if (!tracker_.accept(features->instance(), features->map_epoch() == answers_.map_epoch()))
     return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kForeign,
                                        "another tracker");
   if (!is_confirmed(features)) return;
-  if (is_known(features) && features->keyframe_id() < known_->id) return;
-  if (paused_ || is_known(features)) return answer(features, {});  // the last one's answer may be waited for
+  if (is_known(features) && features->keyframe_id() < checkpoints_.restored()->id) return;
+  if (paused_ || is_known(features)) return answers_.answer(features, {});  // the last one's may be waited for
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe)
@@ -124,56 +119,15 @@ void LoopCloserService::take(const Features& features) {
   keyframes_ = loop_closer_.keyframes();
   if (!found.refused.empty())
     context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid, found.refused);
-  answer(features, found);
+  if (!found.poses.empty()) spdlog::info("keyframe {} closes loop {}", found.keyframe_id, found.loops_closed);
+  answers_.answer(features, found);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   context_.diagnostics.latency("keyframe").add_ms(took.count());
 }
 
-/// Every keyframe is answered: in lockstep the tracker waits for that. A correction is repeated in the
-/// answers to the next keyframes, in case one is missed; then answers carry its revision alone.
-void LoopCloserService::answer(const Features& features, const LoopAnswer& found) {
-  if (features->map_epoch() != corrected_.map_epoch()) corrected_ = {};
-  if (!found.poses.empty()) {
-    spdlog::info("keyframe {} closes loop {}", found.keyframe_id, found.loops_closed);
-    corrected_ = {};
-    messages::append_poses(found.poses, corrected_);
-    corrected_.revision(found.revision);
-    corrected_.loop_revision(found.revision);
-    corrected_.loops_closed(found.loops_closed);
-    repeats_ = kRepeats;
-  } else if (repeats_ > 0 && --repeats_ == 0) {
-    corrected_.keyframe_ids().clear();
-    corrected_.stamps().clear();
-    corrected_.poses().clear();
-  }
-  corrected_.map_epoch(features->map_epoch());
-  auto message = answer_to(features);
-  message.revision(corrected_.revision());
-  message.loop_revision(corrected_.loop_revision());
-  message.loops_closed(corrected_.loops_closed());
-  message.keyframe_ids(corrected_.keyframe_ids());
-  message.stamps(corrected_.stamps());
-  message.poses(corrected_.poses());
-  poses_.write(message);
-}
-
-/// Without poses.
-rds_msgs::msg::KeyFramePoses LoopCloserService::answer_to(const Features& features) const {
-  rds_msgs::msg::KeyFramePoses message;
-  message.header(features->header());
-  message.header().frame_id("map");
-  message.instance(context_.instance);
-  message.loop_instance(context_.instance);
-  message.map_epoch(features->map_epoch());
-  message.source(kLoop);
-  message.answered_keyframe_id(features->keyframe_id());
-  return message;
-}
-
 void LoopCloserService::forget() {
-  corrected_ = {};
-  known_.reset();
-  checkpoints_.clear(start_checksum_);
+  answers_.begin();
+  checkpoints_.clear();
   keyframes_ = loop_closer_.keyframes();
 }
 
@@ -204,8 +158,8 @@ tl::expected<void, std::string> LoopCloserService::start_from(const map_file::Se
   if (!poses) return refuse(poses.error());
   if (const auto started = loop_closer_.start_from(own->second, *poses); !started)
     return refuse(started.error());
-  start_checksum_ = map_file::checksum_of(own->second);
-  corrected_ = {};
+  checkpoints_.begin_with(map_file::checksum_of(own->second));
+  answers_.begin();
   return {};
 }
 

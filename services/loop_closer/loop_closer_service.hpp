@@ -14,11 +14,10 @@
 #include "common/service/peers/epoch_confirmation.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
-#include "rds_msgs/msg/KeyFrameFeatures.h"
-#include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/loop_closer/core/loop_closer.hpp"
 #include "services/loop_closer/loop_closer_checkpoints.hpp"
 #include "services/loop_closer/loop_closer_service_config.hpp"
+#include "services/loop_closer/pose_answers.hpp"
 
 namespace rds::loop_closer {
 
@@ -36,8 +35,7 @@ class LoopCloserService : public service::Service {
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;
 
  private:
-  using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
-  using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
+  using Features = PoseAnswers::Features;
   void go_on_from_checkpoint();
   [[nodiscard]] bool is_known(const Features& features) const;
   void forget();
@@ -45,24 +43,18 @@ class LoopCloserService : public service::Service {
   void read_start(const LoopCloserServiceConfig& config);
   tl::expected<void, std::string> start_from(const map_file::Sections& saved,
                                              const std::filesystem::path& from);
-  void answer(const Features& features, const LoopAnswer& answer);
-  [[nodiscard]] rds_msgs::msg::KeyFramePoses answer_to(const Features& features) const;
   bool is_confirmed(const Features& features);
 
   service::FollowedWriter tracker_;
   LoopCloser loop_closer_;
   service::EpochConfirmation another_epoch_;
-  Features first_of_epoch_;           // waits until it is confirmed
-  std::uint64_t start_checksum_ = 0;  // of the saved map's part
+  Features first_of_epoch_;  // waits until it is confirmed
   LoopCloserCheckpoints checkpoints_;
-  std::optional<LoopCloserCheckpoints::Last> known_;  // the last keyframe that the checkpoint had
-  std::atomic<std::size_t> keyframes_ = 0;       // read by diagnostics
+  std::atomic<std::size_t> keyframes_ = 0;  // read by diagnostics
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
-  rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop
-  int repeats_ = 0;                         // answers that still carry its poses
+  PoseAnswers answers_;
   concurrency::Inbox<Features> features_;
-  bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;
   std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>> source_;  // last: fills the inbox
 };
 

@@ -76,7 +76,7 @@ void depth_of_a_large_box(benchmark::State& state) {
   cv::Mat values(480, 640, CV_16UC1);
   random.fill(values, cv::RNG::UNIFORM, 0, 5000);
   const rds::image::DepthImage depth{values, 0.001F, nullptr};
-  for (auto _ : state) benchmark::DoNotOptimize(box_depth(depth, {50, 20, 600, 460}));
+  for (auto _ : state) benchmark::DoNotOptimize(box_depth(depth, {50, 20, 600, 460}, 20.0));
 }
 BENCHMARK(depth_of_a_large_box)->Unit(benchmark::kMicrosecond);
 

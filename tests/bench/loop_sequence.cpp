@@ -88,14 +88,13 @@ rds::loop_closer::KeyframeView view_of(const KeyframeFeatures& features) {
 
 /// Verifies all pairs at least ten keyframes apart.
 void verify_pairs(const rds::bench::RecordedKeyframes& recorded, bool list) {
-  const rds::loop_closer::LoopCloserConfig config;
   std::vector<rds::loop_closer::KeyframeView> views;
   for (const auto& keyframe : recorded.keyframes) views.push_back(view_of(keyframe));
   std::vector<double> errors_m;
   int wrong = 0;
   for (std::size_t query = 0; query < views.size(); ++query) {
     for (std::size_t candidate = 0; candidate + 10 <= query; ++candidate) {
-      const auto loop = verify_loop(views[query], views[candidate], config.matching, config.verification);
+      const auto loop = verify_loop(views[query], views[candidate]);
       if (!loop) continue;
       const Pose error =
           loop->candidate_from_query.inverse() * recorded.truth[candidate].inverse() * recorded.truth[query];

@@ -32,6 +32,18 @@ class InstanceOwners {
     return true;
   }
 
+  /// A callback that calls `take` with the messages whose writer speaks for the instance they name, and
+  /// `refuse` for each of the others.
+  template <class Take, class Refuse>
+  auto only_owned(Take take, Refuse refuse) {
+    return [this, take, refuse](const auto& message, const bus::ParticipantId& writer) {
+      if (owns(writer, message->instance()))
+        take(message);
+      else
+        refuse();
+    };
+  }
+
  private:
   struct Owner {
     bus::ParticipantId participant{};

@@ -18,10 +18,9 @@ constexpr std::size_t kMaxPeers = 256;
 
 Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qos& qos)
     : changed_(std::move(changed)),
-      subscription_(
-          bus.subscribe<ServiceStatus>(topics::kServiceStatus.name, qos, [this](const auto& status, const auto& writer) {
-            if (owners_.owns(writer, status->instance())) take(*status);
-          })) {}
+      subscription_(bus.subscribe<ServiceStatus>(
+          topics::kServiceStatus.name, qos,
+          owners_.only_owned([this](const auto& status) { take(*status); }, [] {}))) {}
 
 void Peers::take(const ServiceStatus& status) {
   bool changed = false;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "services/detector/core/box_depth.hpp"
 #include "services/detector/core/input_transform.hpp"
 #include "services/detector/core/non_maximum_suppression.hpp"
 
@@ -40,7 +41,6 @@ SuppressionConfig suppression(const NetworkDescription& network, const DetectorC
   SuppressionConfig suppression;
   suppression.same_label_iou = network.nms_iou;
   suppression.other_label_iou = config.other_label_iou;
-  suppression.max_boxes = static_cast<std::size_t>(config.max_boxes);
   return suppression;
 }
 
@@ -93,7 +93,7 @@ std::vector<Detection> Detector::detect(const image::ColorImage& picture) {
 
 std::vector<Detection> Detector::detect(const image::ColorImage& picture, const image::DepthImage& depth) {
   auto detections = detect(picture);
-  for (Detection& detection : detections) detection.depth_m = box_depth(depth, detection.box, config_.depth);
+  for (Detection& detection : detections) detection.depth_m = box_depth(depth, detection.box, config_.max_depth_m);
   return detections;
 }
 

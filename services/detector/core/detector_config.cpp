@@ -12,9 +12,7 @@ void read(config::ConfigReader& reader, DetectorConfig& config) {
   reader.choice("precision", config.precision, {"f32", "bf16"});
   reader.value("threads", config.threads, 1, 64);
   reader.value("score_threshold", config.score_threshold, 0.0, 1.0);
-  reader.value("other_label_iou", config.other_label_iou, 0.0, 1.0);
-  reader.value("max_boxes", config.max_boxes, 1, 10000);
-  read(reader.section("depth"), config.depth);
+  reader.section("depth").value("max_depth_m", config.max_depth_m, 0.1, 1000.0, "m");
   labels::read(reader, config.labels);
 }
 

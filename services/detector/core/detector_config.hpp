@@ -5,7 +5,6 @@
 
 #include "common/config/config_reader.hpp"
 #include "common/labels/table.hpp"
-#include "services/detector/core/box_depth.hpp"
 
 namespace rds::detector {
 
@@ -16,11 +15,9 @@ struct DetectorConfig {
   std::string precision = "f32";  // of the computation: f32, or bf16 (openvino only)
   int threads = 1;                // of the inference library
   double score_threshold = 0;     // 0: the network's own
-  double other_label_iou =
-      0.85;  // of two boxes with different labels that overlap by more, the worse is dropped; 1: never
-  int max_boxes = 100;  // per picture, the best
-  BoxDepthConfig depth;
-  labels::Table labels;  // the one spelling of each label
+  double other_label_iou = 0.85;  // as in SuppressionConfig; no setting, tests and benchmarks vary it
+  double max_depth_m = 20.0;      // what is further away counts as no measurement
+  labels::Table labels;           // the one spelling of each label
 
   bool operator==(const DetectorConfig&) const = default;
 };

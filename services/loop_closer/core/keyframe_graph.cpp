@@ -9,8 +9,11 @@ namespace {
 
 using geometry::Pose;
 
-constexpr std::size_t kRecent =
-    10;  // newest keyframes whose poses follow the tracker between two corrections
+constexpr std::size_t kRecent = 10;  // newest keyframes whose poses follow the tracker between two corrections
+constexpr int kMaxCovisibleEdges = 5;           // per keyframe
+constexpr std::uint32_t kMinSharedPoints = 50;  // of a covisibility edge
+constexpr double kMaxLoopResidualM = 0.10;      // a loop edge that stays worse after optimisation was wrong
+constexpr double kMaxLoopResidualRad = 0.05;
 
 }  // namespace
 
@@ -60,17 +63,10 @@ void KeyframeGraph::add_edges(std::size_t newest, std::span<const Covisible> cov
   int added = 0;
   for (const Covisible& other : covisible) {
     const auto index = find(other.id);
-    if (!index || *index == before || static_cast<int>(other.weight) < config_.min_covisible_weight) continue;
-    if (added++ == config_.max_covisible_edges) break;
+    if (!index || *index == before || other.weight < kMinSharedPoints) continue;
+    if (added++ == kMaxCovisibleEdges) break;
     edges_.push_back({*index, newest, other.map_from_camera.inverse() * pose, EdgeKind::kCovisible});
   }
-}
-
-void KeyframeGraph::refresh(std::span<const KeyframePose> snapshot) {
-  Snapshot known;
-  for (const KeyframePose& pose : snapshot)
-    if (const auto index = find(pose.id)) known[*index] = pose.map_from_camera;
-  take(known);
 }
 
 void KeyframeGraph::take(const Snapshot& snapshot) {
@@ -97,11 +93,11 @@ bool KeyframeGraph::close(std::span<const PoseGraphEdge> loops) {
   std::vector<Pose> optimized = corrected_;
   std::vector<PoseGraphEdge> edges = edges_;
   edges.insert(edges.end(), loops.begin(), loops.end());
-  if (!optimize_pose_graph(optimized, edges, config_, std::max<std::size_t>(1, held_))) return false;
+  if (!optimize_pose_graph(optimized, edges, std::max<std::size_t>(1, held_))) return false;
   const bool satisfied = std::all_of(loops.begin(), loops.end(), [&](const PoseGraphEdge& loop) {
     const EdgeResidual residual = residual_of(loop, optimized);
-    return residual.translation_m <= config_.max_loop_residual_m &&
-           residual.rotation_rad <= config_.max_loop_residual_rad;
+    return residual.translation_m <= kMaxLoopResidualM &&
+           residual.rotation_rad <= kMaxLoopResidualRad;
   });
   if (!satisfied) return false;
   corrected_ = std::move(optimized);

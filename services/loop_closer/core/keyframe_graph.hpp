@@ -21,8 +21,6 @@ namespace rds::loop_closer {
 /// optimisation alone.
 class KeyframeGraph {
  public:
-  explicit KeyframeGraph(const PoseGraphConfig& config) : config_(config) {}
-
   /// Starts with keyframes of a saved map, by ascending id: the gauge, which nothing moves. @pre the graph is
   /// empty.
   void hold(std::span<const KeyframePose> poses);
@@ -30,9 +28,6 @@ class KeyframeGraph {
   /// Adds the newest keyframe. `covisible` and `pose` are one snapshot; most shared map points first.
   /// The previous keyframe should be in it (with any weight): else its last known pose stands in.
   void add(const KeyframePose& pose, std::span<const Covisible> covisible);
-
-  /// Takes the relative poses among the known keyframes of one snapshot.
-  void refresh(std::span<const KeyframePose> snapshot);
 
   /// Adds loop edges and optimises. If the poses then do not satisfy them, everything is as before and the
   /// answer false.
@@ -54,7 +49,6 @@ class KeyframeGraph {
   [[nodiscard]] std::size_t predecessor(std::size_t newest, std::span<const Covisible> covisible) const;
   void take(const Snapshot& snapshot);
 
-  PoseGraphConfig config_;
   std::vector<KeyframePose> keyframes_;    // as the tracker last told
   std::vector<geometry::Pose> corrected_;  // map_from_camera after the loops closed so far
   std::map<std::uint64_t, std::size_t> index_of_id_;

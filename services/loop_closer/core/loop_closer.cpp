@@ -14,6 +14,18 @@ constexpr std::size_t kMaxFeatures = 100'000;  // of a message that can be meant
 constexpr float kMinDepth = 0.1F;
 constexpr double kMaxPosition = 1e6;  // [m]
 
+// Candidates.
+constexpr std::size_t kMinGap = 10;        // keyframes; nearer ones are neighbours, which local mapping joins
+constexpr double kMinScore = 0.02;         // of the place index; another room reaches .02
+constexpr std::size_t kMaxCandidates = 2;  // verified per keyframe
+constexpr std::size_t kMinSeparation = 5;  // keyframes between two candidates: different views
+
+// Drift that is believable after `path` metres of travel: kMaxDriftFloorM + kMaxDriftShare · path, and
+// kMaxDriftRad. Many times what the tracker's drift is; two rooms that look alike are farther apart.
+constexpr double kMaxDriftShare = 0.3;
+constexpr double kMaxDriftFloorM = 0.3;
+constexpr double kMaxDriftRad = 0.8;
+
 bool is_rigid(const Pose& pose) {
   return geometry::is_finite(pose) && pose.translation().norm() < kMaxPosition &&
          (pose.linear() * pose.linear().transpose()).isIdentity(1e-3) && pose.linear().determinant() > 0;
@@ -37,8 +49,7 @@ KeyframeView view_of(const KeyframeFeatures& features, int max_features, double 
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopCloserConfig& config)
-    : config_(config), index_(config.place_index), graph_(config.pose_graph), history_(config.consistency) {}
+LoopCloser::LoopCloser(const LoopCloserConfig& config) : config_(config) {}
 
 void LoopCloser::reset() {
   const auto start = std::move(start_);
@@ -75,7 +86,7 @@ LoopAnswer LoopCloser::add(const KeyframeFeatures& features) {
     map_epoch_ = features.map_epoch;
     const std::size_t query = graph_.size();
     graph_.add({features.id, features.stamp_ns, features.map_from_camera}, features.covisible);
-    views_.push_back(view_of(features, config_.max_features, config_.verification.max_depth_m));
+    views_.push_back(view_of(features, config_.max_features, config_.max_depth_m));
     if (close_loop(query, features)) {
       ++revision_;
       answer.poses = graph_.poses();
@@ -87,25 +98,17 @@ LoopAnswer LoopCloser::add(const KeyframeFeatures& features) {
   return answer;
 }
 
-void LoopCloser::update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local) {
-  const auto rigid = [](const KeyframePose& pose) { return is_rigid(pose.map_from_camera); };
-  if (map_epoch_ != map_epoch || !std::all_of(local.begin(), local.end(), rigid)) return;
-  graph_.refresh(local);
-}
-
 std::vector<std::size_t> LoopCloser::candidates_for(std::size_t query,
                                                     const KeyframeFeatures& features) const {
-  const auto& config = config_.candidates;
   std::vector<std::size_t> chosen;
   for (const auto& found : index_.query(views_[query].descriptors, graph_.size())) {
-    if (found.score < config.min_score || static_cast<int>(chosen.size()) == config.max_candidates) break;
+    if (found.score < kMinScore || chosen.size() == kMaxCandidates) break;
     const auto candidate = graph_.find(found.id);
-    if (!candidate || *candidate + static_cast<std::size_t>(config.min_gap_keyframes) > query) continue;
+    if (!candidate || *candidate + kMinGap > query) continue;
     const auto is_found = [&](const Covisible& other) { return other.id == found.id; };
     if (std::any_of(features.covisible.begin(), features.covisible.end(), is_found)) continue;
     const auto is_near = [&](std::size_t other) {
-      return std::max(other, *candidate) - std::min(other, *candidate) <
-             static_cast<std::size_t>(config.min_separation_keyframes);
+      return std::max(other, *candidate) - std::min(other, *candidate) < kMinSeparation;
     };
     if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(*candidate);
   }
@@ -113,7 +116,7 @@ std::vector<std::size_t> LoopCloser::candidates_for(std::size_t query,
 }
 
 std::optional<LoopDetection> LoopCloser::detect(std::size_t query, std::size_t candidate) const {
-  const auto verified = verify_loop(views_[query], views_[candidate], config_.matching, config_.verification);
+  const auto verified = verify_loop(views_[query], views_[candidate]);
   if (!verified) return std::nullopt;
   const Pose& estimated = graph_.map_from_camera(query);
   const Pose measured = graph_.map_from_camera(candidate) * verified->candidate_from_query;
@@ -123,13 +126,11 @@ std::optional<LoopDetection> LoopCloser::detect(std::size_t query, std::size_t c
 
 /// Large enough to be worth a correction, and not larger than drift can be.
 bool LoopCloser::is_believable(const LoopDetection& detection) const {
-  const auto& config = config_.consistency;
   const double moved_m = (detection.correction * detection.query_in_map - detection.query_in_map).norm();
   const double turned_rad = geometry::rotation_angle_rad(detection.correction.linear());
-  if (moved_m < config.min_correction_m && turned_rad < config.min_correction_rad) return false;
+  if (moved_m < config_.min_correction_m && turned_rad < config_.min_correction_rad) return false;
   const double path_m = graph_.path_length(detection.candidate, detection.query);
-  return moved_m <= config.max_drift_floor_m + config.max_drift_share * path_m &&
-         turned_rad <= config.max_drift_rad;
+  return moved_m <= kMaxDriftFloorM + kMaxDriftShare * path_m && turned_rad <= kMaxDriftRad;
 }
 
 bool LoopCloser::close_loop(std::size_t query, const KeyframeFeatures& features) {

@@ -28,7 +28,7 @@ namespace rds::loop_closer {
 /// closed already and changes nothing. Features on movable objects and features without depth are ignored.
 ///
 /// A pure function of the calls: same calls, same answers. About 140 kB per keyframe of 1000 features.
-/// Source: Mur-Artal & Tardós 2017, §III-D; every count is a config value.
+/// Source: Mur-Artal & Tardós 2017, §III-D.
 class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserConfig& config = {});
@@ -38,11 +38,6 @@ class LoopCloser {
   /// A keyframe that is impossible (array lengths that differ, a pose that is not rigid, an id that is not
   /// new) changes nothing; the answer says why.
   LoopAnswer add(const KeyframeFeatures& features);
-
-  /// Takes the relative poses of keyframes from a snapshot of the tracker, where it knows better since their
-  /// bundle adjustment. Not needed where every keyframe's `covisible` carries poses. Another epoch is
-  /// ignored.
-  void update_poses(std::uint64_t map_epoch, std::span<const KeyframePose> local);
 
   /// What is known stays, corrections count from 0 again: those so far are not to be told again.
   void count_anew() { revision_ = 0; }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/geometry/pose.hpp"
-#include "services/loop_closer/core/loop_closer_config.hpp"
 
 namespace rds::loop_closer {
 
@@ -21,23 +20,19 @@ struct LoopDetection {
 };
 
 /// True if both corrections move the keyframes between them to the same place.
-[[nodiscard]] bool is_consistent(const LoopDetection& a, const LoopDetection& b,
-                                 const ConsistencyConfig& config);
+[[nodiscard]] bool is_consistent(const LoopDetection& a, const LoopDetection& b);
 
 /// Detections at the newest keyframes. One picture can deceive; several in a row that ask for the same
 /// correction do not. Source: Mur-Artal & Tardós 2017 (consecutive detections). Deviation: the corrections
 /// agree, not the places.
 class LoopHistory {
  public:
-  explicit LoopHistory(const ConsistencyConfig& config) : config_(config) {}
-
-  /// Adds a detection; returns those, this one last, that agree with it from config.min_detections different
-  /// keyframes, or nothing while they are too few.
+  /// Adds a detection; returns those, this one last, that agree with it if they are of three different
+  /// keyframes among the newest six, or nothing while they are too few.
   std::vector<LoopDetection> add(const LoopDetection& detection);
   void clear() { detections_.clear(); }
 
  private:
-  ConsistencyConfig config_;
   std::deque<LoopDetection> detections_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/vision/descriptor_matching.hpp"
 #include "services/loop_closer/core/point_registration.hpp"
 
 namespace rds::loop_closer {
@@ -15,7 +16,15 @@ namespace {
 
 using geometry::Pose;
 
+// Descriptors of two different points would differ in 128 ± 8 of 256 bits if bits were independent: 64 are
+// eight standard deviations fewer. The ratio is wider than Lowe's .8, since RANSAC follows.
+constexpr vision::DescriptorMatchConfig kMatching{.max_distance = 64, .max_ratio = 0.85};
+
 constexpr double kGuidedDepthGates = 2.0;  // inverse-depth gates that a guided match may be off
+constexpr double kSearchRadius = 0.02;     // in x/z and y/z, of a guided match; 2.5 times kMaxRayError
+constexpr int kMinInliers = 50;
+constexpr double kMinInlierShare = 0.2;  // of what both keyframes should see; one poster in two rooms has less
+constexpr double kMinExtentM = 0.15;     // second largest standard deviation of the matched points
 
 Eigen::Vector2d ray(const Eigen::Vector3d& point) {
   return point.head<2>() / point.z();
@@ -63,15 +72,13 @@ std::vector<PointPair> pairs_of(const KeyframeView& query, const KeyframeView& c
 /// none.
 vision::DescriptorMatch guided_match(const KeyframeView& query, int row,
                                      const Eigen::Vector3d& point_in_candidate, const KeyframeView& candidate,
-                                     const RayGrid& grid, int max_distance,
-                                     const VerificationConfig& config) {
-  vision::DescriptorMatch best{row, -1, max_distance + 1};
+                                     const RayGrid& grid) {
+  vision::DescriptorMatch best{row, -1, kMatching.max_distance + 1};
   const Eigen::Vector2d expected = ray(point_in_candidate);
   grid.around(expected, [&](int feature) {
     const Eigen::Vector3d& point = candidate.points[static_cast<std::size_t>(feature)];
-    if ((ray(point) - expected).norm() > config.search_radius) return;
-    if (std::abs(1 / point.z() - 1 / point_in_candidate.z()) >
-        kGuidedDepthGates * config.max_inverse_depth_error)
+    if ((ray(point) - expected).norm() > kSearchRadius) return;
+    if (std::abs(1 / point.z() - 1 / point_in_candidate.z()) > kGuidedDepthGates * kMaxInverseDepthError)
       return;
     const int distance = vision::hamming_distance(query.descriptors.ptr<std::uint8_t>(row),
                                                   candidate.descriptors.ptr<std::uint8_t>(feature));
@@ -82,14 +89,13 @@ vision::DescriptorMatch guided_match(const KeyframeView& query, int row,
 
 /// Matches near where the transform puts them; no candidate feature twice.
 std::vector<vision::DescriptorMatch> guided_matches(const KeyframeView& query, const KeyframeView& candidate,
-                                                    const Pose& candidate_from_query, int max_distance,
-                                                    const VerificationConfig& config) {
-  const RayGrid grid(candidate, config.search_radius);
-  std::vector<vision::DescriptorMatch> best_of(candidate.points.size(), {-1, -1, max_distance + 1});
+                                                    const Pose& candidate_from_query) {
+  const RayGrid grid(candidate, kSearchRadius);
+  std::vector<vision::DescriptorMatch> best_of(candidate.points.size(), {-1, -1, kMatching.max_distance + 1});
   for (std::size_t i = 0; i < query.points.size(); ++i) {
     const Eigen::Vector3d point = candidate_from_query * query.points[i];
     if (point.z() <= 0.05) continue;
-    const auto match = guided_match(query, static_cast<int>(i), point, candidate, grid, max_distance, config);
+    const auto match = guided_match(query, static_cast<int>(i), point, candidate, grid);
     if (match.train < 0) continue;
     auto& best = best_of[static_cast<std::size_t>(match.train)];
     if (match.distance < best.distance) best = match;
@@ -129,24 +135,20 @@ double extent(std::span<const PointPair> pairs, const std::vector<int>& inliers)
 
 }  // namespace
 
-std::optional<VerifiedLoop> verify_loop(const KeyframeView& query, const KeyframeView& candidate,
-                                        const vision::DescriptorMatchConfig& matching,
-                                        const VerificationConfig& config) {
-  const auto matches = vision::match_descriptors(query.descriptors, candidate.descriptors, matching);
-  const auto first = register_points(pairs_of(query, candidate, matches), config);
+std::optional<VerifiedLoop> verify_loop(const KeyframeView& query, const KeyframeView& candidate) {
+  const auto matches = vision::match_descriptors(query.descriptors, candidate.descriptors, kMatching);
+  const auto first = register_points(pairs_of(query, candidate, matches));
   if (!first) return std::nullopt;
-  const auto guided =
-      guided_matches(query, candidate, first->candidate_from_query, matching.max_distance, config);
+  const auto guided = guided_matches(query, candidate, first->candidate_from_query);
   const auto pairs = pairs_of(query, candidate, guided);
-  const Registration refined = refine_registration(pairs, first->candidate_from_query, config);
+  const Registration refined = refine_registration(pairs, first->candidate_from_query);
   const int inliers = static_cast<int>(refined.inliers.size());
-  if (inliers < config.min_inliers || extent(pairs, refined.inliers) < config.min_extent_m)
-    return std::nullopt;
+  if (inliers < kMinInliers || extent(pairs, refined.inliers) < kMinExtentM) return std::nullopt;
   const Pose& pose = refined.candidate_from_query;
   const int visible =
       std::min(visible_features(query, pose, candidate), visible_features(candidate, pose.inverse(), query));
   const double share = inliers / std::max(1.0, static_cast<double>(visible));
-  if (share < config.min_inlier_share) return std::nullopt;
+  if (share < kMinInlierShare) return std::nullopt;
   return VerifiedLoop{pose, inliers, share};
 }
 

@@ -8,7 +8,6 @@
 #include <opencv2/core.hpp>
 
 #include "common/geometry/pose.hpp"
-#include "services/loop_closer/core/loop_closer_config.hpp"
 
 namespace rds::loop_closer {
 
@@ -26,13 +25,11 @@ struct VerifiedLoop {
 
 /// Whether two keyframes show the same place, and how they stand to each other.
 ///
-/// Descriptor matches → RANSAC (≥ min_ransac_inliers) → matches guided by that transform → refinement
-/// (≥ min_inliers, spread over min_extent_m, min_inlier_share of what both should see).
-/// Source: Mur-Artal & Tardós 2017 (counts); Deviation: 3-D to 3-D in rays and inverse depth, share and
+/// Descriptor matches → RANSAC (≥ 20 inliers) → matches guided by that transform → refinement (≥ 50 inliers,
+/// spread over 15 cm, a fifth of what both should see).
+/// Source: Mur-Artal & Tardós 2017 (counts). Deviation: 3-D to 3-D in rays and inverse depth, share and
 /// extent.
 [[nodiscard]] std::optional<VerifiedLoop> verify_loop(const KeyframeView& query,
-                                                      const KeyframeView& candidate,
-                                                      const vision::DescriptorMatchConfig& matching,
-                                                      const VerificationConfig& config);
+                                                      const KeyframeView& candidate);
 
 }  // namespace rds::loop_closer

@@ -19,6 +19,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kMinTriangleArea = 1e-3;  // [m²], of three points that fix a transform
 constexpr int kRefinements = 5;
+constexpr int kIterations = 500;  // with a fifth of inliers, (1 − .2³)^500 = 2 % draw no triple of inliers
+constexpr std::size_t kMinInliers = 20;
 
 /// Three different indices below `count`; a 64-bit linear congruence, so that every run draws the same.
 class TripleDraw {
@@ -42,11 +44,10 @@ class TripleDraw {
   std::uint64_t state_ = 0x2545F4914F6CDD1DULL;
 };
 
-std::vector<int> inliers_of(std::span<const PointPair> pairs, const Pose& candidate_from_query,
-                            const VerificationConfig& config) {
+std::vector<int> inliers_of(std::span<const PointPair> pairs, const Pose& candidate_from_query) {
   std::vector<int> inliers;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (agree(candidate_from_query * pairs[i].in_query, pairs[i].in_candidate, config))
+    if (agree(candidate_from_query * pairs[i].in_query, pairs[i].in_candidate))
       inliers.push_back(static_cast<int>(i));
   return inliers;
 }
@@ -66,12 +67,10 @@ std::optional<Pose> from_three(std::span<const PointPair> pairs, const std::arra
 }
 
 /// One Gauss–Newton step of the rays and inverse depths; the perturbation multiplies from the left.
-Pose refined_once(std::span<const PointPair> pairs, const std::vector<int>& inliers, const Pose& pose,
-                  const VerificationConfig& config) {
+Pose refined_once(std::span<const PointPair> pairs, const std::vector<int>& inliers, const Pose& pose) {
   // A third of the gates: what is at the gate is three standard deviations off.
   const Eigen::Vector3d inverse_sigma =
-      3.0 *
-      Eigen::Vector3d(1 / config.max_ray_error, 1 / config.max_ray_error, 1 / config.max_inverse_depth_error);
+      3.0 * Eigen::Vector3d(1 / kMaxRayError, 1 / kMaxRayError, 1 / kMaxInverseDepthError);
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   for (const int i : inliers) {
@@ -103,36 +102,34 @@ Pose refined_once(std::span<const PointPair> pairs, const std::vector<int>& inli
 
 }  // namespace
 
-bool agree(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const VerificationConfig& config) {
+bool agree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   if (!(a.z() > 0) || !(b.z() > 0)) return false;
-  return std::abs(a.x() / a.z() - b.x() / b.z()) <= config.max_ray_error &&
-         std::abs(a.y() / a.z() - b.y() / b.z()) <= config.max_ray_error &&
-         std::abs(1 / a.z() - 1 / b.z()) <= config.max_inverse_depth_error;
+  return std::abs(a.x() / a.z() - b.x() / b.z()) <= kMaxRayError &&
+         std::abs(a.y() / a.z() - b.y() / b.z()) <= kMaxRayError &&
+         std::abs(1 / a.z() - 1 / b.z()) <= kMaxInverseDepthError;
 }
 
-std::optional<Registration> register_points(std::span<const PointPair> pairs,
-                                            const VerificationConfig& config) {
-  if (pairs.size() < static_cast<std::size_t>(std::max(3, config.min_ransac_inliers))) return std::nullopt;
+std::optional<Registration> register_points(std::span<const PointPair> pairs) {
+  if (pairs.size() < kMinInliers) return std::nullopt;
   TripleDraw draw(pairs.size());
   Registration best;
-  for (int iteration = 0; iteration < config.ransac_iterations; ++iteration) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     const auto pose = from_three(pairs, draw.next());
     if (!pose) continue;
-    auto inliers = inliers_of(pairs, *pose, config);
+    auto inliers = inliers_of(pairs, *pose);
     if (inliers.size() > best.inliers.size()) best = {*pose, std::move(inliers)};
   }
   if (best.inliers.size() < 4) return std::nullopt;
-  best = refine_registration(pairs, best.candidate_from_query, config);
-  if (best.inliers.size() < static_cast<std::size_t>(config.min_ransac_inliers)) return std::nullopt;
+  best = refine_registration(pairs, best.candidate_from_query);
+  if (best.inliers.size() < kMinInliers) return std::nullopt;
   return best;
 }
 
-Registration refine_registration(std::span<const PointPair> pairs, const Pose& candidate_from_query,
-                                 const VerificationConfig& config) {
-  Registration registration{candidate_from_query, inliers_of(pairs, candidate_from_query, config)};
+Registration refine_registration(std::span<const PointPair> pairs, const Pose& candidate_from_query) {
+  Registration registration{candidate_from_query, inliers_of(pairs, candidate_from_query)};
   for (int i = 0; i < kRefinements && registration.inliers.size() >= 4; ++i) {
-    const Pose refined = refined_once(pairs, registration.inliers, registration.candidate_from_query, config);
-    auto inliers = inliers_of(pairs, refined, config);
+    const Pose refined = refined_once(pairs, registration.inliers, registration.candidate_from_query);
+    auto inliers = inliers_of(pairs, refined);
     if (inliers.size() < registration.inliers.size() * 9 / 10) break;  // diverged
     registration = {refined, std::move(inliers)};
   }

@@ -19,6 +19,9 @@ using geometry::Pose;
 
 constexpr std::size_t kMaxCovisibleSigmaScale = 5;
 constexpr double kLoopHuberSigmas = 3.0;
+constexpr int kMaxIterations = 50;
+constexpr double kSigmaM = 0.01;  // of the relative pose of two neighbours, and of a verified loop
+constexpr double kSigmaRad = 0.005;
 
 /// Parameters of a pose: quaternion x y z w (Eigen's order), then translation.
 struct Block {
@@ -40,11 +43,11 @@ Pose to_pose(const Block& block) {
 
 class RelativePoseCost {
  public:
-  RelativePoseCost(const Pose& from_from_to, double sigma_m, double sigma_rad)
+  RelativePoseCost(const Pose& from_from_to, double sigma_scale)
       : to_from_from_rotation_(Eigen::Quaterniond(from_from_to.linear()).normalized().conjugate()),
         translation_(from_from_to.translation()),
-        inverse_sigma_m_(1 / sigma_m),
-        inverse_sigma_rad_(1 / sigma_rad) {}
+        inverse_sigma_m_(1 / (sigma_scale * kSigmaM)),
+        inverse_sigma_rad_(1 / (sigma_scale * kSigmaRad)) {}
 
   template <class T>
   bool operator()(const T* from_rotation, const T* from_translation, const T* to_rotation,
@@ -81,26 +84,22 @@ double sigma_scale(const PoseGraphEdge& edge) {
   return static_cast<double>(std::min<std::size_t>(spanned, kMaxCovisibleSigmaScale));
 }
 
-void add_edge(ceres::Problem& problem, std::vector<Block>& blocks, const PoseGraphEdge& edge,
-              const PoseGraphConfig& config) {
-  const bool is_loop = edge.kind == EdgeKind::kLoop;
-  const double scale = sigma_scale(edge);
+void add_edge(ceres::Problem& problem, std::vector<Block>& blocks, const PoseGraphEdge& edge) {
   auto* cost = new ceres::AutoDiffCostFunction<RelativePoseCost, 6, 4, 3, 4, 3>(
-      new RelativePoseCost(edge.from_from_to, scale * (is_loop ? config.loop_sigma_m : config.edge_sigma_m),
-                           scale * (is_loop ? config.loop_sigma_rad : config.edge_sigma_rad)));
+      new RelativePoseCost(edge.from_from_to, sigma_scale(edge)));
   Block& from = blocks[edge.from];
   Block& to = blocks[edge.to];
   // A loop that is three sigmas off pulls with constant force: strong enough to close, too weak to tear.
-  auto* loss = is_loop ? new ceres::HuberLoss(kLoopHuberSigmas) : nullptr;
+  auto* loss = edge.kind == EdgeKind::kLoop ? new ceres::HuberLoss(kLoopHuberSigmas) : nullptr;
   problem.AddResidualBlock(cost, loss, from.rotation.data(), from.translation.data(), to.rotation.data(),
                            to.translation.data());
 }
 
-ceres::Solver::Options solver_options(const PoseGraphConfig& config) {
+ceres::Solver::Options solver_options() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // no threaded BLAS: same bits every time
-  options.max_num_iterations = config.max_iterations;
+  options.max_num_iterations = kMaxIterations;
   options.max_solver_time_in_seconds = 1e9;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
@@ -116,7 +115,7 @@ EdgeResidual residual_of(const PoseGraphEdge& edge, std::span<const Pose> map_fr
 }
 
 bool optimize_pose_graph(std::vector<Pose>& map_from_camera, std::span<const PoseGraphEdge> edges,
-                         const PoseGraphConfig& config, std::size_t held) {
+                         std::size_t held) {
   const auto known = [&](std::size_t i) { return i < map_from_camera.size(); };
   if (!std::all_of(edges.begin(), edges.end(),
                    [&](const auto& e) { return known(e.from) && known(e.to) && e.from != e.to; }))
@@ -129,13 +128,13 @@ bool optimize_pose_graph(std::vector<Pose>& map_from_camera, std::span<const Pos
     problem.AddParameterBlock(block.rotation.data(), 4, new ceres::EigenQuaternionManifold);
     problem.AddParameterBlock(block.translation.data(), 3);
   }
-  for (const PoseGraphEdge& edge : edges) add_edge(problem, blocks, edge, config);
+  for (const PoseGraphEdge& edge : edges) add_edge(problem, blocks, edge);
   for (Block& block : std::span(blocks).first(held)) {
     problem.SetParameterBlockConstant(block.rotation.data());
     problem.SetParameterBlockConstant(block.translation.data());
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(config), &problem, &summary);
+  ceres::Solve(solver_options(), &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
   std::vector<Pose> optimized(blocks.size());
   std::transform(blocks.begin(), blocks.end(), optimized.begin(), to_pose);

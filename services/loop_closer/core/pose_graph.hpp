@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/geometry/pose.hpp"
-#include "services/loop_closer/core/loop_closer_config.hpp"
 
 namespace rds::loop_closer {
 
@@ -35,6 +34,6 @@ struct EdgeResidual {
 /// @return false if the solver failed; the poses are then unchanged.
 /// @param held  at least 1. @throws std::invalid_argument if an edge names a pose that is not there.
 bool optimize_pose_graph(std::vector<geometry::Pose>& map_from_camera, std::span<const PoseGraphEdge> edges,
-                         const PoseGraphConfig& config, std::size_t held = 1);
+                         std::size_t held = 1);
 
 }  // namespace rds::loop_closer

@@ -137,7 +137,7 @@ TEST_F(Checkpoints, AFullDiskIsReportedOnceAndWhatWaitedIsWrittenLater) {
     ASSERT_TRUE(writer.write(batch));
     EXPECT_FALSE(writer.flush(soon()));
     EXPECT_FALSE(writer.flush(soon()));
-    EXPECT_GE(writer.failed(), 2U);
+    EXPECT_GE(writer.log().failed(), 2U);
     EXPECT_EQ(writer.get("keyframe", 29), Bytes(100'000, 29));
     Batch less;
     for (std::uint64_t id = 3; id < 30; ++id) less.erase("keyframe", id);

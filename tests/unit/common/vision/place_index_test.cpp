@@ -113,11 +113,5 @@ TEST(PlaceIndex, TakesEmptyDescriptorsAndRefusesOtherForms) {
   EXPECT_FALSE(index.contains(3));
 }
 
-TEST(PlaceIndex, RefusesImpossibleSettings) {
-  EXPECT_THROW(PlaceIndex({.tables = 0}), std::invalid_argument);
-  EXPECT_THROW(PlaceIndex({.tables = 13}), std::invalid_argument);
-  EXPECT_THROW(PlaceIndex({.max_signature_bits = 65}), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace rds::vision

@@ -23,7 +23,7 @@ void paint(cv::Mat& depth, int x0, int y0, int x1, int y1, int value) {
 }
 
 float depth_of(const cv::Mat& values, const geometry::Box2& box = kPersonBox) {
-  return box_depth({values, 0.001F, nullptr}, box);
+  return box_depth({values, 0.001F, nullptr}, box, 20.0);
 }
 
 TEST(BoxDepth, IsThatOfThePersonInFrontOfTheWall) {
@@ -85,7 +85,7 @@ TEST(BoxDepth, TreatsTheLargestNumberOfASensorAsNoMeasurement) {
 TEST(BoxDepth, ReadsMetresInFloatsAndSkipsNaN) {
   cv::Mat depth(kHeight, kWidth, CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
   depth(cv::Rect(110, 20, 80, 150)).setTo(1.5F);
-  EXPECT_NEAR(box_depth({depth, 1.0F, nullptr}, kPersonBox), 1.5F, 1e-5F);
+  EXPECT_NEAR(box_depth({depth, 1.0F, nullptr}, kPersonBox, 20.0), 1.5F, 1e-5F);
 }
 
 TEST(BoxDepth, UsesThePartOfTheBoxInsideThePicture) {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(DetectorConfig, NamesValuesOutOfRange) {
   config::ConfigReader reader(
-      YAML::Load("{threads: 0, backend: abacus, precision: f16, depth: {central_part: 2}}"), "detector.yaml");
+      YAML::Load("{threads: 0, backend: abacus, precision: f16, depth: {max_depth_m: 0}}"), "detector.yaml");
   DetectorConfig config;
   read(reader, config);
   try {
@@ -19,7 +19,7 @@ TEST(DetectorConfig, NamesValuesOutOfRange) {
                 ::testing::AllOf(::testing::HasSubstr("threads: 0, expected 1 … 64"),
                                  ::testing::HasSubstr("backend: abacus, expected openvino, opencv, or empty"),
                                  ::testing::HasSubstr("precision: f16, expected one of: f32, bf16"),
-                                 ::testing::HasSubstr("depth.central_part: 2")));
+                                 ::testing::HasSubstr("depth.max_depth_m: 0")));
   }
 }
 

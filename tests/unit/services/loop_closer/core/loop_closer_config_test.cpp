@@ -9,14 +9,14 @@ namespace {
 TEST(LoopCloserConfig, ListsEveryValueOutOfRange) {
   LoopCloserConfig config;
   config::ConfigReader reader(
-      YAML::Load("{candidates: {min_score: 2}, pose_graph: {max_iterations: 0}, typo: 1}"), "x");
+      YAML::Load("{max_features: 2, consistency: {min_correction_m: -1}, typo: 1}"), "x");
   read(reader, config);
   try {
     reader.finish();
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
-    EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("candidates.min_score"),
-                                           ::testing::HasSubstr("pose_graph.max_iterations"),
+    EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("max_features"),
+                                           ::testing::HasSubstr("consistency.min_correction_m"),
                                            ::testing::HasSubstr("typo")));
   }
 }

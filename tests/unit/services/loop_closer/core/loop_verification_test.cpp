@@ -8,13 +8,11 @@
 namespace rds::loop_closer {
 namespace {
 
-const vision::DescriptorMatchConfig kMatching{64, 0.85};
-
 TEST(LoopVerification, FindsHowTwoViewsOfAPlaceStandToEachOther) {
   const auto world = SyntheticWorld::round_room(2000, 1);
   const auto query = world.seen_from(looking_out(0.1), 1);
   const auto candidate = world.seen_from(looking_out(0.0), 2);
-  const auto loop = verify_loop(view_of_all(query), view_of_all(candidate), kMatching, {});
+  const auto loop = verify_loop(view_of_all(query), view_of_all(candidate));
   ASSERT_TRUE(loop);
   const geometry::Pose truth = looking_out(0.0).inverse() * looking_out(0.1);
   const geometry::Pose error = loop->candidate_from_query.inverse() * truth;
@@ -27,7 +25,7 @@ TEST(LoopVerification, RefusesAnotherPlace) {
   const auto world = SyntheticWorld::round_room(2000, 1);
   const auto query = world.seen_from(looking_out(3.0), 1);
   const auto candidate = world.seen_from(looking_out(0.0), 2);
-  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate), kMatching, {}));
+  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate)));
 }
 
 /// The same pattern over and over, as on wallpaper: descriptors agree everywhere, the geometry does not.
@@ -38,7 +36,7 @@ TEST(LoopVerification, RefusesRepeatedTextureWithoutGeometry) {
   cv::RNG rng(7);
   for (auto& point : candidate.points)
     point = Eigen::Vector3f(rng.uniform(-1.0F, 1.0F), rng.uniform(-1.0F, 1.0F), rng.uniform(1.5F, 3.5F));
-  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate), kMatching, {}));
+  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate)));
 }
 
 /// The same small thing in two rooms: its features fit, the rest of the view does not.
@@ -55,11 +53,11 @@ TEST(LoopVerification, RefusesASmallCommonThingInDifferentSurroundings) {
   };
   const auto query = with_thing(room).seen_from(looking_out(0.0), 1);
   const auto candidate = with_thing(other_room).seen_from(looking_out(0.0), 2);
-  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate), kMatching, {}));
+  EXPECT_FALSE(verify_loop(view_of_all(query), view_of_all(candidate)));
 }
 
 TEST(LoopVerification, TakesEmptyViews) {
-  EXPECT_FALSE(verify_loop({}, {}, kMatching, {}));
+  EXPECT_FALSE(verify_loop({}, {}));
 }
 
 }  // namespace

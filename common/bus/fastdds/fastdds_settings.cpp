@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/fastdds_settings.hpp"
+#include "common/bus/fastdds/fastdds_settings.hpp"
 
 #include <algorithm>
 #include <mutex>

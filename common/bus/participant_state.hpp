@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/bus/backend.hpp"
+#include "common/bus/node_announcer.hpp"
+
+namespace rds::bus::detail {
+
+class Endpoint;
+
+/// What a participant and its endpoints share; whoever of them lives longest closes it.
+struct ParticipantState {
+  explicit ParticipantState(const ParticipantOptions& options)
+      : backend(options.vendor == Vendor::kFastDds ? make_fastdds_backend(options)
+                                                   : make_cyclonedds_backend(options)),
+        identity(options.credentials ? options.credentials->identity : ""),
+        announcer(*backend, options.node_name) {}
+
+  /// A participant carries one type per topic: both vendors would refuse a second one, each in its own way.
+  void check_type(const std::string& topic, const TypeOps& type) {
+    const std::lock_guard lock(mutex);
+    const auto [known, added] = types.emplace(topic, type.dds_name);
+    if (known->second == type.dds_name) return;
+    throw BusError("topic " + topic + " already carries " + known->second + ", not " + type.dds_name);
+  }
+
+  /// Makes an endpoint. A vendor does not say that it was permissions that forbade it.
+  template <class Make>
+  auto explain_refusal(Make make) const {
+    try {
+      return make();
+    } catch (const BusError& e) {
+      if (identity.empty()) throw;
+      throw BusError(std::string(e.what()) + ", which the permissions of '" + identity + "' must allow");
+    }
+  }
+
+  std::unique_ptr<Backend> backend;
+  std::string identity;  // empty on an open bus
+  NodeAnnouncer announcer;
+  std::mutex mutex;  // of what follows
+  std::set<const Endpoint*> endpoints;
+  std::map<std::string, std::string> types;  // by topic
+};
+
+inline const std::string kRosPrefix = "rt/";
+
+/// What writers and readers have in common: what they are on the bus, and what has passed them.
+class Endpoint {
+ public:
+  Endpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type, bool publisher)
+      : state_(std::move(state)), topic_(std::move(topic)), type_(type), publisher_(publisher) {}
+  Endpoint(const Endpoint&) = delete;
+  Endpoint& operator=(const Endpoint&) = delete;
+
+  [[nodiscard]] EndpointStatistics statistics() const {
+    return {topic_, publisher_, messages_, bytes_, dropped_ + lost(), matched(), another_version_};
+  }
+  [[nodiscard]] DiscoveredEndpoint description() const {
+    return {topic_, type_.dds_name, publisher_, type_.type_hash, text_of(guid())};
+  }
+
+ protected:
+  ~Endpoint() = default;
+  [[nodiscard]] virtual Guid guid() const = 0;
+  [[nodiscard]] virtual int matched() const = 0;
+  /// Messages that the bus itself has lost.
+  [[nodiscard]] virtual std::uint64_t lost() const = 0;
+
+  void enter() {
+    const std::lock_guard lock(state_->mutex);
+    state_->endpoints.insert(this);
+  }
+  void leave() {
+    const std::lock_guard lock(state_->mutex);
+    state_->endpoints.erase(this);
+  }
+  void count(std::size_t bytes) {
+    ++messages_;
+    bytes_ += bytes;
+  }
+
+  std::shared_ptr<ParticipantState> state_;
+  std::string topic_;
+  const TypeOps& type_;
+  bool publisher_;
+  std::atomic<std::uint64_t> messages_ = 0;
+  std::atomic<std::uint64_t> bytes_ = 0;
+  std::atomic<std::uint64_t> dropped_ = 0;
+  std::atomic<std::uint64_t> another_version_ = 0;  // of these
+};
+
+}  // namespace rds::bus::detail

@@ -19,8 +19,8 @@ struct FreeJpegHandle {
 };
 using JpegHandle = std::unique_ptr<void, FreeJpegHandle>;
 
-/// Compresses colour pictures to baseline JPEG with 4:2:0 subsampling. Not thread-safe; keeps its buffer,
-/// which is as large as the largest picture so far.
+/// Compresses colour pictures to baseline JPEG without subsampling of colour (4:4:4). Not thread-safe; keeps
+/// its buffer, which is as large as the largest picture so far.
 class JpegCompressor {
  public:
   /// @param quality  1 to 100, as libjpeg counts. @throws std::invalid_argument for others.

@@ -20,6 +20,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* kJpeg = "jpeg";
 constexpr const char* kPlanes = "planes_zstd";
+constexpr const char* kRanks = "ranks_zstd";
 
 /// The same message for conversions that share its ownership; it outlives them here.
 std::shared_ptr<const Image> borrowed(const Image& message) {
@@ -70,6 +71,10 @@ Image raw_picture(const CompressedPicture& picture, Bytes data) {
   return result;
 }
 
+const char* exact_format(int type) {
+  return type == CV_16UC1 ? kRanks : kPlanes;
+}
+
 bool has_no_pixels(const Image& picture) {
   return picture.width() == 0 && picture.height() == 0 && picture.data().empty();
 }
@@ -95,7 +100,7 @@ Expected<CompressedPicture> compress_color(const Image& picture, std::span<const
 Expected<CompressedPicture> compress_depth(const Image& picture, LosslessCompressor& lossless) {
   const auto depth = messages::to_depth_image(borrowed(picture));
   if (!depth) return tl::unexpected(depth.error());
-  return compressed_picture(picture, kPlanes, lossless.compress(depth->values));
+  return compressed_picture(picture, exact_format(depth->values.type()), lossless.compress(depth->values));
 }
 
 Expected<CompressedPicture> compress_mask(const Image& picture, cv::Size color,
@@ -120,7 +125,8 @@ Expected<Image> decompress_color(const CompressedPicture& picture) {
 
 Expected<Image> decompress_exactly(const CompressedPicture& picture, int type,
                                    LosslessDecompressor& lossless) {
-  if (picture.format() != kPlanes) return tl::unexpected<std::string>("the format must be planes_zstd");
+  if (picture.format() != exact_format(type))
+    return tl::unexpected<std::string>("the format must be ranks_zstd for 16 bits, planes_zstd for others");
   if (auto size = check_size(picture.width(), picture.height()); !size) return tl::unexpected(size.error());
   auto rows = lossless.decompress(picture.data(), size_of(picture), type);
   if (!rows) return tl::unexpected(rows.error());

@@ -17,7 +17,7 @@ namespace rds::keyframe_codec {
 constexpr std::uint32_t kLargestPicture_px = 16 * 1024 * 1024;
 
 struct CodecConfig {
-  int jpeg_quality = 90;  // 1 to 100, as libjpeg counts
+  int jpeg_quality = 85;  // 1 to 100, as libjpeg counts
 };
 
 /// Makes a keyframe small: colour as JPEG, depth and mask without loss. The same keyframe gives the same

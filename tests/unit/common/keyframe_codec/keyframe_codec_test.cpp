@@ -64,10 +64,11 @@ TEST_F(KeyframeCodec, SaysWhatTheDataAre) {
   const auto small = compressed(test::example_keyframe());
   EXPECT_EQ(small.color().format(), "jpeg");
   EXPECT_EQ(small.color().encoding(), "bgr8");
-  EXPECT_EQ(small.depth().format(), "planes_zstd");
+  EXPECT_EQ(small.depth().format(), "ranks_zstd");
   EXPECT_EQ(small.depth().encoding(), "16UC1");
   EXPECT_EQ(small.depth().width(), 64U);
   EXPECT_EQ(small.depth().height(), 48U);
+  EXPECT_EQ(small.movable().format(), "planes_zstd");
   EXPECT_EQ(small.movable().width(), 32U);
   EXPECT_EQ(small.movable().encoding(), "mono8");
 }
@@ -189,23 +190,27 @@ TEST_F(KeyframeCodec, RefusesSizesThatNoCameraHas) {
 }
 
 TEST_F(KeyframeCodec, RefusesFormatsAndEncodingsThatItDoesNotKnow) {
+  constexpr auto kFormats = "the format must be ranks_zstd for 16 bits, planes_zstd for others";
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.color().format("png"); }), "color: the format must be jpeg");
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.color().encoding("mono8"); }),
             "color: the encoding must be rgb8 or bgr8");
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.depth().format("jpeg"); }),
-            "depth: the format must be planes_zstd");
+            std::string("depth: ") + kFormats);
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.depth().encoding(std::string(70'000, 'x')); }),
             "depth: the encoding must be 16UC1, mono16 or 32FC1");
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.movable().encoding("16UC1"); }),
             "movable: the encoding must be mono8");
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.movable().format(""); }),
-            "movable: the format must be planes_zstd");
+            std::string("movable: ") + kFormats);
 }
 
 TEST_F(KeyframeCodec, RefusesDataThatDoNotFitTheirDescription) {
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.color().width(32); }),
             "color: the JPEG is of another size than declared");
-  EXPECT_EQ(why_not_decompressed([](auto& k) { k.depth().encoding("32FC1"); }),
+  EXPECT_EQ(why_not_decompressed([](auto& k) {
+              k.depth().encoding("32FC1");
+              k.depth().format("planes_zstd");
+            }),
             "depth: the zstd frame is of another size than declared");
   EXPECT_EQ(why_not_decompressed([](auto& k) { k.movable().height(23); }),
             "movable: the zstd frame is of another size than declared");

@@ -89,9 +89,14 @@ TEST_F(LosslessCodec, RefusesEveryFlippedBitThatMatters) {
 }
 
 TEST_F(LosslessCodec, RefusesAnotherSizeThanDeclared) {
-  const Bytes data = compressor_.compress(test::example_depth({16, 12}));
-  expect_refused(data, {16, 11}, kOtherSize);
-  expect_refused(data, {17, 12}, kOtherSize);
+  const cv::Mat1b mask(12, 16, std::uint8_t{1});
+  const Bytes data = compressor_.compress(mask);
+  for (const cv::Size size : {cv::Size(16, 11), cv::Size(17, 12), cv::Size(1, 1)}) {
+    const auto rows = decompressor_.decompress(data, size, CV_8UC1);
+    ASSERT_FALSE(rows.has_value());
+    EXPECT_EQ(rows.error(), kOtherSize);
+  }
+  expect_refused(data, mask.size(), kOtherSize);
   expect_refused(zstd({}), {16, 12}, kOtherSize);
 }
 
@@ -105,9 +110,23 @@ TEST_F(LosslessCodec, RefusesAFrameThatHoldsMoreThanItSays) {
   Bytes liar = zstd(Bytes(1 << 20));
   // RFC 8878: magic number, descriptor that tells of a size of four bytes, window, that size.
   ASSERT_EQ(liar[4], 0x80);
-  const std::uint32_t size = 16 * 12 * 2;
+  const std::uint32_t size = 16 * 12 * 2 + 2;
   std::memcpy(&liar[6], &size, sizeof(size));
   expect_refused(liar, {16, 12}, kDamaged);
+}
+
+TEST_F(LosslessCodec, RefusesWhatHasNoValues) {
+  const cv::Size size(16, 12);
+  const std::size_t planes = 16 * 12 * 2;
+  const auto with_values = [&](std::size_t bytes, std::uint8_t content) {
+    return zstd(Bytes(planes + bytes, content));
+  };
+  EXPECT_TRUE(decompressor_.decompress(with_values(2, 0), size, CV_16UC1).has_value());
+  EXPECT_TRUE(decompressor_.decompress(with_values(2 * 65536, 0), size, CV_16UC1).has_value());
+  expect_refused(with_values(2, 2), size, "a pixel has no value");
+  expect_refused(with_values(0, 0), size, kOtherSize);
+  expect_refused(with_values(3, 0), size, kOtherSize);
+  expect_refused(with_values(2 * 65537, 0), size, kOtherSize);
 }
 
 TEST_F(LosslessCodec, RefusesMoreThanOneFrameAndFramesOfOtherKinds) {

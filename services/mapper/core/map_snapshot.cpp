@@ -41,15 +41,15 @@ void append(std::vector<std::uint8_t>& bytes, Value value) {
 }  // namespace
 
 MapSnapshot take_snapshot(const SemanticMapper& mapper) {
-  const ColorOcTree& tree = mapper.tree();
+  const ColorOcTree& tree = mapper.map().tree();
   MapSnapshot snapshot;
   snapshot.resolution = tree.getResolution();
   snapshot.nodes = to_bytes(tree);
   for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {
-    if (tree.isNodeOccupied(node)) snapshot.labels_of_occupied.push_back(mapper.label(key));
+    if (tree.isNodeOccupied(node)) snapshot.labels_of_occupied.push_back(mapper.map().label(key));
   });
-  snapshot.labels = mapper.labels().names();
-  snapshot.objects = mapper.objects();
+  snapshot.labels = mapper.map().labels.names();
+  snapshot.objects = mapper.map().objects();
   snapshot.up = mapper.up_in_map();
   return snapshot;
 }

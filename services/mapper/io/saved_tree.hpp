@@ -18,7 +18,7 @@ struct SavedTree {
   std::vector<std::string> labels;  // index 0 is ""
 };
 
-/// Reads both from the bytes that SemanticMapper::to_bytes() gives.
+/// Reads both from the mapper's part of a saved map, as to_bytes() gives it.
 /// @return or one sentence saying what is wrong with the bytes.
 tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes);
 

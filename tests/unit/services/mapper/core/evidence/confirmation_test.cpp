@@ -111,11 +111,11 @@ TEST(SemanticMapper, LegsOutOfTheBoxStayOutAndATableComesInOnceItWasSeenAlone) {
   SemanticMapper mapper(MapperConfig{});
   const auto legs = test::point_at(160, 190, kPersonM);
   mapper.integrate(person_with_legs(0));
-  EXPECT_FALSE(test::is_occupied(mapper.tree(), legs));
+  EXPECT_FALSE(test::is_occupied(mapper.map().tree(), legs));
   mapper.integrate(SyntheticKeyframe(kTwoSeconds).rectangle(kLegs, kPersonM).looked_for_objects());
-  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.tree(), legs), 0.85F);
+  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.map().tree(), legs), 0.85F);
   mapper.settle({});
-  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.tree(), legs), 1.7F);  // now it has stood all along
+  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.map().tree(), legs), 1.7F);  // now it has stood all along
 }
 
 TEST(SemanticMapper, DoubtsSettleToTheSameBytesWhateverTheOrderOfArrival) {
@@ -127,7 +127,7 @@ TEST(SemanticMapper, DoubtsSettleToTheSameBytesWhateverTheOrderOfArrival) {
       else
         mapper.integrate(SyntheticKeyframe(id * 7).rectangle(kLegs, kPersonM).looked_for_objects());
     mapper.settle({});
-    return mapper.to_bytes();
+    return test::saved_bytes(mapper);
   };
   EXPECT_EQ(bytes_after({0, 1, 2, 3, 4}), bytes_after({3, 0, 4, 2, 1}));
 }

@@ -7,11 +7,11 @@
 
 namespace rds::mapper {
 
-/// Which loop corrections the keyframe poses contain that the map was made with.
+/// Which corrections of which loop closer the known keyframe poses contain.
 ///
 /// Revisions count per loop closer's instance: one that was started again begins at 0, and what it finds is
 /// newer than all of those before it.
-class LoopKnowledge {
+class LoopRevisions {
  public:
   /// Poses that contain this correction were made before their writer knew what we know.
   [[nodiscard]] bool is_older(std::uint64_t instance, std::uint64_t revision) const {

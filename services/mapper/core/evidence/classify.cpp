@@ -55,7 +55,7 @@ DoubtfulPixels doubtful_pixels(const KeyframeRecord& record, const DynamicMasks&
   for (std::size_t i = 0; i < record.size(); ++i)
     doubt.is_doubtful[i] = is_doubtful(i, record, masks, near);
   if (std::ranges::find(doubt.is_doubtful, true) == doubt.is_doubtful.end()) return {};
-  doubt.surfaces = find_surfaces(record, config.sampling, doubt.surface);
+  doubt.surfaces = find_surfaces(record, doubt.surface);
   return doubt;
 }
 
@@ -63,7 +63,6 @@ DoubtfulPixels doubtful_pixels(const KeyframeRecord& record, const DynamicMasks&
 
 void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
   const cv::Mat1b no_return = without_depth_all_around(record);
-  const DepthSupport support(record, config);
   const auto nearest = to_tenth_mm(static_cast<float>(config.min_range_m));
   const auto farthest = to_tenth_mm(static_cast<float>(config.max_range_m));
   for (int row = 0; row < record.height; ++row)
@@ -72,7 +71,7 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
       const auto depth = record.depth_tenth_mm[i];
       auto& its_class = record.classes[i];
       its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;  // rule 1
-      if (depth == 0 || depth < nearest || !support.has(column, row)) continue;                // rule 2
+      if (depth == 0 || depth < nearest || !is_on_surface(record, column, row, config)) continue;                // rule 2
       its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                  // rule 3
     }
 }

@@ -4,6 +4,10 @@
 namespace rds::mapper {
 namespace {
 
+constexpr double kConfirmedShare = 0.7;        // of a surface's pixels
+constexpr double kLargeSurface = 0.1;          // share of the picture: walls and floors fill it, people do not, ...
+constexpr double kConfirmedShareOfLarge = 0.15;  // ... so that less of it suffices
+
 struct Support {
   std::uint32_t pixels = 0;
   std::uint32_t confirmed = 0;
@@ -29,9 +33,9 @@ std::vector<Support> support_of_surfaces(const KeyframeRecord& record, const Sta
   return support;
 }
 
-bool is_confirmed(const Support& support, std::size_t picture, const ConfirmationConfig& config) {
-  const bool large = support.pixels >= config.large * static_cast<double>(picture);
-  const double needed = large ? config.share_of_large : config.share;
+bool is_confirmed(const Support& support, std::size_t picture) {
+  const bool large = support.pixels >= kLargeSurface * static_cast<double>(picture);
+  const double needed = large ? kConfirmedShareOfLarge : kConfirmedShare;
   return support.pixels > 0 && support.confirmed >= needed * support.pixels;
 }
 
@@ -43,7 +47,7 @@ std::vector<bool> confirmed_surfaces(const KeyframeRecord& record, const StaticH
   const auto support = support_of_surfaces(record, history, config);
   std::vector<bool> confirmed(support.size());
   for (std::size_t s = 1; s < support.size(); ++s)
-    confirmed[s] = is_confirmed(support[s], record.size(), config.confirmation);
+    confirmed[s] = is_confirmed(support[s], record.size());
   return confirmed;
 }
 

@@ -51,9 +51,9 @@ std::vector<bool> transient_pixels(const KeyframeRecord& record, const SceneHist
   if (std::ranges::count(transient, true) < kMinPixels) return {};
   const bool known = !record.doubt.empty();
   std::vector<std::uint16_t> found;
-  const auto surfaces = known ? record.doubt.surfaces : find_surfaces(record, config.sampling, found);
+  const auto surfaces = known ? record.doubt.surfaces : find_surfaces(record, found);
   const auto& surface = known ? record.doubt.surface : found;
-  const auto mostly = mostly_transient(surface, surfaces, transient, config.confirmation.passing_share);
+  const auto mostly = mostly_transient(surface, surfaces, transient, config.confirmation.transient_share);
   std::vector<bool> pixels(record.size());
   for (std::size_t i = 0; i < record.size(); ++i)
     pixels[i] = classes[i] == PixelClass::kStatic && mostly[surface[i]];

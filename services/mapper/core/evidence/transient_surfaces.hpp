@@ -7,7 +7,7 @@
 
 namespace rds::mapper {
 
-/// Static pixels on connected surfaces that are transient (SceneHistory) for at least `passing_share` of
+/// Static pixels on connected surfaces that are transient (SceneHistory) for at least `transient_share` of
 /// their pixels: a person whom this keyframe's detector missed and others found. Pixels with the label of a
 /// static object are not counted as transient.
 ///

@@ -8,7 +8,8 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
+constexpr double kMinMoveM = 0.01;  // a fifth of a voxel; smaller corrections wait for settle()
+constexpr double kMinTurnRad = 0.5 * (3.14159265358979 / 180);  // 3.5 cm at 4 m
 constexpr double kBytesPerMb = 1e6;
 constexpr std::size_t kMaxUnsavedFinal = 100;  // then the final map, which is large, is saved again
 constexpr std::uint64_t kIdsPerBlock = 64;
@@ -99,8 +100,8 @@ void KeyframeArchive::set_poses(std::span<const KeyframePose> poses) {
 bool KeyframeArchive::moved_enough() const {
   return std::ranges::any_of(keyframes_, [&](const auto& entry) {
     const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.pose;
-    return moved.translation().norm() > config_.correction.min_translation_m ||
-           geometry::rotation_angle_rad(moved.linear()) > config_.correction.min_rotation_deg * kDegree;
+    return moved.translation().norm() > kMinMoveM ||
+           geometry::rotation_angle_rad(moved.linear()) > kMinTurnRad;
   });
 }
 

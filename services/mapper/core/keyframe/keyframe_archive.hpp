@@ -65,7 +65,7 @@ class KeyframeArchive {
 
   /// Takes over poses; unknown ids and poses that are not finite are ignored.
   void set_poses(std::span<const KeyframePose> poses);
-  /// True if a pose differs from the integrated one by more than min_translation_m or min_rotation_deg.
+  /// True if a pose differs from the integrated one by more than 1 cm or 0.5°.
   [[nodiscard]] bool moved_enough() const;
   /// Gives all keyframes the times that they would have had, had they come in the order of their ids.
   void set_times();

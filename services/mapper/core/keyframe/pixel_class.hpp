@@ -17,9 +17,12 @@ enum class PixelClass : std::uint8_t {
 };
 using PixelClasses = std::vector<PixelClass>;
 
+/// A voxel that no more keyframes have hit may be an accident.
+inline constexpr int kUncertainHits = 2;
+
 // What was measured as a surface is in doubt where
 //   a pixel is unknown, or static and near something dynamic (classify()),
 //   a place is a ghost or transient (SceneHistory),
-//   an occupied voxel is a ghost, or was hit in no more than octree.weak_sightings keyframes (SemanticOctree).
+//   an occupied voxel is a ghost, or was hit in no more than kUncertainHits keyframes (SemanticOctree).
 
 }  // namespace rds::mapper

@@ -14,6 +14,13 @@
 namespace rds::mapper {
 namespace {
 
+// Log-odds of an object's existence. Two sightings report an object that seventeen misses each would end: a
+// detector finds furniture in few of the views that show it. Seen through, one sighting is undone by two views.
+constexpr double kHit = 0.85;  // as of a voxel
+constexpr double kMiss = 0.05;
+constexpr double kSeenThrough = 0.6;
+constexpr double kMaxExistence = 3.5;     // as P = .97 of a voxel: what was removed goes after six views
+constexpr double kBorderWeight = 0.25;    // of a sighting that the picture's border cuts
 constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
 constexpr double kOutward = 4;        // a view that shows more of the object counts so often
 constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
@@ -146,7 +153,7 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
     entry->object.first_seen_ns = record.stamp_ns;
   }
   const double weight =
-      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? config_.border_weight : 1.0);
+      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? kBorderWeight : 1.0);
   if (entry->weight == 0) {
     entry->min = box.min;
     entry->max = box.max;
@@ -162,7 +169,7 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
     entry->max[axis] += step(box.max[axis] - entry->max[axis], box.max[axis] > entry->max[axis]);
   }
   entry->score_sum += sighting.score;
-  entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
+  entry->existence = std::min(kMaxExistence, entry->existence + kHit);
   entry->seen_now = true;
   ++entry->object.observations;
   entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, record.stamp_ns);
@@ -186,7 +193,7 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   const double half_depth = box.size().norm() / 2;
   const auto view = look_at(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
   if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
-  entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
+  entry.existence -= 3 * view.seen_through > 2 * view.measured ? kSeenThrough : kMiss;
 }
 
 std::vector<geometry::Box3> ObjectDatabase::undetected(const KeyframeRecord& record,

@@ -83,7 +83,7 @@ void cast_rays(const KeyframeRecord& record, std::span<const PixelClass> classes
   mark_surfaces(project, classes, scan);
   if (!octree.carve_rays) return;
   carve(project, classes, false, scan);
-  if (octree.weak_sightings > 0) carve(project, classes, true, scan);
+  carve(project, classes, true, scan);
 }
 
 }  // namespace rds::mapper

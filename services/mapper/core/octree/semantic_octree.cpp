@@ -11,6 +11,13 @@ namespace rds::mapper {
 namespace {
 
 using Node = EditableOcTree::Node;
+// Log-odds per keyframe, paper §IV-C.
+constexpr double kHit = 0.85;
+constexpr double kMiss = -0.41;
+constexpr double kGhostMiss = -1.2;     // a voxel at the upper clamp is free after three rays
+constexpr double kLowest = 0.12;        // clamped to these probabilities, as OctoMap does
+constexpr double kHighest = 0.97;
+constexpr double kLabelShare = 0.25;    // of a voxel's votes: a detector misses an object in many views
 constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
 
 void append_key(std::vector<std::uint16_t>& keys, const octomap::OcTreeKey& key) {
@@ -49,17 +56,17 @@ bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
 
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
     : config_(config),
-      lowest_(octomap::logodds(config.clamp_min)),
-      highest_(octomap::logodds(config.clamp_max)),
+      lowest_(octomap::logodds(kLowest)),
+      highest_(octomap::logodds(kHighest)),
       tree_(config.resolution_m) {
-  tree_.setClampingThresMin(config.clamp_min);
-  tree_.setClampingThresMax(config.clamp_max);
+  tree_.setClampingThresMin(kLowest);
+  tree_.setClampingThresMax(kHighest);
   tree_.setOccupancyThres(0.5);
 }
 
 std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
   const auto found = memory_.find(packed(key));
-  return found == memory_.end() ? std::uint16_t{0} : found->second.label(config_.label_share);
+  return found == memory_.end() ? std::uint16_t{0} : found->second.label(kLabelShare);
 }
 
 void SemanticOctree::integrate(const Update& update) {
@@ -114,14 +121,14 @@ bool SemanticOctree::is_doubtful(const Node* parent, unsigned index, const octom
   if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
   if (update.history.is_ghost(key, update.time_ns)) return true;
   const auto found = memory_.find(packed(key));
-  return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
+  return found != memory_.end() && found->second.times_seen() <= kUncertainHits;
 }
 
-/// Paper §IV-C; deviation: a ray through a ghost takes suspect_miss.
+/// Paper §IV-C; deviation: a ray through a ghost takes kGhostMiss.
 double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const {
-  if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
-  return occupied && update.history.is_ghost(key, update.time_ns) ? config_.suspect_miss : config_.miss;
+  if (surface != nullptr) return surface->is_hit() ? kHit : kMiss;
+  return occupied && update.history.is_ghost(key, update.time_ns) ? kGhostMiss : kMiss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
@@ -163,7 +170,7 @@ std::uint16_t SemanticOctree::remember(Node* node, const octomap::OcTreeKey& key
   memory.see_color(surface);
   if (update.looked_for_objects && (surface.label != 0 || !is_of_undetected(key, update)))
     memory.vote(surface.label);
-  const auto label = memory.label(config_.label_share);
+  const auto label = memory.label(kLabelShare);
   const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : memory.color();
   node->setColor(color[0], color[1], color[2]);
   return label;

@@ -23,12 +23,12 @@ bool is_in_a_box(const KeyframeRecord& record, std::size_t pixel, std::span<cons
 }
 
 bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
-                     std::span<const geometry::Box2> movable, const SegmentationConfig& config) {
+                     std::span<const geometry::Box2> movable) {
   PointSums outside;
   for (const auto i : surface.pixels)
     if (!is_dynamic(record, i) && !is_in_a_box(record, i, movable))
       outside.add(record.point_in_camera(i).cast<double>());
-  return outside.count() >= config.min_plane_share * static_cast<double>(record.size()) &&
+  return outside.count() >= kMinPlaneShare * static_cast<double>(record.size()) &&
          outside.narrow_deviation_m() >= kWiderThanAPersonM;
 }
 
@@ -59,7 +59,7 @@ std::vector<bool> find_background(const KeyframeRecord& record, std::span<const 
   if (movable.empty()) return {};
   std::vector<bool> background(record.size(), false);
   for (const FlatSurface& surface : find_planes(record, config)) {
-    if (!goes_on_outside(surface, record, movable, config)) continue;
+    if (!goes_on_outside(surface, record, movable)) continue;
     for (const auto i : surface.pixels)
       if (lies_along(surface.plane, record, i)) background[i] = true;
   }

@@ -23,24 +23,20 @@ cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
   return none;
 }
 
-DepthSupport::DepthSupport(const KeyframeRecord& record, const SamplingConfig& config)
-    : record_(record),
-      tolerance_at_1m_(static_cast<float>(config.edge_depth_m) * kTenthMmPerM),
-      needed_(config.edge_support) {}
-
-bool DepthSupport::has(int column, int row) const {
+bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config) {
+  constexpr float kToleranceAt1m = static_cast<float>(kSurfaceStepM) * kTenthMmPerM;
   const std::uint16_t* middle =
-      &record_.depth_tenth_mm[static_cast<std::size_t>(row * record_.width + column)];
+      &record.depth_tenth_mm[static_cast<std::size_t>(row * record.width + column)];
   const int depth = *middle;
   const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
-  const auto tolerance = static_cast<int>(tolerance_at_1m_ * scale);
+  const auto tolerance = static_cast<int>(kToleranceAt1m * scale);
   const int left = column > 0 ? -1 : 0;
-  const int right = column + 1 < record_.width ? 1 : 0;
+  const int right = column + 1 < record.width ? 1 : 0;
   int count = -1;  // itself
-  for (int r = row > 0 ? -1 : 0; r <= (row + 1 < record_.height ? 1 : 0) && count < needed_; ++r)
+  for (int r = row > 0 ? -1 : 0; r <= (row + 1 < record.height ? 1 : 0) && count < config.edge_support; ++r)
     for (int c = left; c <= right; ++c)
-      count += std::abs(middle[r * record_.width + c] - depth) <= tolerance ? 1 : 0;
-  return count >= needed_;
+      count += std::abs(middle[r * record.width + c] - depth) <= tolerance ? 1 : 0;
+  return count >= config.edge_support;
 }
 
 }  // namespace rds::mapper

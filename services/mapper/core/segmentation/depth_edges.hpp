@@ -9,19 +9,13 @@ namespace rds::mapper {
 /// border. Of the size of the sampled picture.
 cv::Mat1b without_depth_all_around(const KeyframeRecord& record);
 
-/// Tells flying pixels, which a camera measures between two surfaces, from surfaces.
-class DepthSupport {
- public:
-  /// @param record  must outlive this object.
-  DepthSupport(const KeyframeRecord& record, const SamplingConfig& config);
+/// Neighbouring pixels are of one surface if their depths differ by no more than this × max(1, depth / 1 m)
+/// [m]: a surface that is seen at more than 7° changes by less from one
+/// sampled pixel to the next (2 px of 525).
+inline constexpr double kSurfaceStepM = 0.03;
 
-  /// True if at least edge_support of the 8 neighbours have nearly this pixel's depth.
-  [[nodiscard]] bool has(int column, int row) const;
-
- private:
-  const KeyframeRecord& record_;
-  float tolerance_at_1m_;  // [0.1 mm]
-  int needed_;             // neighbours
-};
+/// True if at least edge_support of the 8 neighbours are of this pixel's surface; a camera measures flying
+/// pixels between two surfaces.
+bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config);
 
 }  // namespace rds::mapper

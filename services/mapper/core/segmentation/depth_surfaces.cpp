@@ -6,11 +6,13 @@
 #include <limits>
 #include <numeric>
 
+#include "services/mapper/core/segmentation/depth_edges.hpp"
+
 namespace rds::mapper {
 namespace {
 
 constexpr std::uint32_t kMinPixels = 8;
-constexpr int kTenthMmPerM = 10000;
+constexpr int kOneMetre = 10000;  // in depth_tenth_mm
 
 /// Disjoint sets of pixels; the lowest one stands for its set.
 class PixelSets {
@@ -35,14 +37,14 @@ bool may_be_static(PixelClass c) {
   return c == PixelClass::kStatic || c == PixelClass::kUnknown;
 }
 
-PixelSets join_neighbours(const KeyframeRecord& record, const SamplingConfig& config) {
+PixelSets join_neighbours(const KeyframeRecord& record) {
   PixelSets sets(record.size());
-  const auto step_at_1m = static_cast<int>(config.edge_depth_m * kTenthMmPerM);
+  constexpr auto kStepAt1m = static_cast<int>(kSurfaceStepM * kOneMetre);
   const auto width = static_cast<std::size_t>(record.width);
   const auto try_join = [&](std::size_t a, std::size_t b) {
     if (!may_be_static(record.classes[b])) return;
     const int depth = record.depth_tenth_mm[a];
-    const int step = depth <= kTenthMmPerM ? step_at_1m : depth / 100 * step_at_1m / 100;
+    const int step = depth <= kOneMetre ? kStepAt1m : depth / 100 * kStepAt1m / 100;
     if (std::abs(record.depth_tenth_mm[b] - depth) <= step)
       sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
@@ -56,9 +58,8 @@ PixelSets join_neighbours(const KeyframeRecord& record, const SamplingConfig& co
 
 }  // namespace
 
-std::uint16_t find_surfaces(const KeyframeRecord& record, const SamplingConfig& config,
-                            std::vector<std::uint16_t>& surface) {
-  PixelSets sets = join_neighbours(record, config);
+std::uint16_t find_surfaces(const KeyframeRecord& record, std::vector<std::uint16_t>& surface) {
+  PixelSets sets = join_neighbours(record);
   std::vector<std::uint32_t> pixels(record.size(), 0);
   for (std::uint32_t i = 0; i < record.size(); ++i) ++pixels[sets.root(i)];
   surface.assign(record.size(), 0);

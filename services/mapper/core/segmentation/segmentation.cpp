@@ -18,8 +18,9 @@ using Cloud = pcl::PointCloud<Point>;
 using LabelCloud = pcl::PointCloud<pcl::Label>;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr int kSameSurfaceTenthMm =
-    500;  // depth step between a point of a cluster and the pixels it stands for
+constexpr double kMinClusterShare = 0.0033;  // of the picture: a tenth of a plane's
+constexpr float kClusterDistance = 0.015F;   // between neighbours, × depth: twice that of two points on a surface seen straight on
+constexpr int kSameSurfaceTenthMm = 500;     // depth step between a point of a cluster and the pixels it stands for
 
 /// Neighbours belong together when they are nearer than a share of their depth (PCL's own comparator grows
 /// with depth², and joins everything at 3 m).
@@ -52,15 +53,15 @@ Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>
   return cloud;
 }
 
-std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud, const SegmentationConfig& config) {
-  const auto near = pcl::make_shared<NearInSpace>(static_cast<float>(config.cluster_distance));
+std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud) {
+  const auto near = pcl::make_shared<NearInSpace>(kClusterDistance);
   near->setInputCloud(cloud);
   pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(near);
   clustering.setInputCloud(cloud);
   LabelCloud labels;
   std::vector<pcl::PointIndices> clusters;
   clustering.segment(labels, clusters);
-  const double needed = config.min_cluster_share * static_cast<double>(cloud->size());
+  const double needed = kMinClusterShare * static_cast<double>(cloud->size());
   std::erase_if(clusters, [&](const auto& c) { return static_cast<double>(c.indices.size()) < needed; });
   return clusters;
 }
@@ -108,7 +109,7 @@ std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationCon
     const auto box = box_around(surface.pixels, record);
     segments.push_back({box, std::move(surface.pixels), surface.plane});
   }
-  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride), config)) {
+  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride))) {
     auto pixels = pixels_of(cluster.indices, config.stride, record, on_plane);
     const auto box = box_around(pixels, record);
     segments.push_back({box, std::move(pixels), std::nullopt});

@@ -138,8 +138,8 @@ TEST(Pipeline, ABoxWithoutDepthHasNoRegion) {
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);
   const LabelledBox box{"person", 1.0F, {110, 60, 190, 140}, std::nullopt, 0.0F, true};
-  EXPECT_TRUE(object_region(record, box, RegionConfig{}).pixels.empty());
-  EXPECT_FALSE(object_place(record, box, RegionConfig{}).has_value());
+  EXPECT_TRUE(object_region(record, box).pixels.empty());
+  EXPECT_FALSE(object_place(record, box).has_value());
 }
 
 }  // namespace

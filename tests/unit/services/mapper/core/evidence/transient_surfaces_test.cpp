@@ -59,7 +59,7 @@ TEST_F(TransientSurfaces, AnObjectThatTheDetectorFoundStays) {
 }
 
 TEST_F(TransientSurfaces, TheShareTellsWhatGoesOn) {
-  config_.confirmation.passing_share = 0.3;
+  config_.confirmation.transient_share = 0.3;
   EXPECT_EQ(class_at(SyntheticKeyframe(1).rectangle({60, 30, 200, 180}, kDepthM), 160, 120),
             PixelClass::kInvalid);
 }

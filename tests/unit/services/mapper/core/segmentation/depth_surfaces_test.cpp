@@ -15,7 +15,7 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
   for (int x = 120; x < 180; ++x) input.depth.values(cv::Rect(x, 150, 1, 60)).setTo(1.0 + 0.01 * (x - 120));
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, config.sampling, surface), 4);
+  EXPECT_EQ(find_surfaces(record, surface), 4);
   const auto at = [&](int x_px, int y_px) {
     return surface[static_cast<std::size_t>(y_px / 2 * record.width + x_px / 2)];
   };
@@ -32,7 +32,7 @@ TEST(DepthSurfaces, AFewPixelsAreNone) {
   const KeyframeInput input = test::SyntheticKeyframe(0).rectangle({100, 100, 4, 4}, 1.5);
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, config.sampling, surface), 1);
+  EXPECT_EQ(find_surfaces(record, surface), 1);
   EXPECT_EQ(surface[static_cast<std::size_t>(51 * record.width + 51)], 0);
 }
 

@@ -45,7 +45,8 @@ void MapOutputs::note_keyframe(std::uint64_t id, std::int64_t stamp_ns) {
 }
 
 bool MapOutputs::has_new_reader() {
-  const int readers = topics_.full.matched() + topics_.delta.matched() + topics_.binary.matched() + topics_.points.matched();
+  const int readers =
+      topics_.full.matched() + topics_.delta.matched() + topics_.binary.matched() + topics_.points.matched();
   const bool more = readers > readers_;
   readers_ = readers;
   return more;
@@ -103,17 +104,18 @@ void MapOutputs::publish_all(const SemanticMapper& mapper, std::size_t keyframes
 void MapOutputs::write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns) {
   const auto started = std::chrono::steady_clock::now();
   const auto tree = tree_from_bytes(snapshot.nodes, snapshot.resolution).value();
-  LabelRows untold = labels_not_told_by_colors(*tree, snapshot);
+  LabelRows hidden = labels_not_shown_by_colors(*tree, snapshot);
   info.describes_full(true);
-  info.label_keys(std::move(untold.keys));
-  info.label_values(std::move(untold.values));
+  info.label_keys(std::move(hidden.keys));
+  info.label_values(std::move(hidden.values));
   topics_.full.write(full_message(snapshot, stamp_ns));
   topics_.info.write(info);
   topics_.objects.write(objects_message(snapshot.objects, stamp_ns));
   topics_.markers.write(markers_message(snapshot.objects, stamp_ns));
   topics_.grid.write(grid_message(make_grid(*tree, snapshot.up, grid_config_), stamp_ns));
   if (topics_.binary.matched() > 0) topics_.binary.write(binary_message(*tree, stamp_ns));
-  if (topics_.points.matched() > 0) topics_.points.write(points_message(points_of(*tree, snapshot), stamp_ns));
+  if (topics_.points.matched() > 0)
+    topics_.points.write(points_message(points_of(*tree, snapshot), stamp_ns));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   full_map_latency_.add_ms(took.count());
 }

@@ -21,7 +21,8 @@ store::Bytes to_bytes(const IntegratedKeyframe& keyframe) {
   return writer.take();
 }
 
-tl::expected<IntegratedKeyframe, std::string> integrated_from(std::uint64_t id, std::span<const std::uint8_t> bytes) {
+tl::expected<IntegratedKeyframe, std::string> integrated_from(std::uint64_t id,
+                                                              std::span<const std::uint8_t> bytes) {
   map_file::ByteReader reader(bytes);
   IntegratedKeyframe keyframe;
   keyframe.id = id;
@@ -91,7 +92,8 @@ void MapperCheckpoints::save(SemanticMapper& mapper, bool now) {
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time
 }
 
-tl::expected<std::vector<IntegratedKeyframe>, std::string> MapperCheckpoints::restore(SemanticMapper& mapper) {
+tl::expected<std::vector<IntegratedKeyframe>, std::string> MapperCheckpoints::restore(
+    SemanticMapper& mapper) {
   std::vector<IntegratedKeyframe> keyframes;
   const auto state = writer_ ? writer_->get(kState, 0) : std::nullopt;
   if (!state) return keyframes;

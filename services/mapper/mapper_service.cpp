@@ -5,14 +5,11 @@
 
 #include <spdlog/spdlog.h>
 
-#include "common/messages/conversions.hpp"
-#include "common/messages/keyframe_conversions.hpp"
 #include "common/service/checkpoints.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/topics/endpoints.hpp"
-#include "services/mapper/input/keyframe_input.hpp"
-#include "services/mapper/input/labelled_boxes.hpp"
+#include "services/mapper/input/conversions.hpp"
 #include "services/mapper/saved_start.hpp"
 #include "services/mapper/spill_file.hpp"
 
@@ -39,22 +36,6 @@ EpochFollower::Accepts accepts(bus::Participant& bus) {
   return [writer = std::make_shared<service::FollowedWriter>(bus)](std::uint64_t instance, bool same_map) {
     return writer->accept(instance, same_map);
   };
-}
-
-/// @return nullopt, counted, for a message that cannot be used; boxes that cannot be are counted and left
-/// out.
-std::optional<std::vector<LabelledBox>> labelled_boxes(const KeyframeQueue::Boxes& boxes,
-                                                       const geometry::Pose& camera_from_map,
-                                                       const geometry::CameraModel& camera,
-                                                       const MapperConfig& config,
-                                                       service::Diagnostics& diagnostics) {
-  auto labelled = to_labelled_boxes(*boxes, camera_from_map, camera, config);
-  if (!labelled) {
-    diagnostics.reject(topics::kBoxes.name, Rejection::kInvalid, labelled.error());
-    return std::nullopt;
-  }
-  diagnostics.counter("impossible boxes") += labelled->impossible;
-  return std::move(labelled->boxes);
 }
 
 /// Disk full, or a file that gave back other bytes: the map goes on, some keyframes follow corrections no
@@ -111,14 +92,15 @@ void MapperService::go_on_from_checkpoint() {
     outputs_.note_keyframe(keyframe.id, keyframe.stamp_ns);
   }
   if (keyframes->empty()) return;
-  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.archive().size(), mapper_.map().epoch);
+  spdlog::info("goes on in a map of {} keyframes, epoch {:016x}", mapper_.archive().size(),
+               mapper_.map().epoch);
   outputs_.publish_all(mapper_, queue_.size());
 }
 
 void MapperService::subscribe() {
   if (!config_.localize_only) {
-    subscriptions_.push_back(subscribe_to_instances(topics::kKeyframeImages, topics::kMapper,
-                                                    [this](Images m) { inboxes_.images.push(std::move(m)); }));
+    subscriptions_.push_back(subscribe_to_instances(
+        topics::kKeyframeImages, topics::kMapper, [this](Images m) { inboxes_.images.push(std::move(m)); }));
     subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
                                                [this](Boxes m) { inboxes_.boxes.push(std::move(m)); }));
   }
@@ -147,81 +129,6 @@ void MapperService::idle() {
   guarded(topics::kKeyframePoses.name, [this] { correct(); });
   integrate_ready();
   checkpoints_.save(mapper_);
-}
-
-/// Messages may change which epoch counts, what waits and which poses are known; the map changes in idle().
-void MapperService::take_messages() {
-  while (const auto images = inboxes_.images.try_pop())  // first: they begin an epoch
-    guarded(topics::kKeyframeImages.name, [&] { take(*images); });
-  while (const auto boxes = inboxes_.boxes.try_pop()) guarded(topics::kBoxes.name, [&] { take(*boxes); });
-  while (const auto poses = inboxes_.poses.try_pop())
-    guarded(topics::kKeyframePoses.name, [&] { take(*poses); });
-}
-
-bool MapperService::is_of_tracker(std::uint64_t instance, std::uint64_t map_epoch, const std::string& topic) {
-  const std::uint64_t before = epochs_.tracker();
-  const auto refusal = epochs_.hear_tracker(instance, map_epoch, mapper_.map().epoch, EpochFollower::Clock::now());
-  if (epochs_.tracker() != before) poses_.forget_loops();
-  if (refusal) context_.diagnostics.reject(topic, refusal->code, refusal->reason);
-  return !refusal;
-}
-
-void MapperService::take(const Images& images) {
-  if (!is_of_tracker(images->instance(), images->map_epoch(), topics::kKeyframeImages.name)) return;
-  if (images->map_epoch() == mapper_.map().epoch) return queue_.add(images);
-  const auto first = mapper_.archive().size() == 0 ? std::vector{images} : epochs_.confirm(images);
-  if (first.empty()) return;
-  begin_epoch(images->map_epoch(), messages::to_nanoseconds(first.front()->header().stamp()));
-  for (const Images& keyframe : first) queue_.add(keyframe);
-}
-
-void MapperService::take(const Boxes& boxes) {
-  const IntegratedKeyframe* late_for = queue_.add(boxes);
-  if (late_for == nullptr) return;
-  if (const auto labelled = labelled_boxes(boxes, late_for->camera_from_map, late_for->camera, config_.mapper,
-                                           context_.diagnostics))
-    mapper_.set_boxes(late_for->id, *labelled);
-}
-
-void MapperService::take(const Poses& message) {
-  const bool is_local = KnownPoses::is_local(*message);
-  if (is_local) {
-    if (!is_of_tracker(message->instance(), message->map_epoch(), topics::kKeyframePoses.name)) return;
-  } else if (const auto refusal = epochs_.hear_loop_closer(message->instance(), message->map_epoch(),
-                                                           mapper_.map().epoch)) {
-    return context_.diagnostics.reject(topics::kKeyframePoses.name, refusal->code, refusal->reason);
-  }
-  auto poses = messages::to_keyframe_poses(*message);
-  if (!poses)
-    return context_.diagnostics.reject(topics::kKeyframePoses.name, Rejection::kInvalid, poses.error());
-  if (message->map_epoch() != mapper_.map().epoch) {
-    if (config_.localize_only) {
-      begin_epoch(message->map_epoch(), messages::to_nanoseconds(message->header().stamp()));
-    } else {  // only keyframes begin an epoch
-      epochs_.keep(message);
-      const Images first = epochs_.confirm(message);
-      if (first) {
-        begin_epoch(first->map_epoch(), messages::to_nanoseconds(first->header().stamp()));
-        queue_.add(first);
-      }
-      return;
-    }
-  }
-  poses_.take(*message, std::move(*poses));
-  if (is_local && message->base_revision() == 0 && !config_.lockstep)
-    mapper_.make_others_final(poses_.poses_of_tracker());
-}
-
-/// A new epoch is a new tracker, with the saved map or an empty one.
-/// @param stamp_ns  of what it begins with: earlier boxes are of an epoch that is over.
-void MapperService::begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns) {
-  spdlog::info("map epoch {:016x}", map_epoch);
-  const auto early = epochs_.begin(mapper_.map().epoch, EpochFollower::Clock::now());
-  mapper_.reset(map_epoch);
-  begin_map();
-  queue_.forget_boxes_before(stamp_ns);
-  if (mapper_.map().revision > 0) outputs_.publish_all(mapper_, queue_.size());
-  for (const Poses& poses : early) take(poses);
 }
 
 /// The map is another one: keyframes and poses of the one before are forgotten.
@@ -256,10 +163,10 @@ void MapperService::integrate(const KeyframeQueue::Entry& entry) {
   auto input = to_keyframe_input(entry.images);
   if (!input)
     return context_.diagnostics.reject(topics::kKeyframeImages.name, Rejection::kInvalid, input.error());
-  const IntegratedKeyframe keyframe{input->id, input->stamp_ns, input->map_from_camera.inverse(), input->camera};
+  const IntegratedKeyframe keyframe{input->id, input->stamp_ns, input->map_from_camera.inverse(),
+                                    input->camera};
   if (entry.boxes)
-    input->boxes = labelled_boxes(entry.boxes, keyframe.camera_from_map, keyframe.camera, config_.mapper,
-                                  context_.diagnostics);
+    input->boxes = to_labelled_boxes(*entry.boxes, keyframe, config_.mapper, context_.diagnostics);
   if (const auto* known = poses_.find(keyframe.id)) input->map_from_camera = known->map_from_camera;
   MapDelta delta;
   try {

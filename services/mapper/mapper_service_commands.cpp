@@ -37,17 +37,19 @@ bool MapperService::begin(const service::PendingCommand& command) {
   }
   if (command.verb != "load") return false;
   using map_commands::MapCommands;
-  map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
-                                  -> tl::expected<MapCommands::Completion, std::string> {
-    auto start = read_start(map, limits, config_.mapper);  // on a thread of its own
-    if (!start) return tl::unexpected(start.error());
-    return [this, start = std::move(*start)]() -> service::CommandOutcome {
-      mapper_.start_from(start);
-      begin_map();
-      outputs_.publish_all(mapper_, queue_.size());
-      return {true, size_of(mapper_)};
-    };
-  });
+  map_commands_.load(
+      command,
+      [this](const map_file::Folder& map,
+             const map_file::FileLimits& limits) -> tl::expected<MapCommands::Completion, std::string> {
+        auto start = read_start(map, limits, config_.mapper);  // on a thread of its own
+        if (!start) return tl::unexpected(start.error());
+        return [this, start = std::move(*start)]() -> service::CommandOutcome {
+          mapper_.start_from(start);
+          begin_map();
+          outputs_.publish_all(mapper_, queue_.size());
+          return {true, size_of(mapper_)};
+        };
+      });
   return true;
 }
 

@@ -10,44 +10,40 @@
 namespace rds::mapper {
 namespace {
 
-using Tree = tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string>;
-using Sections = tl::expected<map_file::Sections, std::string>;
+/// Makes a map of what was read; the sentence names the file.
+struct ToMap {
+  ReadMap operator()(const std::unique_ptr<octomap::ColorOcTree>& tree) const {
+    return named(saved_map_from(std::move(*tree), config));
+  }
+  ReadMap operator()(const map_file::Sections& sections) const {
+    return named(saved_map_from(sections.at(map_file::kMapper), config));
+  }
+  [[nodiscard]] ReadMap named(ReadMap map) const {
+    if (map) return map;
+    return tl::unexpected(fmt::format("{}: cannot be mapped on: {}", from.string(), map.error()));
+  }
 
-/// A saved map that fits, or one sentence naming the file.
-tl::expected<SavedMap, std::string> named(tl::expected<SavedMap, std::string> saved,
-                                          const std::filesystem::path& from) {
-  if (saved) return saved;
-  return tl::unexpected(fmt::format("{}: cannot be mapped on: {}", from.string(), saved.error()));
-}
-
-tl::expected<SavedMap, std::string> start_from(const Tree& tree, const MapperConfig& config,
-                                               const std::filesystem::path& from) {
-  if (!tree) return tl::unexpected(tree.error());
-  return named(saved_map_from(std::move(**tree), config), from);
-}
-
-tl::expected<SavedMap, std::string> start_from(const Sections& sections, const MapperConfig& config,
-                                               const std::filesystem::path& from) {
-  if (!sections) return tl::unexpected(sections.error());
-  return named(saved_map_from(sections->at(map_file::kMapper), config), from);
-}
+  const MapperConfig& config;
+  std::filesystem::path from;
+};
 
 }  // namespace
 
-tl::expected<SavedMap, std::string> read_start(const std::filesystem::path& from,
-                                               const map_file::FileLimits& limits,
-                                               const MapperConfig& config) {
-  if (looks_like_tree(from)) return start_from(read_tree(from, limits), config, from);
-  return start_from(map_file::read_saved_map(from, {map_file::kMapper}, limits), config, from);
+ReadMap read_start(const std::filesystem::path& from, const map_file::FileLimits& limits,
+                   const MapperConfig& config) {
+  const ToMap to_map{config, from};
+  if (looks_like_tree(from)) return read_tree(from, limits).and_then(to_map);
+  return map_file::read_saved_map(from, {map_file::kMapper}, limits).and_then(to_map);
 }
 
-tl::expected<SavedMap, std::string> read_start(const map_file::Folder& map,
-                                               const map_file::FileLimits& limits,
-                                               const MapperConfig& config) {
+ReadMap read_start(const map_file::Folder& map, const map_file::FileLimits& limits,
+                   const MapperConfig& config) {
+  const ToMap to_map{config, map.path()};
   if (map.has_file(map_file::kMapFile) || !map.has_file(kTreeFile))
-    return start_from(map_file::read_saved_map(map, {map_file::kMapper}, limits), config, map.path());
-  const auto bytes = map.read(kTreeFile, limits);
-  return start_from(bytes ? tree_from_octomap_file(*bytes) : tl::unexpected(bytes.error()), config, map.path());
+    return map_file::read_saved_map(map, {map_file::kMapper}, limits).and_then(to_map);
+  return map.read(kTreeFile, limits)
+      .and_then([](const auto& bytes) { return tree_from_octomap_file(bytes); })
+      .and_then(to_map);
 }
 
 }  // namespace rds::mapper

@@ -10,14 +10,11 @@
 namespace rds::mapper {
 
 /// A saved map, or OctoMap's tree, that a user names: map.rds, its folder, or a .ot or .bt file.
-/// @return or one sentence.
-tl::expected<SavedMap, std::string> read_start(const std::filesystem::path& from,
-                                               const map_file::FileLimits& limits,
-                                               const MapperConfig& config);
+ReadMap read_start(const std::filesystem::path& from, const map_file::FileLimits& limits,
+                   const MapperConfig& config);
 
-/// A map that was opened by its name; of one that only OctoMap knows, its map.ot. @return or one sentence.
-tl::expected<SavedMap, std::string> read_start(const map_file::Folder& map,
-                                               const map_file::FileLimits& limits,
-                                               const MapperConfig& config);
+/// A map that was opened by its name; of one that only OctoMap knows, its map.ot.
+ReadMap read_start(const map_file::Folder& map, const map_file::FileLimits& limits,
+                   const MapperConfig& config);
 
 }  // namespace rds::mapper

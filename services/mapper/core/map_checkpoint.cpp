@@ -53,7 +53,7 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
     base->octree.get(reader, labels.names().size());
     base->objects.get(reader);
     if (auto read = reader.finish(); !read) return read;
-    know_surfaces(*base);
+    add_saved_surfaces(*base);
   }
   auto keyframes = KeyframeArchive::from_blocks(checkpoint.keyframes);
   if (!keyframes) return tl::unexpected(keyframes.error());

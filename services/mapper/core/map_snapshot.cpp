@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-#include "services/mapper/core/octree/color_labels.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/octree/voxel_walk.hpp"
 
@@ -54,7 +54,7 @@ MapSnapshot take_snapshot(const SemanticMapper& mapper) {
   return snapshot;
 }
 
-LabelRows labels_not_told_by_colors(const ColorOcTree& tree, const MapSnapshot& snapshot) {
+LabelRows labels_not_shown_by_colors(const ColorOcTree& tree, const MapSnapshot& snapshot) {
   const ColorLabels told(snapshot.labels);
   LabelRows rows;
   for_each_occupied(tree, snapshot,

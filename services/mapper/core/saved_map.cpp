@@ -18,8 +18,7 @@ map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up) {
   return writer.take();
 }
 
-tl::expected<SavedMap, std::string> saved_map_from(std::span<const std::uint8_t> bytes,
-                                                   const MapperConfig& config) {
+ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config) {
   map_file::ByteReader reader(bytes);
   SavedMap saved{std::make_shared<Map>(config), LabelTable::get(reader), map_file::get_vector(reader),
                  map_file::checksum_of(bytes)};
@@ -28,14 +27,14 @@ tl::expected<SavedMap, std::string> saved_map_from(std::span<const std::uint8_t>
   saved.map->octree.get(reader, saved.labels.names().size());
   saved.map->objects.get(reader);
   if (auto read = reader.finish(); !read) return tl::unexpected(read.error());
-  know_surfaces(*saved.map);
+  add_saved_surfaces(*saved.map);
   return saved;
 }
 
-tl::expected<SavedMap, std::string> saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config) {
+ReadMap saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config) {
   SavedMap saved{std::make_shared<Map>(config), {}, {}, map_file::checksum_of(to_bytes(tree))};
   if (auto fits = saved.map->octree.start_from(std::move(tree)); !fits) return tl::unexpected(fits.error());
-  know_surfaces(*saved.map);
+  add_saved_surfaces(*saved.map);
   return saved;
 }
 

@@ -20,11 +20,13 @@ struct SavedMap {
   std::uint64_t checksum = 0;         // of what it was read from
 };
 
-/// From a tree without labels and objects, fully expanded. @return or what does not fit.
-tl::expected<SavedMap, std::string> saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config);
+/// Or what does not fit, in one sentence.
+using ReadMap = tl::expected<SavedMap, std::string>;
+
+/// From a tree without labels and objects, fully expanded.
+ReadMap saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config);
 /// From what to_bytes() gave: with labels, objects and the direction of gravity.
-tl::expected<SavedMap, std::string> saved_map_from(std::span<const std::uint8_t> bytes,
-                                                   const MapperConfig& config);
+ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config);
 
 /// The map with all that further keyframes need of it; not the keyframes.
 /// @param up  unit vector against gravity in the map frame.

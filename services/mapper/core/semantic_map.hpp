@@ -19,7 +19,9 @@ struct SemanticMap {
   std::unique_ptr<Map> content;
 
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return content->octree.tree(); }
-  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const { return content->octree.label(key); }
+  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const {
+    return content->octree.label(key);
+  }
   /// Objects seen often and surely enough, with the extent of their voxels.
   [[nodiscard]] std::vector<MapObject> objects() const {
     auto objects = content->objects.objects();

@@ -24,8 +24,8 @@ struct Refusal {
 };
 
 /// Which map epoch counts: one tracker is followed, and of that one its newest epoch. Where there is a map to
-/// lose, another epoch begins with its second message only, because a single one may be spoiled; what has come
-/// of it until then waits here. Used by one thread.
+/// lose, another epoch begins with its second message only, because a single one may be spoiled; what has
+/// come of it until then waits here. Used by one thread.
 class EpochFollower {
  public:
   using Clock = std::chrono::steady_clock;

@@ -47,7 +47,8 @@ bool KeyframeQueue::is_ready() const {
   const auto is_there = [&](const StampedBoxes& boxes) { return boxes.first == stamp_ns; };
   if (!wait_.expected || std::ranges::any_of(boxes_, is_there)) return true;
   const auto is_later = [&](const StampedBoxes& boxes) { return boxes.first > stamp_ns; };
-  if (wait_.lockstep) return std::ranges::any_of(boxes_, is_later);  // its own were lost with a mapper that was killed
+  if (wait_.lockstep)
+    return std::ranges::any_of(boxes_, is_later);  // its own were lost with a mapper that was killed
   return static_cast<double>(keyframes_.rbegin()->second.time_ns - oldest.time_ns) * 1e-9 > wait_.timeout_s;
 }
 

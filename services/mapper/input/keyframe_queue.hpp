@@ -31,10 +31,10 @@ struct BoxesWait {
   double timeout_s = 1;   // otherwise until a keyframe newer by this has come
 };
 
-/// Brings keyframes together with their boxes, by their stamps: keyframes wait in the order of their ids, boxes
-/// wait for their keyframe. When full, the oldest keyframe is dropped and counted, or the boxes that came
-/// first: stamps say nothing about age where a clock was set, or in messages of strangers. Used by one thread,
-/// size() and dropped() by any.
+/// Brings keyframes together with their boxes, by their stamps: keyframes wait in the order of their ids,
+/// boxes wait for their keyframe. When full, the oldest keyframe is dropped and counted, or the boxes that
+/// came first: stamps say nothing about age where a clock was set, or in messages of strangers. Used by one
+/// thread, size() and dropped() by any.
 class KeyframeQueue {
  public:
   using Images = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
@@ -82,9 +82,9 @@ class KeyframeQueue {
   std::size_t capacity_;
   BoxesWait wait_;
   time::ContinuousTime clock_;
-  std::map<std::uint64_t, Waiting> keyframes_;               // by id
-  std::deque<StampedBoxes> boxes_;                           // in the order in which they came
-  std::map<std::int64_t, IntegratedKeyframe> integrated_;    // by stamp
+  std::map<std::uint64_t, Waiting> keyframes_;             // by id
+  std::deque<StampedBoxes> boxes_;                         // in the order in which they came
+  std::map<std::int64_t, IntegratedKeyframe> integrated_;  // by stamp
   std::atomic<std::size_t> size_ = 0;
   std::atomic<std::uint64_t> dropped_ = 0;
 };

@@ -5,7 +5,8 @@
 
 namespace rds::mapper {
 namespace {
-constexpr int kKeyframesPerCorrection = 25;  // local bundle adjustment moves poses little, all of the map is made again
+constexpr int kKeyframesPerCorrection =
+    25;  // local bundle adjustment moves poses little, all of the map is made again
 }
 
 void KnownPoses::take(const Message& message, std::vector<geometry::KeyframePose> poses) {

@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "services/mapper/io/map_files.hpp"
+#include "common/geometry/trajectory.hpp"
+#include "common/map_file/atomic_file.hpp"
 #include "services/mapper/core/map_snapshot.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/picture/map_picture.hpp"
@@ -81,8 +83,7 @@ int run(const Options& options) {
   const bool has_boxes = !options.boxes.empty() && fs::exists(dataset / options.boxes);
   const rds::bench::Recording recording(dataset, has_boxes ? dataset / options.boxes : fs::path());
   const auto config = read_config(options.config);
-  rds::mapper::SemanticMapper mapper(config, 1,
-                                     std::make_unique<rds::mapper::SpillFile>(fs::path()));
+  rds::mapper::SemanticMapper mapper(config, 1, std::make_unique<rds::mapper::SpillFile>(fs::path()));
   std::vector<double> times;
   std::vector<double> delta_shares;  // of the full map's bytes, second half
   std::size_t changed = 0;
@@ -108,11 +109,15 @@ int run(const Options& options) {
   const double snapshot_ms = ms_since(start);
   const fs::path out = options.out;
   fs::create_directories(out);
-  for (const auto& result :
-       {rds::mapper::write_tree(out / "map.ot", mapper.map().tree()), rds::mapper::write_grid(out, grid),
-        rds::mapper::write_objects(out / "objects.json", mapper.map().objects()),
-        rds::mapper::write_keyframes(out / "keyframes.txt", mapper.archive().poses())})
-    if (!result) throw std::runtime_error(result.error());
+  const auto files = rds::mapper::files_for_others(mapper.map().tree(), mapper.map().objects(), grid);
+  for (const auto& [name, content] : files)
+    if (const auto result = rds::map_file::write_atomically(out / name, content); !result)
+      throw std::runtime_error(result.error());
+  std::vector<rds::geometry::StampedPose> keyframes;
+  for (const auto& pose : mapper.archive().poses())
+    keyframes.push_back({pose.stamp_ns, pose.map_from_camera, {}});
+  if (const auto result = rds::geometry::write_trajectory(out / "keyframes.txt", keyframes); !result)
+    throw std::runtime_error(result.error());
   start = Clock::now();
   write_picture(mapper, out / "map.png");
   std::cout << fmt::format(

@@ -34,7 +34,7 @@ struct ConfirmationConfig {
 struct SegmentationConfig {
   bool enabled = true;
   int stride = 2;              // not read: of the sampled points that are clustered
-  double plane_noise = 0.006;  // of a point from its plane, × depth² [1/m]: two standard deviations of structured light
+  double plane_noise = 0.006;  // two standard deviations of depth, × depth² [1/m]: structured light
 
   bool operator==(const SegmentationConfig&) const = default;
 };

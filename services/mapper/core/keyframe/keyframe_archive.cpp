@@ -17,8 +17,8 @@ constexpr std::size_t kKeyframeBytes = 8 + 8 + 96;
 
 bool has_labels_below(const KeyframeRecord& record, std::size_t labels) {
   const auto is_below = [&](std::uint16_t label) { return label < labels; };
-  return std::ranges::all_of(record.labels, is_below) &&
-         std::ranges::all_of(record.sightings, is_below, &ObjectSighting::label);
+  return std::ranges::all_of(record.objects.labels, is_below) &&
+         std::ranges::all_of(record.objects.sightings, is_below, &ObjectSighting::label);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void KeyframeArchive::add(KeyframeRecord& record) {
 std::optional<KeyframeRecord> KeyframeArchive::record(std::uint64_t id) const {
   auto record = records_.get(id);
   if (!record) return record;
-  record->rays = rays_.of(record->camera);
+  record->grid.rays = rays_.of(record->grid.camera);
   record->map_from_camera = keyframes_.at(id).pose;
   record->time_ns = keyframes_.at(id).time_ns;
   return record;
@@ -74,7 +74,7 @@ std::optional<std::uint64_t> KeyframeArchive::spill() {
 void KeyframeArchive::make_final(const KeyframeRecord& record) {
   if (record.id == keyframes_.begin()->first) final_clock_.go_to(record.stamp_ns);
   const auto keyframe = keyframes_.extract(record.id);
-  has_checkpoint_ = has_checkpoint_ && records_.leave(record.id);
+  has_checkpoint_ = has_checkpoint_ && records_.retire(record.id);
   if (has_checkpoint_)
     unsaved_final_[record.id] = keyframe.mapped();  // until a checkpoint has the final map with it
   else
@@ -120,7 +120,7 @@ std::optional<ArchiveCheckpoint> KeyframeArchive::save(bool has_final_map) {
   checkpoint.needs_final_map =
       (!has_checkpoint_ && has_final_map) || unsaved_final_.size() >= kMaxUnsavedFinal;
   if (checkpoint.needs_final_map) {
-    for (const auto& [id, keyframe] : unsaved_final_) records_.drop(id);
+    for (const auto& [id, keyframe] : unsaved_final_) records_.erase_retired(id);
     unsaved_final_.clear();
   }
   has_checkpoint_ = true;

@@ -16,9 +16,9 @@ constexpr float kParallel = 0.9F;            // cosine between a pixel's normal 
 constexpr int kToNeighbour = 3;              // sampled pixels, between which a normal is measured
 
 bool is_in_a_box(const KeyframeRecord& record, std::size_t pixel, std::span<const geometry::Box2> boxes) {
-  const auto width = static_cast<std::size_t>(record.width);
-  const auto x = static_cast<double>(pixel % width) * record.stride;
-  const auto y = static_cast<double>(pixel / width) * record.stride;
+  const auto width = static_cast<std::size_t>(record.grid.width);
+  const auto x = static_cast<double>(pixel % width) * record.grid.stride;
+  const auto y = static_cast<double>(pixel / width) * record.grid.stride;
   return std::ranges::any_of(boxes, [&](const geometry::Box2& box) { return box.contains(x, y); });
 }
 
@@ -35,13 +35,13 @@ bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
 /// True where the normal at a pixel is that of the plane: the plane's pixels include those of a person who
 /// stands in it.
 bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel) {
-  const int column = static_cast<int>(pixel) % record.width;
-  const int row = static_cast<int>(pixel) / record.width;
-  if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.width ||
-      row + kToNeighbour >= record.height)
+  const int column = record.grid.column(pixel);
+  const int row = record.grid.row(pixel);
+  if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.grid.width ||
+      row + kToNeighbour >= record.grid.height)
     return false;
   const auto aside = static_cast<std::size_t>(kToNeighbour);
-  const std::size_t down = aside * static_cast<std::size_t>(record.width);
+  const std::size_t down = aside * static_cast<std::size_t>(record.grid.width);
   const std::array around{pixel + aside, pixel - aside, pixel + down, pixel - down};
   if (std::ranges::any_of(around, [&](std::size_t i) { return record.classes[i] != PixelClass::kStatic; }))
     return false;

@@ -14,9 +14,9 @@ constexpr int kRimPx = 8;  // at edges a depth camera is off by several pixels
 /// A mask grown by kRimPx to all sides.
 std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, const KeyframeRecord& record) {
   std::vector<std::uint8_t> rim(mask.size());
-  const int radius = (kRimPx + record.stride - 1) / record.stride;
-  cv::Mat1b to(record.height, record.width, rim.data());
-  cv::dilate(cv::Mat1b(record.height, record.width, mask.data()), to,
+  const int radius = (kRimPx + record.grid.stride - 1) / record.grid.stride;
+  cv::Mat1b to(record.grid.height, record.grid.width, rim.data());
+  cv::dilate(cv::Mat1b(record.grid.height, record.grid.width, mask.data()), to,
              cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
   return rim;
 }

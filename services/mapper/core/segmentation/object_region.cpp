@@ -10,11 +10,11 @@ namespace rds::mapper {
 namespace {
 
 constexpr double kInnerShare = 0.6;  // part of the box, about its centre, in which the object surely lies
-constexpr int kStaticMarginPx = 4;          // narrow: nothing may be added to a static object
-constexpr double kStaticBefore = 0.4;       // share of kHalfDepthM: things stand before tables
-constexpr std::size_t kMinDepths = 20;      // fewer say nothing about the object
-constexpr double kMinInside = 0.05;         // share of a connected part that lies in the box as it was detected
-constexpr double kSmallPart = 0.05;         // parts with a smaller share of the largest may be of other things
+constexpr int kStaticMarginPx = 4;   // narrow: nothing may be added to a static object
+constexpr double kStaticBefore = 0.4;   // share of kHalfDepthM: things stand before tables
+constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
+constexpr double kMinInside = 0.05;     // share of a connected part that lies in the box as it was detected
+constexpr double kSmallPart = 0.05;     // parts with a smaller share of the largest may be of other things
 
 struct DepthInterval {
   float min_m;
@@ -23,11 +23,11 @@ struct DepthInterval {
 
 /// The box in sampled pixels, widened, inside the picture.
 cv::Rect sampled_rect(const geometry::Box2& box, double margin_px, const KeyframeRecord& record) {
-  const double s = record.stride;
+  const double s = record.grid.stride;
   const auto low = [&](double v) { return static_cast<int>(std::ceil((v - margin_px) / s)); };
   const auto high = [&](double v) { return static_cast<int>(std::ceil((v + margin_px) / s)); };
   const cv::Rect rect(cv::Point(low(box.x0), low(box.y0)), cv::Point(high(box.x1), high(box.y1)));
-  return rect & cv::Rect(0, 0, record.width, record.height);
+  return rect & cv::Rect(0, 0, record.grid.width, record.grid.height);
 }
 
 geometry::Box2 inner_part(const geometry::Box2& box) {
@@ -41,7 +41,7 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
   std::vector<float> depths;
   for (int y = rect.y; y < rect.y + rect.height; ++y)
     for (int x = rect.x; x < rect.x + rect.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * record.width + x);
+      const auto i = record.grid.index(x, y);
       const float d = record.depth_m(i);
       const bool used =
           record.classes[i] != PixelClass::kInvalid && record.classes[i] != PixelClass::kUnknown;
@@ -84,9 +84,10 @@ double margin_px(const LabelledBox& box) {
 }
 
 /// How far an object reaches behind its depth [m]: of a large static one mostly the front is seen.
-float reach_behind(const LabelledBox& box, const geometry::Box2& box_px, float depth_m, const KeyframeRecord& record) {
+float reach_behind(const LabelledBox& box, const geometry::Box2& box_px, float depth_m,
+                   const KeyframeRecord& record) {
   const auto half = static_cast<float>(kHalfDepthM);
-  const double side_m = std::max(box_px.width(), box_px.height()) * depth_m / record.camera.fx;
+  const double side_m = std::max(box_px.width(), box_px.height()) * depth_m / record.grid.camera.fx;
   return box.movable ? half : std::max(half, static_cast<float>(side_m / 2));
 }
 
@@ -100,7 +101,7 @@ cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float be
   cv::Mat near(rect.size(), CV_8U, cv::Scalar(0));
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
-      const auto i = static_cast<std::size_t>((rect.y + y) * record.width + rect.x + x);
+      const auto i = record.grid.index(rect.x + x, rect.y + y);
       const float behind = record.depth_m(i) - depth_m;
       const bool inside = record.depth_tenth_mm[i] != 0 && behind >= -before_m && behind <= behind_m;
       near.at<std::uint8_t>(y, x) = inside ? 1 : 0;
@@ -130,19 +131,19 @@ std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::R
 
 std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record) {
   if (box.box_px.area() > 0) {
-    const auto clipped = box.box_px.clipped(record.camera.width, record.camera.height);
+    const auto clipped = box.box_px.clipped(record.grid.camera.width, record.grid.camera.height);
     const bool finite = std::isfinite(clipped.x0 + clipped.y0 + clipped.x1 + clipped.y1);
     return finite && clipped.area() > 0 ? std::optional(clipped) : std::nullopt;
   }
   if (!box.box_in_map || !box.box_in_map->min.allFinite() || !box.box_in_map->max.allFinite())
     return std::nullopt;
-  return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.camera);
+  return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
 }
 
 bool ObjectPlace::is_in_box(const KeyframeRecord& record, std::size_t pixel) const {
-  const int column = static_cast<int>(pixel) % record.width;
-  const int row = static_cast<int>(pixel) / record.width;
-  return box_px.contains(column * record.stride, row * record.stride);
+  const int column = record.grid.column(pixel);
+  const int row = record.grid.row(pixel);
+  return box_px.contains(column * record.grid.stride, row * record.grid.stride);
 }
 
 bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
@@ -171,10 +172,9 @@ ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box)
 
   const cv::Rect wide = sampled_rect(*box_px, margin_px(box), record);
   cv::Mat parts;
-  const int count =
-      cv::connectedComponents(near_depth(wide, depth, reach_before(box),
-                                         reach_behind(box, *box_px, depth, record), record),
-                              parts, 8, CV_32S);
+  const int count = cv::connectedComponents(
+      near_depth(wide, depth, reach_before(box), reach_behind(box, *box_px, depth, record), record), parts, 8,
+      CV_32S);
   const auto shares = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl());
   const double smallest = box.movable ? kSmallPart : 0;
   ObjectRegion region;
@@ -183,7 +183,7 @@ ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box)
       const double share = shares[static_cast<std::size_t>(parts.at<int>(y, x))];
       if (share > 0)
         (share >= smallest ? region.pixels : region.small_parts)
-            .push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
+            .push_back(record.grid.index(wide.x + x, wide.y + y));
     }
   return region;
 }

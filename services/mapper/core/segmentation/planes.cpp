@@ -26,8 +26,8 @@ class Cells {
   Cells(const KeyframeRecord& record, const SegmentationConfig& config)
       : record_(record),
         config_(config),
-        columns_((record.width + kCellPx - 1) / kCellPx),
-        rows_((record.height + kCellPx - 1) / kCellPx),
+        columns_((record.grid.width + kCellPx - 1) / kCellPx),
+        rows_((record.grid.height + kCellPx - 1) / kCellPx),
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
     for (std::size_t i = 0; i < record.size(); ++i)
@@ -99,7 +99,7 @@ class Cells {
 
  private:
   [[nodiscard]] std::size_t cell_of(std::size_t pixel) const {
-    const auto width = static_cast<std::size_t>(record_.width);
+    const auto width = static_cast<std::size_t>(record_.grid.width);
     return pixel / width / kCellPx * static_cast<std::size_t>(columns_) + pixel % width / kCellPx;
   }
 

@@ -112,7 +112,8 @@ TEST_F(RestoredMap, KeyframesThatAreFinalAreInIt) {
   ASSERT_TRUE(after->restore(checkpoint));
   EXPECT_EQ(after->archive().size(), 115U);
   EXPECT_EQ(after->archive().poses().size(), 4U);
-  EXPECT_NEAR(static_cast<double>(after->map().tree().size()), static_cast<double>(before->map().tree().size()),
+  EXPECT_NEAR(static_cast<double>(after->map().tree().size()),
+              static_cast<double>(before->map().tree().size()),
               0.05 * static_cast<double>(before->map().tree().size()));
 }
 

@@ -39,8 +39,8 @@ TEST(MapSnapshot, PointsAreTheOccupiedVoxelsWithColorAndLabel) {
   ASSERT_EQ(points.rows.size(), points.count * std::size_t{20});
   std::size_t chairs = 0;
   for (std::size_t row = 0; row < points.rows.size(); row += 20) {
-    const auto* voxel = mapper.map().tree().search(at<float>(points.rows, row), at<float>(points.rows, row + 4),
-                                             at<float>(points.rows, row + 8));
+    const auto* voxel = mapper.map().tree().search(
+        at<float>(points.rows, row), at<float>(points.rows, row + 4), at<float>(points.rows, row + 8));
     ASSERT_NE(voxel, nullptr);
     EXPECT_GT(voxel->getLogOdds(), 0);
     const auto color = voxel->getColor();
@@ -66,9 +66,9 @@ TEST(MapSnapshot, TheExtentIsOctoMapsOwn) {
 
 TEST(MapSnapshot, LabelsThatColorsDoNotTellAreListed) {
   const SemanticMapper by_label = mapper_with("chair", true);
-  EXPECT_TRUE(labels_not_told_by_colors(by_label.map().tree(), take_snapshot(by_label)).keys.empty());
+  EXPECT_TRUE(labels_not_shown_by_colors(by_label.map().tree(), take_snapshot(by_label)).keys.empty());
   const SemanticMapper by_picture = mapper_with("chair", false);
-  const LabelRows rows = labels_not_told_by_colors(by_picture.map().tree(), take_snapshot(by_picture));
+  const LabelRows rows = labels_not_shown_by_colors(by_picture.map().tree(), take_snapshot(by_picture));
   ASSERT_GT(rows.values.size(), 100U);
   EXPECT_EQ(rows.keys.size(), 3 * rows.values.size());
   EXPECT_THAT(rows.values, testing::Each(1));

@@ -44,8 +44,8 @@ class RandomKeyframes {
 struct PublishedMap {
   PublishedMap(const SemanticMapper& mapper, std::uint64_t map_id)
       : snapshot(take_snapshot(mapper)),
-        untold(labels_not_told_by_colors(mapper.map().tree(), snapshot)),
-        full{snapshot.nodes,    snapshot.resolution, mapper.map().epoch, map_id,
+        untold(labels_not_shown_by_colors(mapper.map().tree(), snapshot)),
+        full{snapshot.nodes,        snapshot.resolution, mapper.map().epoch, map_id,
              mapper.map().revision, snapshot.labels,     untold.keys,        untold.values} {}
   PublishedMap(const PublishedMap&) = delete;
   PublishedMap& operator=(const PublishedMap&) = delete;

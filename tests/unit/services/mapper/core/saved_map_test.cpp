@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "services/mapper/io/saved_tree.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {

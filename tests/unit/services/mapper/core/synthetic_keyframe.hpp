@@ -103,7 +103,8 @@ inline map_file::Bytes saved_bytes(const SemanticMapper& mapper) {
 
 /// Goes on from such bytes or from a tree, if they fit.
 template <class Saved>
-tl::expected<void, std::string> start_from(SemanticMapper& mapper, Saved&& saved, const MapperConfig& config = {}) {
+tl::expected<void, std::string> start_from(SemanticMapper& mapper, Saved&& saved,
+                                           const MapperConfig& config = {}) {
   auto map = saved_map_from(std::forward<Saved>(saved), config);
   if (!map) return tl::unexpected(map.error());
   mapper.start_from(std::move(*map));

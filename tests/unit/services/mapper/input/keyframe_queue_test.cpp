@@ -71,7 +71,8 @@ TEST(KeyframeQueue, WithoutADetectorNothingWaits) {
 
 TEST(KeyframeQueue, TheOldestIsDroppedAndCounted) {
   KeyframeQueue queue(2, {.expected = false});
-  for (const std::uint64_t id : {5U, 3U, 4U}) queue.add(keyframe(id, static_cast<std::int64_t>(id) * kSecond));
+  for (const std::uint64_t id : {5U, 3U, 4U})
+    queue.add(keyframe(id, static_cast<std::int64_t>(id) * kSecond));
   EXPECT_EQ(queue.size(), 2U);
   EXPECT_EQ(queue.dropped(), 1U);
   EXPECT_EQ(queue.take_oldest().images->keyframe_id(), 4U);

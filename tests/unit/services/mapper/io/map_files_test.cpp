@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/io/octomap_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
@@ -21,10 +22,6 @@ class MapFiles : public testing::Test {
     const auto read = read_tree(folder_.path() / "bad.ot");
     EXPECT_FALSE(read.has_value());
     return read ? "" : read.error();
-  }
-  std::string content(const std::string& name) {
-    std::ifstream in(folder_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   rds::test::TemporaryFolder folder_;
@@ -64,7 +61,8 @@ TEST_F(MapFiles, ASavedMapGoesOn) {
 
 TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
   ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.map().tree()));
-  const auto good = content("map.ot");
+  std::ifstream in(folder_.path() / "map.ot", std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
   EXPECT_THAT(refusal(good.substr(0, good.size() / 2)),
               testing::HasSubstr("bad.ot: is damaged: the tree ends after"));
   EXPECT_THAT(refusal(good + "x"), testing::HasSubstr("1 bytes after the last node"));
@@ -79,14 +77,17 @@ TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
 }
 
 TEST_F(MapFiles, WritesTheOtherFilesOfARun) {
-  ASSERT_TRUE(write_objects(folder_.path() / "objects.json", mapper_.map().objects()));
-  ASSERT_TRUE(write_grid(folder_.path(), make_grid(mapper_.map().tree(), mapper_.up_in_map(), {})));
-  ASSERT_TRUE(write_keyframes(folder_.path() / "keyframes.txt", mapper_.archive().poses()));
+  const auto grid = make_grid(mapper_.map().tree(), mapper_.up_in_map(), {});
+  const auto files = files_for_others(mapper_.map().tree(), mapper_.map().objects(), grid);
+  const auto content = [&](const std::string& name) {
+    const auto& bytes = files.at(name);
+    return std::string(bytes.begin(), bytes.end());
+  };
   EXPECT_EQ(content("objects.json"), "[]\n");
   EXPECT_THAT(content("grid.pgm"), testing::StartsWith("P5\n"));
   EXPECT_THAT(content("grid.yaml"), testing::HasSubstr("image: grid.pgm"));
-  EXPECT_THAT(content("keyframes.txt"), testing::HasSubstr("0.000000000 0.000000000"));
-  EXPECT_THAT(write_objects(folder_.path() / "no" / "objects.json", {}).error(),
+  EXPECT_TRUE(starts_as_octomap_file(content("map.ot")));
+  EXPECT_THAT(write_tree(folder_.path() / "no" / "map.ot", mapper_.map().tree()).error(),
               testing::HasSubstr("cannot be written"));
 }
 

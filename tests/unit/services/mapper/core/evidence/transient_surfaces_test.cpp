@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/transient_surfaces.hpp"
-
 #include <gtest/gtest.h>
 
+#include "services/mapper/core/evidence/surface_rules.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {

@@ -92,7 +92,7 @@ TEST(KeyframeBytes, ComeBackAsTheyWere) {
   EXPECT_EQ(back->depth_tenth_mm, record.depth_tenth_mm);
   EXPECT_EQ(back->rgb, record.rgb);
   EXPECT_EQ(back->classes, record.classes);
-  EXPECT_EQ(back->camera, record.camera);
+  EXPECT_EQ(back->grid.camera, record.grid.camera);
   EXPECT_EQ(to_bytes(*back), bytes);
   EXPECT_LT(bytes.size(), 5 * record.size());
 }
@@ -129,7 +129,8 @@ TEST(KeyframeStore, AFullDiskLeavesKeyframesWhereTheyAreAndCountsThem) {
   EXPECT_EQ(mapper.archive().size(), kKeyframes);
   EXPECT_EQ(mapper.archive().poses().size(), kKeyframes - mapper.archive().lost());
   mapper.apply_poses(corrected(kKeyframes));
-  EXPECT_TRUE(test::is_occupied(mapper.map().tree(), keyframe(4).map_from_camera * test::point_at(60, 30, 3.0)));
+  EXPECT_TRUE(
+      test::is_occupied(mapper.map().tree(), keyframe(4).map_from_camera * test::point_at(60, 30, 3.0)));
 }
 
 TEST(KeyframeStore, ATornFileCostsItsKeyframesOnly) {

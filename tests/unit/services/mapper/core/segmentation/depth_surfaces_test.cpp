@@ -16,9 +16,7 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
   EXPECT_EQ(find_surfaces(record, surface), 4);
-  const auto at = [&](int x_px, int y_px) {
-    return surface[static_cast<std::size_t>(y_px / 2 * record.width + x_px / 2)];
-  };
+  const auto at = [&](int x_px, int y_px) { return surface[record.grid.index(x_px / 2, y_px / 2)]; };
   EXPECT_EQ(at(10, 10), at(310, 230));  // the wall
   EXPECT_NE(at(70, 70), at(10, 10));
   EXPECT_NE(at(70, 70), at(230, 70));
@@ -33,7 +31,7 @@ TEST(DepthSurfaces, AFewPixelsAreNone) {
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
   EXPECT_EQ(find_surfaces(record, surface), 1);
-  EXPECT_EQ(surface[static_cast<std::size_t>(51 * record.width + 51)], 0);
+  EXPECT_EQ(surface[record.grid.index(51, 51)], 0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "rds_msgs/msg/OctreeDelta.h"
 #include "sensor_msgs/msg/PointCloud2.h"
 #include "services/mapper/core/map_snapshot.hpp"
+#include "services/mapper/core/octree/occupancy_grid.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 #include "visualization_msgs/msg/MarkerArray.h"
 

@@ -11,10 +11,16 @@
 
 namespace rds::mapper {
 
-/// How far the mapper is, told with every MapInfo.
-struct MapProgress {
-  std::uint64_t last_keyframe_id = 0;
-  std::uint64_t keyframes_waiting = 0;
+/// A publisher of each topic that the mapper writes.
+struct MapPublishers {
+  bus::Publisher<rds_msgs::msg::OctreeDelta> delta;
+  bus::Publisher<octomap_msgs::msg::Octomap> full;
+  bus::Publisher<octomap_msgs::msg::Octomap> binary;
+  bus::Publisher<sensor_msgs::msg::PointCloud2> points;
+  bus::Publisher<rds_msgs::msg::MapInfo> info;
+  bus::Publisher<vision_msgs::msg::Detection3DArray> objects;
+  bus::Publisher<visualization_msgs::msg::MarkerArray> markers;
+  bus::Publisher<nav_msgs::msg::OccupancyGrid> grid;
 };
 
 /// All topics that the mapper writes, in the order of the calls; large messages are made on a thread of their
@@ -26,16 +32,20 @@ struct MapProgress {
 /// one that a reader still needs.
 class MapOutputs {
  public:
-  MapOutputs(service::ServiceContext& context, const GridConfig& grid);
+  /// @param full_map_every  keyframes from one full map to the next.
+  MapOutputs(service::ServiceContext& context, const GridConfig& grid, int full_map_every);
 
   /// What follows is of another map: readers of the one before wait for the next full map.
   void begin_map();
+  /// The newest keyframe that is in the map.
+  void note_keyframe(std::uint64_t id, std::int64_t stamp_ns);
 
   void publish_delta(MapDelta delta);
-  /// @param stamp_ns  of the newest keyframe.
-  void publish_info(const SemanticMapper& mapper, const MapProgress& progress, std::int64_t stamp_ns);
+  /// A delta, and after it the full map where that is due, else the MapInfo alone.
+  /// @param keyframes_waiting  MapInfo tells how far the mapper is.
+  void publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting);
   /// Full map, its MapInfo, objects, markers and grid; binary map and points where somebody reads them.
-  void publish_all(const SemanticMapper& mapper, const MapProgress& progress, std::int64_t stamp_ns);
+  void publish_all(const SemanticMapper& mapper, std::size_t keyframes_waiting);
 
   /// True once after somebody new has subscribed to the map in any form.
   bool has_new_reader();
@@ -45,24 +55,25 @@ class MapOutputs {
   void flush() { sender_.flush(); }
 
  private:
-  [[nodiscard]] rds_msgs::msg::MapInfo info_of(const SemanticMapper& mapper, const MapProgress& progress,
+  [[nodiscard]] rds_msgs::msg::MapInfo info_of(const SemanticMapper& mapper, std::size_t keyframes_waiting,
                                                std::int64_t stamp_ns) const;
   void write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns);
 
+  struct Newest {
+    std::uint64_t id = 0;
+    std::int64_t stamp_ns = 0;
+  };
+
   GridConfig grid_config_;
+  int full_map_every_;
   std::uint64_t instance_;
   std::uint64_t map_id_;
-  std::int64_t stamp_ns_ = 0;  // of the newest full map
+  Newest keyframe_;
+  std::int64_t full_stamp_ns_ = 0;  // of the newest full map
+  int since_full_ = 0;              // keyframes
   int readers_ = 0;
   std::atomic<int> full_maps_under_way_ = 0;
-  bus::Publisher<rds_msgs::msg::OctreeDelta> delta_;
-  bus::Publisher<octomap_msgs::msg::Octomap> full_;
-  bus::Publisher<octomap_msgs::msg::Octomap> binary_;
-  bus::Publisher<sensor_msgs::msg::PointCloud2> points_;
-  bus::Publisher<rds_msgs::msg::MapInfo> info_;
-  bus::Publisher<vision_msgs::msg::Detection3DArray> objects_;
-  bus::Publisher<visualization_msgs::msg::MarkerArray> markers_;
-  bus::Publisher<nav_msgs::msg::OccupancyGrid> grid_;
+  MapPublishers topics_;
   service::LatencyWindow& full_map_latency_;
   Sender sender_;  // last: its thread uses the members above
 };

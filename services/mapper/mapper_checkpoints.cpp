@@ -13,7 +13,7 @@ constexpr const char* kState = "state";
 constexpr const char* kFinal = "final";
 constexpr std::size_t kMaxWaitingBytes = 64'000'000;  // while the disk is full
 
-store::Bytes to_bytes(const Integrated& keyframe) {
+store::Bytes to_bytes(const IntegratedKeyframe& keyframe) {
   map_file::ByteWriter writer;
   map_file::put(writer, keyframe.camera_from_map);
   map_file::put(writer, keyframe.camera);
@@ -21,9 +21,10 @@ store::Bytes to_bytes(const Integrated& keyframe) {
   return writer.take();
 }
 
-tl::expected<Integrated, std::string> integrated_from(std::uint64_t id, std::span<const std::uint8_t> bytes) {
+tl::expected<IntegratedKeyframe, std::string> integrated_from(std::uint64_t id,
+                                                              std::span<const std::uint8_t> bytes) {
   map_file::ByteReader reader(bytes);
-  Integrated keyframe;
+  IntegratedKeyframe keyframe;
   keyframe.id = id;
   keyframe.camera_from_map = map_file::get_pose(reader);
   keyframe.camera = map_file::get_camera(reader);
@@ -68,7 +69,7 @@ std::unique_ptr<SpillStorage> MapperCheckpoints::storage() {
   return writer_ ? std::make_unique<CheckpointedRecords>(*this) : nullptr;
 }
 
-void MapperCheckpoints::add(const Integrated& keyframe) {
+void MapperCheckpoints::add(const IntegratedKeyframe& keyframe) {
   schedule_.note_keyframe();
   if (writer_) changes_.put(kArrival, keyframe.id, to_bytes(keyframe));
 }
@@ -91,8 +92,9 @@ void MapperCheckpoints::save(SemanticMapper& mapper, bool now) {
   (void)writer_->write(changes_);  // where too much waits these wait here for the next time
 }
 
-tl::expected<std::vector<Integrated>, std::string> MapperCheckpoints::restore(SemanticMapper& mapper) {
-  std::vector<Integrated> keyframes;
+tl::expected<std::vector<IntegratedKeyframe>, std::string> MapperCheckpoints::restore(
+    SemanticMapper& mapper) {
+  std::vector<IntegratedKeyframe> keyframes;
   const auto state = writer_ ? writer_->get(kState, 0) : std::nullopt;
   if (!state) return keyframes;
   MapCheckpoint checkpoint{*state, {}, writer_->get(kFinal, 0)};

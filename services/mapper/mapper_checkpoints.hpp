@@ -8,16 +8,9 @@
 #include "common/store/checkpoint_schedule.hpp"
 #include "common/store/checkpoint_writer.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/input/keyframe_queue.hpp"
 
 namespace rds::mapper {
-
-/// What late boxes of a keyframe that is in the map need.
-struct Integrated {
-  std::uint64_t id = 0;
-  std::int64_t stamp_ns = 0;
-  geometry::Pose camera_from_map = geometry::Pose::Identity();  // when the keyframe was made
-  geometry::CameraModel camera;
-};
 
 /// The mapper's checkpoint: rows "record" (by keyframe), "arrival" (by keyframe), "keyframes" (by block of
 /// ids), "state" and "final". Changes gather here, and are handed over together. Used by one thread.
@@ -30,12 +23,12 @@ class MapperCheckpoints {
   [[nodiscard]] std::unique_ptr<SpillStorage> storage();
 
   /// Notes a keyframe for the next checkpoint.
-  void add(const Integrated& keyframe);
+  void add(const IntegratedKeyframe& keyframe);
   /// Hands a checkpoint over if it is time. @param now  whether it is time or not.
   void save(SemanticMapper& mapper, bool now = false);
   /// Makes the mapper go on where the checkpoint ends.
   /// @return its keyframes; or why it cannot be used. None where there is none.
-  tl::expected<std::vector<Integrated>, std::string> restore(SemanticMapper& mapper);
+  tl::expected<std::vector<IntegratedKeyframe>, std::string> restore(SemanticMapper& mapper);
 
  private:
   friend class CheckpointedRecords;

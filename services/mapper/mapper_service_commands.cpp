@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of MapperService, and how it goes on from a saved map.
+// The commands of MapperService.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/map_file/saved_map.hpp"
 #include "common/messages/json.hpp"
 #include "services/mapper/io/map_files.hpp"
-#include "services/mapper/io/octomap_file.hpp"
 #include "services/mapper/mapper_service.hpp"
+#include "services/mapper/saved_start.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -15,24 +15,55 @@ namespace {
 constexpr std::chrono::seconds kRestLimit{30};          // lockstep: everything that was sent must come
 constexpr std::chrono::milliseconds kQuietLimit{1500};  // real time: what has not come by then was dropped
 
-std::string not_mapped_on(const std::filesystem::path& from, const std::string& why) {
-  return fmt::format("{}: cannot be mapped on: {}", from.string(), why);
+std::string size_of(const SemanticMapper& mapper) {
+  return fmt::format("map of {} nodes", mapper.map().tree().size());
+}
+
+map_file::MapPart map_part(const SemanticMapper& mapper, const GridConfig& grid) {
+  const Eigen::Vector3d up = mapper.up_in_map();
+  const SemanticMap& map = mapper.map();
+  return {map_file::kMapper,
+          {{map_file::kMapper, to_bytes(map, up)}},
+          files_for_others(map.tree(), map.objects(), make_grid(map.tree(), up, grid))};
 }
 
 }  // namespace
 
+bool MapperService::begin(const service::PendingCommand& command) {
+  if (command.verb == "save") {
+    map_commands_.save(
+        command, [this] { return map_part(mapper_, config_.mapper.grid); }, size_of(mapper_));
+    return true;
+  }
+  if (command.verb != "load") return false;
+  using map_commands::MapCommands;
+  map_commands_.load(
+      command,
+      [this](const map_file::Folder& map,
+             const map_file::FileLimits& limits) -> tl::expected<MapCommands::Completion, std::string> {
+        auto start = read_start(map, limits, config_.mapper);  // on a thread of its own
+        if (!start) return tl::unexpected(start.error());
+        return [this, start = std::move(*start)]() -> service::CommandOutcome {
+          mapper_.start_from(start);
+          begin_map();
+          outputs_.publish_all(mapper_, queue_.size());
+          return {true, size_of(mapper_)};
+        };
+      });
+  return true;
+}
+
 service::CommandOutcome MapperService::execute(const std::string& verb, const std::string& argument) {
   if (verb == "finish") return finish(argument);
   if (verb == "reset") {
-    mapper_.reset(mapper_.map_epoch());
-    outputs_.begin_map();
-    forget_keyframes();
-    publish_all();
-    return {true, fmt::format("map of {} nodes", mapper_.tree().size())};
+    mapper_.reset(mapper_.map().epoch);
+    begin_map();
+    outputs_.publish_all(mapper_, queue_.size());
+    return {true, size_of(mapper_)};
   }
   if (verb == "pause" || verb == "resume") {
-    paused_ = verb == "pause";
-    return {true, paused_ ? "paused" : "resumed"};
+    is_paused_ = verb == "pause";
+    return {true, is_paused_ ? "paused" : "resumed"};
   }
   return unknown_command(verb);
 }
@@ -50,18 +81,18 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   const std::uint64_t revision = count("poses_revision");
   const std::uint64_t keyframes = count("keyframes");
   wait_for_rest(revision, keyframes);
-  while (!waiting_.empty()) integrate(waiting_.take_oldest());
-  outputs_.publish_delta(mapper_.settle(poses_));
-  publish_all();
+  while (!queue_.empty()) integrate(queue_.take_oldest());
+  outputs_.publish_delta(mapper_.settle(poses_.poses()));
+  outputs_.publish_all(mapper_, queue_.size());
   outputs_.flush();
   const bool complete =
-      poses_revision_ >= revision && (!config_.lockstep || mapper_.archive().size() >= keyframes);
+      poses_.revision() >= revision && (!config_.lockstep || mapper_.archive().size() >= keyframes);
   const Eigen::Vector3d up = mapper_.up_in_map();
   return {complete, messages::to_text(nlohmann::json{{"keyframes", mapper_.archive().size()},
-                                                     {"poses_revision", poses_revision_},
-                                                     {"revision", mapper_.revision()},
+                                                     {"poses_revision", poses_.revision()},
+                                                     {"revision", mapper_.map().revision},
                                                      {"up", {up.x(), up.y(), up.z()}},
-                                                     {"labels", mapper_.labels().names()}})};
+                                                     {"labels", mapper_.map().labels.names()}})};
 }
 
 void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes) {
@@ -71,76 +102,11 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
     beat();
     take_messages();
     integrate_ready();
-    if (poses_revision_ >= poses_revision && mapper_.archive().size() >= keyframes) return;
+    if (poses_.revision() >= poses_revision && mapper_.archive().size() >= keyframes) return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) return;
-    mailbox_.wait_for(stop_, left, [this] { return has_messages(); });
+    mailbox_.wait_for(stop_, left, [this] { return !inboxes_.locked_empty(); });
   }
-}
-
-/// From the setting map_file: a saved map, or OctoMap's tree. @throws std::runtime_error with one sentence.
-void MapperService::read_start() {
-  const std::filesystem::path from = config_.map_file;
-  const auto limits = map_commands::limits_of(config_.maps);
-  tl::expected<void, std::string> started;
-  if (looks_like_tree(from)) {
-    auto tree = read_tree(from, limits);
-    if (!tree) throw std::runtime_error(tree.error());
-    started = mapper_.start_from(std::move(**tree));
-  } else {
-    const auto sections = map_file::read_saved_map(from, {map_file::kMapper}, limits);
-    if (!sections) throw std::runtime_error(sections.error());
-    started = mapper_.start_from(sections->at(map_file::kMapper));
-  }
-  if (!started) throw std::runtime_error(not_mapped_on(from, started.error()));
-}
-
-bool MapperService::begin(const service::PendingCommand& command) {
-  if (command.verb == "load") {
-    load(command);
-  } else if (command.verb == "save") {
-    map_commands_.save(
-        command, [this] { return map_part(); }, fmt::format("map of {} nodes", mapper_.tree().size()));
-  } else {
-    return false;
-  }
-  return true;
-}
-
-map_file::MapPart MapperService::map_part() const {
-  return {map_file::kMapper,
-          {{map_file::kMapper, mapper_.to_bytes()}},
-          files_for_others(mapper_.tree(), mapper_.objects(), mapper_.grid())};
-}
-
-/// Of a map that only OctoMap knows, its map.ot.
-void MapperService::load(const service::PendingCommand& command) {
-  using map_commands::MapCommands;
-  map_commands_.load(command, [this](const map_file::Folder& map, const map_file::FileLimits& limits)
-                                  -> tl::expected<MapCommands::Completion, std::string> {
-    const auto from = map.path();
-    if (!map.has_file(map_file::kMapFile) && map.has_file(kTreeFile)) {
-      const auto bytes = map.read(kTreeFile, limits);
-      auto tree = bytes ? tree_from_octomap_file(*bytes) : tl::unexpected(bytes.error());
-      if (!tree) return tl::unexpected(tree.error());
-      const auto read = std::make_shared<std::unique_ptr<octomap::ColorOcTree>>(std::move(*tree));
-      return [this, from, read] { return finish_load(mapper_.start_from(std::move(**read)), from); };
-    }
-    auto sections = map_file::read_saved_map(map, {map_file::kMapper}, limits);
-    if (!sections) return tl::unexpected(sections.error());
-    const auto read = std::make_shared<map_file::Bytes>(std::move(sections->at(map_file::kMapper)));
-    return [this, from, read] { return finish_load(mapper_.start_from(*read), from); };
-  });
-}
-
-/// The new map is published; of one that does not fit nothing has changed.
-service::CommandOutcome MapperService::finish_load(const tl::expected<void, std::string>& started,
-                                                 const std::filesystem::path& from) {
-  if (!started) return {false, not_mapped_on(from, started.error())};
-  outputs_.begin_map();
-  forget_keyframes();
-  publish_all();
-  return {true, fmt::format("map of {} nodes", mapper_.tree().size())};
 }
 
 }  // namespace rds::mapper

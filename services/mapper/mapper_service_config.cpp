@@ -9,7 +9,6 @@ void read(config::ConfigReader& reader, MapperServiceConfig& config) {
   reader.value("expect_boxes", config.expect_boxes);
   reader.value("boxes_timeout_s", config.boxes_timeout_s, 0.0, 60.0, "s");
   reader.value("full_map_every", config.full_map_every, 1, 100000, "keyframes");
-  reader.value("local_correction_every", config.local_correction_every, 1, 100000, "keyframes");
   reader.value("map_file", config.map_file);
   reader.value("localize_only", config.localize_only);
   read(reader, config.maps);

@@ -15,7 +15,6 @@ struct MapperServiceConfig {
   bool expect_boxes = true;      // a keyframe waits for its boxes …
   double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next rebuild
   int full_map_every = 20;       // keyframes; besides, whenever somebody new subscribes
-  int local_correction_every = 25;  // keyframes between looks at what local bundle adjustment moved
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to
   store::MapsConfig maps;           // where the map lasts

@@ -10,9 +10,9 @@
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/OctreeDelta.h"
-#include "services/mapper/io/octomap_file.hpp"
-#include "services/mapper/io/saved_tree.hpp"
 #include "services/mapper/core/octree/octree_replica.hpp"
+#include "services/mapper/io/map_files.hpp"
+#include "services/mapper/io/octomap_file.hpp"
 #include "services/mapper/map_messages.hpp"
 #include "tests/fuzz/feed.hpp"
 #include "tests/unit/services/mapper/core/random_keyframes.hpp"
@@ -37,10 +37,10 @@ struct Examples {
     mapper::test::RandomKeyframes keyframes(3);
     for (int i = 0; i < 4; ++i) {
       deltas.push_back(mapper.integrate(keyframes.next()));
-      maps.push_back(mapper.to_bytes());
+      maps.push_back(mapper::test::saved_bytes(mapper));
       snapshots.push_back(mapper::take_snapshot(mapper));
-      trees.push_back(mapper::to_bytes(mapper.tree()));
-      binary_trees.push_back(mapper::to_binary_bytes(mapper.tree()));
+      trees.push_back(mapper::to_bytes(mapper.map().tree()));
+      binary_trees.push_back(mapper::to_binary_bytes(mapper.map().tree()));
       poses.push_back(map_file::to_bytes(mapper.archive().poses()));
     }
     deltas.push_back(mapper.settle(std::vector<mapper::KeyframePose>{{1, 0, keyframes.pose()}}));
@@ -194,7 +194,7 @@ TEST(MapReaders, SectionOfTheMapper) {
   const auto bound = [](std::size_t bytes) { return expanded(mapper::kVoxelsPerByte + 8, bytes); };
   feed(10, examples().maps, bound, [&](const Bytes& bytes) {
     mapper::SemanticMapper mapper(config);
-    const bool is_whole = mapper.start_from(bytes).has_value();
+    const bool is_whole = mapper::test::start_from(mapper, bytes, config).has_value();
     const bool is_tree = mapper::tree_from_map_bytes(bytes).has_value();
     EXPECT_TRUE(is_tree || !is_whole);
     return is_whole;

@@ -28,10 +28,10 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
     checkpoint.final_map = final_map.take();
   }
   ByteWriter state;
-  state.put(map_epoch_);
+  state.put(map_.epoch);
   state.put(saved_.checksum);
   state.put_count(archive->saved_final);
-  labels_.put(state);
+  map_.labels.put(state);
   checkpoint.state = state.take();
   checkpoint.keyframes = std::move(archive->keyframes);
   return checkpoint;
@@ -53,14 +53,14 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
     base->octree.get(reader, labels.names().size());
     base->objects.get(reader);
     if (auto read = reader.finish(); !read) return read;
-    know_surfaces(*base);
+    add_saved_surfaces(*base);
   }
   auto keyframes = KeyframeArchive::from_blocks(checkpoint.keyframes);
   if (!keyframes) return tl::unexpected(keyframes.error());
-  map_epoch_ = epoch;
-  labels_ = std::move(labels);
+  map_.epoch = epoch;
+  map_.labels = std::move(labels);
   base_ = std::move(base);
-  archive_.restore(std::move(*keyframes), final_keyframes, labels_.names().size());
+  archive_.restore(std::move(*keyframes), final_keyframes, map_.labels.names().size());
   rebuild();
   while (const auto id = archive_.spill()) make_final(*id);
   return {};

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-#include "services/mapper/core/octree/color_labels.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/octree/voxel_walk.hpp"
 
@@ -41,20 +41,20 @@ void append(std::vector<std::uint8_t>& bytes, Value value) {
 }  // namespace
 
 MapSnapshot take_snapshot(const SemanticMapper& mapper) {
-  const ColorOcTree& tree = mapper.tree();
+  const ColorOcTree& tree = mapper.map().tree();
   MapSnapshot snapshot;
   snapshot.resolution = tree.getResolution();
   snapshot.nodes = to_bytes(tree);
   for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {
-    if (tree.isNodeOccupied(node)) snapshot.labels_of_occupied.push_back(mapper.label(key));
+    if (tree.isNodeOccupied(node)) snapshot.labels_of_occupied.push_back(mapper.map().label(key));
   });
-  snapshot.labels = mapper.labels().names();
-  snapshot.objects = mapper.objects();
+  snapshot.labels = mapper.map().labels.names();
+  snapshot.objects = mapper.map().objects();
   snapshot.up = mapper.up_in_map();
   return snapshot;
 }
 
-LabelRows labels_not_told_by_colors(const ColorOcTree& tree, const MapSnapshot& snapshot) {
+LabelRows labels_not_shown_by_colors(const ColorOcTree& tree, const MapSnapshot& snapshot) {
   const ColorLabels told(snapshot.labels);
   LabelRows rows;
   for_each_occupied(tree, snapshot,

@@ -23,7 +23,7 @@ struct LabelRows {
   std::vector<std::uint16_t> values;  // N
 };
 /// @param tree  of the snapshot's nodes.
-LabelRows labels_not_told_by_colors(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
+LabelRows labels_not_shown_by_colors(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
 /// Occupied voxels as rows of a sensor_msgs/PointCloud2, little-endian: x, y, z of the centre [m] and rgb as
 /// float32 (bits 0x00rrggbb, as PCL and RViz read them), label as uint32.

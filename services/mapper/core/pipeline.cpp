@@ -13,7 +13,7 @@ void interpret(KeyframeRecord& record, std::optional<std::span<const LabelledBox
   classify_by_depth(record, config.sampling);
   const DynamicMasks masks = boxes ? segment_dynamic(record, *boxes, config) : DynamicMasks{};
 
-  // Classify: every pixel is static, dynamic, unknown or no evidence; some static ones are in doubt.
+  // Classify: every pixel is static, dynamic, unknown or no evidence; some static ones are to be confirmed.
   classify(record, masks, config);
 
   // Static objects get their pixels.
@@ -28,21 +28,21 @@ void add_evidence(const KeyframeRecord& record, const MapperConfig& config, cons
 
 void update_map(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config,
                 const LabelTable& labels, Scan& scan, Map& map, MapDelta& delta) {
-  // Classify, second part: what is in doubt is decided by other keyframes.
+  // Classify, second part: other keyframes confirm static pixels, or do not.
   const PixelClasses classes = resolve(record, history, config);
 
   // Ray-cast: each voxel is a hit, a miss or nothing.
   cast_rays(record, classes, config.octree, config.sampling, scan);
 
   // Update: log-odds, colours and labels.
-  map.octree.integrate({scan, record.looked_for_objects, map.objects.undetected(record, labels), labels,
+  map.octree.integrate({scan, record.objects.looked_for, map.objects.undetected(record, labels), labels,
                         history, record.time_ns, delta});
 }
 
-void know_surfaces(Map& map) {
+void add_saved_surfaces(Map& map) {
   const auto& tree = map.octree.tree();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) map.history.statics.know(leaf.getKey());
+    if (tree.isNodeOccupied(*leaf)) map.history.statics.add_saved(leaf.getKey());
 }
 
 }  // namespace rds::mapper

@@ -34,12 +34,12 @@ void interpret(KeyframeRecord& record, std::optional<std::span<const LabelledBox
 void add_evidence(const KeyframeRecord& record, const MapperConfig& config, const LabelTable& labels,
                   Map& map);
 
-/// Decides the pixels in doubt, casts the rays and updates the octree.
+/// Decides the unconfirmed pixels, casts the rays and updates the octree.
 /// @param history  of all keyframes. @param scan  scratch memory. @param delta  receives what changed.
 void update_map(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config,
                 const LabelTable& labels, Scan& scan, Map& map, MapDelta& delta);
 
 /// Adds the occupied voxels of a saved map to its history: they count as seen at all times.
-void know_surfaces(Map& map);
+void add_saved_surfaces(Map& map);
 
 }  // namespace rds::mapper

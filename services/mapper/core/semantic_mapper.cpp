@@ -17,31 +17,30 @@ Map map_on(const std::shared_ptr<Map>& base, const MapperConfig& config) {
 
 SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
                                std::unique_ptr<SpillStorage> storage)
-    : MapView(std::move(config), map_epoch), archive_(config_, std::move(storage)) {}
+    : config_(std::move(config)), map_(config_, map_epoch), archive_(config_, std::move(storage)) {}
 
 void SemanticMapper::reset(std::uint64_t map_epoch) {
   archive_.clear();
-  map_epoch_ = map_epoch;
-  revision_ = saved_.map ? 1 : 0;
-  labels_ = saved_.labels;
+  map_.epoch = map_epoch;
+  map_.revision = saved_.map ? 1 : 0;
+  map_.labels = saved_.labels;
   base_ = saved_.map;
-  map_ = std::make_unique<Map>(map_on(base_, config_));
+  map_.content = std::make_unique<Map>(map_on(base_, config_));
   boxes_waiting_ = false;
 }
 
-void SemanticMapper::go_on_from(SavedMap saved) {
-  know_surfaces(*saved.map);
-  const std::uint64_t revision = revision_;
+void SemanticMapper::start_from(SavedMap saved) {
+  const std::uint64_t revision = map_.revision;
   saved_ = std::move(saved);
-  reset(map_epoch_);
-  revision_ = revision + 1;
+  reset(map_.epoch);
+  map_.revision = revision + 1;
 }
 
 MapDelta SemanticMapper::new_delta() const {
   MapDelta delta;
-  delta.map_epoch = map_epoch_;
-  delta.base_revision = revision_;
-  delta.revision = revision_;
+  delta.map_epoch = map_.epoch;
+  delta.base_revision = map_.revision;
+  delta.revision = map_.revision;
   delta.resolution = config_.octree.resolution_m;
   if (const auto& keyframes = archive_.keyframes(); !keyframes.empty()) {
     delta.keyframe_id = keyframes.rbegin()->first;
@@ -55,14 +54,14 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   if (archive_.keyframes().contains(input.id))
     throw std::invalid_argument(fmt::format("keyframe {}: is in the map already", input.id));
   auto record = make_record(input, config_.sampling, archive_.rays_of(input.camera));
-  interpret(record, input.boxes, config_, labels_);
+  interpret(record, input.boxes, config_, map_.labels);
   archive_.add(record);
   MapDelta delta = new_delta();
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
-  add_evidence(record, config_, labels_, *map_);
-  update_map(record, map_->history, config_, labels_, scan_, *map_, delta);
-  delta.revision = ++revision_;
+  add_evidence(record, config_, map_.labels, *map_.content);
+  update_map(record, map_.content->history, config_, map_.labels, scan_, *map_.content, delta);
+  delta.revision = ++map_.revision;
   while (const auto id = archive_.spill()) make_final(*id);
   return delta;
 }
@@ -73,8 +72,8 @@ void SemanticMapper::make_final(std::uint64_t id) {
   if (!record) return archive_.lose(id);
   if (!base_ || base_ == saved_.map) base_ = std::make_shared<Map>(map_on(base_, config_));
   MapDelta unused;
-  add_evidence(*record, config_, labels_, *base_);
-  update_map(*record, map_->history, config_, labels_, scan_, *base_, unused);
+  add_evidence(*record, config_, map_.labels, *base_);
+  update_map(*record, map_.content->history, config_, map_.labels, scan_, *base_, unused);
   archive_.make_final(*record);
 }
 
@@ -93,7 +92,7 @@ bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const Labell
     archive_.lose(keyframe_id);
     return false;
   }
-  interpret(*record, boxes, config_, labels_);
+  interpret(*record, boxes, config_, map_.labels);
   archive_.replace(*record);
   while (const auto id = archive_.spill()) make_final(*id);
   boxes_waiting_ = true;
@@ -116,7 +115,7 @@ MapDelta SemanticMapper::rebuild() {
   std::vector<std::uint64_t> lost;
   for (const auto& [id, keyframe] : archive_.keyframes())
     if (const auto record = archive_.record(id)) {
-      add_evidence(*record, config_, labels_, *fresh);
+      add_evidence(*record, config_, map_.labels, *fresh);
       progress_();
     } else {
       lost.push_back(id);
@@ -125,15 +124,15 @@ MapDelta SemanticMapper::rebuild() {
   for (const auto& [id, keyframe] : archive_.keyframes()) {
     MapDelta unused;
     if (const auto record = archive_.record(id))
-      update_map(*record, fresh->history, config_, labels_, scan_, *fresh, unused);
+      update_map(*record, fresh->history, config_, map_.labels, scan_, *fresh, unused);
     progress_();
   }
   archive_.note_integrated();
   MapDelta delta = new_delta();
-  map_->octree.difference(fresh->octree, delta);
-  map_ = std::move(fresh);
+  map_.content->octree.difference(fresh->octree, delta);
+  map_.content = std::move(fresh);
   boxes_waiting_ = false;
-  delta.revision = ++revision_;
+  delta.revision = ++map_.revision;
   return delta;
 }
 

@@ -6,8 +6,7 @@
 #include <span>
 
 #include "services/mapper/core/keyframe/keyframe_archive.hpp"
-#include "services/mapper/core/map_view.hpp"
-#include "services/mapper/core/octree/occupancy_grid.hpp"
+#include "services/mapper/core/saved_map.hpp"
 
 namespace rds::mapper {
 
@@ -18,20 +17,12 @@ struct MapCheckpoint {
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
 };
 
-/// A saved map, as an epoch starts with it.
-struct SavedMap {
-  std::shared_ptr<Map> map;  // nullptr: none
-  LabelTable labels;
-  std::optional<Eigen::Vector3d> up;  // in the map, if it is known
-  std::uint64_t checksum = 0;         // of what it was read from
-};
-
 /// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
 ///
 /// Every keyframe is kept (strided, packed), so that the map can be made again when poses or boxes change:
 /// after settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order
 /// in which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
-class SemanticMapper : public MapView {
+class SemanticMapper {
  public:
   /// @param storage  takes keyframes beyond `correction.memory_mb`; without it the oldest become final.
   explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0,
@@ -64,14 +55,8 @@ class SemanticMapper : public MapView {
   /// Starts an epoch: with the saved map if there is one, else empty.
   void reset(std::uint64_t map_epoch);
 
-  /// Goes on from a saved map in this epoch, and in those that reset() starts. It stays as it is; later
-  /// keyframes are integrated on top. @param tree  without labels and objects, fully expanded.
-  /// @return what does not fit; then nothing has changed.
-  tl::expected<void, std::string> start_from(octomap::ColorOcTree&& tree);
-  /// The same from what to_bytes() gave: with labels, objects and the direction of gravity.
-  tl::expected<void, std::string> start_from(std::span<const std::uint8_t> bytes);
-  /// The map as it stands, with all that further keyframes need of it; not the keyframes.
-  [[nodiscard]] map_file::Bytes to_bytes() const;
+  /// Goes on from a saved map in this epoch, and in those that reset() starts.
+  void start_from(SavedMap saved);
 
   /// What, beside the records in the storage, makes this map again in another process. The storage then has
   /// every record as it is now.
@@ -82,17 +67,18 @@ class SemanticMapper : public MapView {
   /// @return or why not: nothing has changed then. It was damaged, or had begun with another saved map.
   tl::expected<void, std::string> restore(const MapCheckpoint& checkpoint);
 
+  [[nodiscard]] const SemanticMap& map() const { return map_; }
   [[nodiscard]] const KeyframeArchive& archive() const { return archive_; }
-  [[nodiscard]] OccupancyGrid grid() const { return make_grid(tree(), up_in_map(), config_.grid); }
   /// Unit vector against gravity in the map frame, as configured or estimated.
   [[nodiscard]] Eigen::Vector3d up_in_map() const;
 
  private:
   MapDelta rebuild();
   void make_final(std::uint64_t id);
-  void go_on_from(SavedMap saved);
   [[nodiscard]] MapDelta new_delta() const;
 
+  MapperConfig config_;
+  SemanticMap map_;
   std::function<void()> progress_ = [] {};
   KeyframeArchive archive_;
   SavedMap saved_;

@@ -5,17 +5,18 @@
 
 #include <fmt/format.h>
 
-#include "common/geometry/trajectory.hpp"
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/io/octomap_file.hpp"
+#include "common/map_file/byte_reader.hpp"
+#include "common/map_file/geometry_bytes.hpp"
 #include "services/mapper/core/objects/object_database.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/io/octomap_file.hpp"
 
 namespace rds::mapper {
 namespace {
 
 namespace fs = std::filesystem;
-using map_file::write_atomically;
 
 map_file::Bytes bytes_of(const std::string& text) {
   return {text.begin(), text.end()};
@@ -45,8 +46,8 @@ std::map<std::string, map_file::Bytes> files_for_others(const octomap::ColorOcTr
           {"grid.yaml", bytes_of(to_map_server_yaml(grid, "grid.pgm"))}};
 }
 
-WriteResult write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
-  return write_atomically(file, to_octomap_file(tree));
+tl::expected<void, std::string> write_tree(const fs::path& file, const octomap::ColorOcTree& tree) {
+  return map_file::write_atomically(file, to_octomap_file(tree));
 }
 
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree(
@@ -68,19 +69,18 @@ bool looks_like_binary_tree(const fs::path& file) {
   return starts_as_binary_octomap_file(map_file::start_of_file(file, kOctomapStartBytes));
 }
 
-WriteResult write_objects(const fs::path& file, std::span<const MapObject> objects) {
-  return write_atomically(file, to_json(objects));
-}
-
-WriteResult write_grid(const fs::path& folder, const OccupancyGrid& grid) {
-  if (auto image = write_atomically(folder / "grid.pgm", to_pgm(grid)); !image) return image;
-  return write_atomically(folder / "grid.yaml", to_map_server_yaml(grid, "grid.pgm"));
-}
-
-WriteResult write_keyframes(const fs::path& file, std::span<const geometry::KeyframePose> poses) {
-  std::vector<geometry::StampedPose> stamped;
-  for (const auto& pose : poses) stamped.push_back({pose.stamp_ns, pose.map_from_camera, {}});
-  return geometry::write_trajectory(file, stamped);
+tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes) {
+  map_file::ByteReader reader(bytes);
+  SavedTree saved;
+  saved.labels = LabelTable::get(reader).names();
+  map_file::get_vector(reader);
+  const auto resolution = reader.get<double>();
+  const auto nodes = reader.get_bytes(reader.get_count(1));
+  if (!reader.ok()) return tl::unexpected(reader.finish().error());
+  auto tree = tree_from_bytes(nodes, resolution);
+  if (!tree) return tl::unexpected(tree.error());
+  saved.tree = std::move(*tree);
+  return saved;
 }
 
 }  // namespace rds::mapper

@@ -10,7 +10,6 @@
 #include <octomap/ColorOcTree.h>
 #include <tl/expected.hpp>
 
-#include "common/geometry/keyframe_pose.hpp"
 #include "common/map_file/byte_writer.hpp"
 #include "common/map_file/regular_file.hpp"
 #include "services/mapper/core/objects/map_object.hpp"
@@ -18,12 +17,11 @@
 
 namespace rds::mapper {
 
-/// Each writer writes beside the target and renames: a reader never sees half a file.
+/// Writes map.ot, as any OctoMap tool reads it, beside the target and renames: a reader never sees half a
+/// file.
 /// @return one sentence naming the file if it cannot be written.
-using WriteResult = tl::expected<void, std::string>;
-
-/// map.ot, as any OctoMap tool reads it.
-WriteResult write_tree(const std::filesystem::path& file, const octomap::ColorOcTree& tree);
+tl::expected<void, std::string> write_tree(const std::filesystem::path& file,
+                                           const octomap::ColorOcTree& tree);
 
 /// Reads map.ot, or a .bt file of OctoMap. What is neither, is cut off, or has bytes behind its end is
 /// refused.
@@ -43,13 +41,14 @@ std::map<std::string, map_file::Bytes> files_for_others(const octomap::ColorOcTr
                                                         std::span<const MapObject> objects,
                                                         const OccupancyGrid& grid);
 
-/// objects.json.
-WriteResult write_objects(const std::filesystem::path& file, std::span<const MapObject> objects);
+/// The tree and the label table of a saved map, of any resolution; objects and votes are not read.
+struct SavedTree {
+  std::unique_ptr<octomap::ColorOcTree> tree;
+  std::vector<std::string> labels;  // index 0 is ""
+};
 
-/// grid.pgm and grid.yaml for map_server, in `folder`.
-WriteResult write_grid(const std::filesystem::path& folder, const OccupancyGrid& grid);
-
-/// keyframes.txt: TUM format, map_from_camera.
-WriteResult write_keyframes(const std::filesystem::path& file, std::span<const geometry::KeyframePose> poses);
+/// Reads both from the mapper's part of a saved map, as to_bytes() gives it.
+/// @return or one sentence saying what is wrong with the bytes.
+tl::expected<SavedTree, std::string> tree_from_map_bytes(std::span<const std::uint8_t> bytes);
 
 }  // namespace rds::mapper

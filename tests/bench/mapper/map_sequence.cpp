@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "services/mapper/io/map_files.hpp"
+#include "common/geometry/trajectory.hpp"
+#include "common/map_file/atomic_file.hpp"
 #include "services/mapper/core/map_snapshot.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 #include "tools/rds/picture/map_picture.hpp"
@@ -65,8 +67,8 @@ rds::mapper::MapperConfig read_config(const std::string& file) {
 }
 
 void write_picture(const rds::mapper::SemanticMapper& mapper, const std::filesystem::path& file) {
-  rds::tools::MapScene scene{mapper.tree(), mapper.labels().names(), {}, {}};
-  for (const auto& o : mapper.objects())
+  rds::tools::MapScene scene{mapper.map().tree(), mapper.map().labels.names(), {}, {}};
+  for (const auto& o : mapper.map().objects())
     scene.objects.push_back({o.label, o.center - o.size / 2, o.center + o.size / 2});
   for (const auto& pose : mapper.archive().poses())
     scene.trajectory.push_back(pose.map_from_camera.translation());
@@ -80,8 +82,8 @@ int run(const Options& options) {
   const fs::path dataset = options.dataset;
   const bool has_boxes = !options.boxes.empty() && fs::exists(dataset / options.boxes);
   const rds::bench::Recording recording(dataset, has_boxes ? dataset / options.boxes : fs::path());
-  rds::mapper::SemanticMapper mapper(read_config(options.config), 1,
-                                     std::make_unique<rds::mapper::SpillFile>(fs::path()));
+  const auto config = read_config(options.config);
+  rds::mapper::SemanticMapper mapper(config, 1, std::make_unique<rds::mapper::SpillFile>(fs::path()));
   std::vector<double> times;
   std::vector<double> delta_shares;  // of the full map's bytes, second half
   std::size_t changed = 0;
@@ -93,13 +95,13 @@ int run(const Options& options) {
     changed += delta.log_odds.size();
     if (i >= recording.size() / 2)
       delta_shares.push_back(static_cast<double>(bytes_of(delta)) /
-                             static_cast<double>(rds::mapper::to_bytes(mapper.tree()).size()));
+                             static_cast<double>(rds::mapper::to_bytes(mapper.map().tree()).size()));
   }
   auto start = Clock::now();
   mapper.settle({});
   const double settle_ms = ms_since(start);
   start = Clock::now();
-  const auto grid = mapper.grid();
+  const auto grid = make_grid(mapper.map().tree(), mapper.up_in_map(), config.grid);
   const double grid_ms = ms_since(start);
   start = Clock::now();
   const auto snapshot =
@@ -107,11 +109,15 @@ int run(const Options& options) {
   const double snapshot_ms = ms_since(start);
   const fs::path out = options.out;
   fs::create_directories(out);
-  for (const auto& result :
-       {rds::mapper::write_tree(out / "map.ot", mapper.tree()), rds::mapper::write_grid(out, grid),
-        rds::mapper::write_objects(out / "objects.json", mapper.objects()),
-        rds::mapper::write_keyframes(out / "keyframes.txt", mapper.archive().poses())})
-    if (!result) throw std::runtime_error(result.error());
+  const auto files = rds::mapper::files_for_others(mapper.map().tree(), mapper.map().objects(), grid);
+  for (const auto& [name, content] : files)
+    if (const auto result = rds::map_file::write_atomically(out / name, content); !result)
+      throw std::runtime_error(result.error());
+  std::vector<rds::geometry::StampedPose> keyframes;
+  for (const auto& pose : mapper.archive().poses())
+    keyframes.push_back({pose.stamp_ns, pose.map_from_camera, {}});
+  if (const auto result = rds::geometry::write_trajectory(out / "keyframes.txt", keyframes); !result)
+    throw std::runtime_error(result.error());
   start = Clock::now();
   write_picture(mapper, out / "map.png");
   std::cout << fmt::format(
@@ -122,9 +128,9 @@ int run(const Options& options) {
       "{:.0f} ms; {} nodes; {:.0f} changed voxels per keyframe; delta {:.3f} of the full map's bytes "
       "(median, second half); up {:.3f} {:.3f} {:.3f}; {} objects\n",
       times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 1), settle_ms, snapshot_ms,
-      grid_ms, ms_since(start), mapper.tree().size(),
+      grid_ms, ms_since(start), mapper.map().tree().size(),
       static_cast<double>(changed) / static_cast<double>(times.size()), quantile(delta_shares, 0.5),
-      mapper.up_in_map().x(), mapper.up_in_map().y(), mapper.up_in_map().z(), mapper.objects().size());
+      mapper.up_in_map().x(), mapper.up_in_map().y(), mapper.up_in_map().z(), mapper.map().objects().size());
   return 0;
 }
 

@@ -77,7 +77,7 @@ void correct_map_after_loop(benchmark::State& state) {
     for (auto& pose : poses) pose.map_from_camera.translation().x() += shift_m;
     shift_m = -shift_m;
     benchmark::DoNotOptimize(mapper.apply_poses(poses));
-    benchmark::DoNotOptimize(mapper::to_bytes(mapper.tree()));
+    benchmark::DoNotOptimize(mapper::to_bytes(mapper.map().tree()));
   }
 }
 BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "services/mapper/core/octree/color_labels.hpp"
+#include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::tools {

@@ -3,7 +3,6 @@
 
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/io/map_files.hpp"
-#include "services/mapper/io/saved_tree.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 

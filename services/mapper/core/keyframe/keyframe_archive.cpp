@@ -8,7 +8,8 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
+constexpr double kMinMoveM = 0.01;  // a fifth of a voxel; smaller corrections wait for settle()
+constexpr double kMinTurnRad = 0.5 * (3.14159265358979 / 180);  // 3.5 cm at 4 m
 constexpr double kBytesPerMb = 1e6;
 constexpr std::size_t kMaxUnsavedFinal = 100;  // then the final map, which is large, is saved again
 constexpr std::uint64_t kIdsPerBlock = 64;
@@ -16,8 +17,8 @@ constexpr std::size_t kKeyframeBytes = 8 + 8 + 96;
 
 bool has_labels_below(const KeyframeRecord& record, std::size_t labels) {
   const auto is_below = [&](std::uint16_t label) { return label < labels; };
-  return std::ranges::all_of(record.labels, is_below) &&
-         std::ranges::all_of(record.sightings, is_below, &ObjectSighting::label);
+  return std::ranges::all_of(record.objects.labels, is_below) &&
+         std::ranges::all_of(record.objects.sightings, is_below, &ObjectSighting::label);
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ void KeyframeArchive::add(KeyframeRecord& record) {
 std::optional<KeyframeRecord> KeyframeArchive::record(std::uint64_t id) const {
   auto record = records_.get(id);
   if (!record) return record;
-  record->rays = rays_.of(record->camera);
+  record->grid.rays = rays_.of(record->grid.camera);
   record->map_from_camera = keyframes_.at(id).pose;
   record->time_ns = keyframes_.at(id).time_ns;
   return record;
@@ -73,7 +74,7 @@ std::optional<std::uint64_t> KeyframeArchive::spill() {
 void KeyframeArchive::make_final(const KeyframeRecord& record) {
   if (record.id == keyframes_.begin()->first) final_clock_.go_to(record.stamp_ns);
   const auto keyframe = keyframes_.extract(record.id);
-  has_checkpoint_ = has_checkpoint_ && records_.leave(record.id);
+  has_checkpoint_ = has_checkpoint_ && records_.retire(record.id);
   if (has_checkpoint_)
     unsaved_final_[record.id] = keyframe.mapped();  // until a checkpoint has the final map with it
   else
@@ -99,8 +100,8 @@ void KeyframeArchive::set_poses(std::span<const KeyframePose> poses) {
 bool KeyframeArchive::moved_enough() const {
   return std::ranges::any_of(keyframes_, [&](const auto& entry) {
     const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.pose;
-    return moved.translation().norm() > config_.correction.min_translation_m ||
-           geometry::rotation_angle_rad(moved.linear()) > config_.correction.min_rotation_deg * kDegree;
+    return moved.translation().norm() > kMinMoveM ||
+           geometry::rotation_angle_rad(moved.linear()) > kMinTurnRad;
   });
 }
 
@@ -119,7 +120,7 @@ std::optional<ArchiveCheckpoint> KeyframeArchive::save(bool has_final_map) {
   checkpoint.needs_final_map =
       (!has_checkpoint_ && has_final_map) || unsaved_final_.size() >= kMaxUnsavedFinal;
   if (checkpoint.needs_final_map) {
-    for (const auto& [id, keyframe] : unsaved_final_) records_.drop(id);
+    for (const auto& [id, keyframe] : unsaved_final_) records_.erase_retired(id);
     unsaved_final_.clear();
   }
   has_checkpoint_ = true;

@@ -9,9 +9,27 @@
 
 #include "common/time/continuous_time.hpp"
 #include "services/mapper/core/keyframe/keyframe_store.hpp"
-#include "services/mapper/core/keyframe/ray_cache.hpp"
 
 namespace rds::mapper {
+
+/// The rays of the newest camera, made once.
+class RayCache {
+ public:
+  explicit RayCache(int stride_px) : stride_px_(stride_px) {}
+
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> of(const geometry::CameraModel& camera) {
+    if (!rays_ || !(camera == camera_)) {
+      rays_ = sample_rays(camera, stride_px_);
+      camera_ = camera;
+    }
+    return rays_;
+  }
+
+ private:
+  int stride_px_;
+  geometry::CameraModel camera_;
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
+};
 
 /// A keyframe that can still follow corrections; its record lies in the store.
 struct Keyframe {
@@ -26,8 +44,8 @@ using KeyframeBlocks = std::map<std::uint64_t, map_file::Bytes>;
 
 /// What the archive adds to a checkpoint.
 struct ArchiveCheckpoint {
-  KeyframeBlocks keyframes;      // final ones that the checkpoint's final map does not hold are among them
-  std::size_t saved_final = 0;   // keyframes that it holds
+  KeyframeBlocks keyframes;      // with those that are final, but not in the checkpoint's final map yet
+  std::size_t saved_final = 0;   // keyframes in that map
   bool needs_final_map = false;  // it has to be saved with this checkpoint
 };
 
@@ -65,7 +83,7 @@ class KeyframeArchive {
 
   /// Takes over poses; unknown ids and poses that are not finite are ignored.
   void set_poses(std::span<const KeyframePose> poses);
-  /// True if a pose differs from the integrated one by more than min_translation_m or min_rotation_deg.
+  /// True if a pose differs from the integrated one by more than 1 cm or 0.5°.
   [[nodiscard]] bool moved_enough() const;
   /// Gives all keyframes the times that they would have had, had they come in the order of their ids.
   void set_times();
@@ -95,7 +113,7 @@ class KeyframeArchive {
   time::ContinuousTime clock_;        // at the newest keyframe
   time::ContinuousTime final_clock_;  // at the newest one that is final, and all before it are
   std::size_t final_keyframes_ = 0;
-  std::map<std::uint64_t, Keyframe> unsaved_final_;  // that the last checkpoint has as others
+  std::map<std::uint64_t, Keyframe> unsaved_final_;  // not in the last checkpoint's final map
   bool has_checkpoint_ = false;                      // since the last clear()
   std::size_t lost_ = 0;
 };

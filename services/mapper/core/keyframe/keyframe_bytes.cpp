@@ -107,10 +107,11 @@ ObjectSighting get_sighting(ByteReader& reader) {
 }
 
 void get_size(ByteReader& reader, KeyframeRecord& record) {
-  for (int* value : {&record.stride, &record.width, &record.height, &record.cell_px})
+  for (int* value : {&record.grid.stride, &record.grid.width, &record.grid.height, &record.movable.side_px})
     *value = reader.get<std::int32_t>();
   const auto fits = [](int side) { return side > 0 && side <= kMaxSide; };
-  if (!fits(record.width) || !fits(record.height) || record.stride <= 0 || record.cell_px < 0)
+  if (!fits(record.grid.width) || !fits(record.grid.height) || record.grid.stride <= 0 ||
+      record.movable.side_px < 0)
     reader.refuse("an impossible size");
 }
 
@@ -120,20 +121,20 @@ map_file::Bytes to_bytes(const KeyframeRecord& record) {
   ByteWriter writer;
   writer.put(record.id);
   writer.put(record.stamp_ns);
-  map_file::put(writer, record.camera);
-  for (const int value : {record.stride, record.width, record.height, record.cell_px})
+  map_file::put(writer, record.grid.camera);
+  for (const int value : {record.grid.stride, record.grid.width, record.grid.height, record.movable.side_px})
     writer.put(std::int32_t{value});
   put_depths(writer, record.depth_tenth_mm);
   writer.put_bytes(record.rgb);
-  put_cells(writer, record.movable_cells);
+  put_cells(writer, record.movable.cells);
   put_runs(writer, record.classes);
-  put_runs(writer, record.doubt.is_doubtful);
-  put_runs(writer, record.doubt.surface);
-  writer.put(record.doubt.surfaces);
-  put_runs(writer, record.labels);
-  writer.put(static_cast<std::uint8_t>(record.looked_for_objects));
-  writer.put_count(record.sightings.size());
-  for (const auto& sighting : record.sightings) put(writer, sighting);
+  put_runs(writer, record.unconfirmed.mask);
+  put_runs(writer, record.unconfirmed.surface);
+  writer.put(record.unconfirmed.surfaces);
+  put_runs(writer, record.objects.labels);
+  writer.put(static_cast<std::uint8_t>(record.objects.looked_for));
+  writer.put_count(record.objects.sightings.size());
+  for (const auto& sighting : record.objects.sightings) put(writer, sighting);
   map_file::Bytes bytes = writer.take();
   bytes.shrink_to_fit();
   return bytes;
@@ -144,24 +145,25 @@ tl::expected<KeyframeRecord, std::string> record_from_bytes(std::span<const std:
   KeyframeRecord record;
   record.id = reader.get<std::uint64_t>();
   record.stamp_ns = record.time_ns = reader.get<std::int64_t>();
-  record.camera = map_file::get_camera(reader);
+  record.grid.camera = map_file::get_camera(reader);
   get_size(reader, record);
   if (!reader.ok()) return tl::unexpected(reader.finish().error());
-  const std::size_t size = static_cast<std::size_t>(record.width) * static_cast<std::size_t>(record.height);
+  const std::size_t size =
+      static_cast<std::size_t>(record.grid.width) * static_cast<std::size_t>(record.grid.height);
   if (size > bytes.size()) return tl::unexpected(std::string("fewer bytes than pixels"));
   record.depth_tenth_mm.resize(size);
   get_depths(reader, record.depth_tenth_mm);
   const auto rgb = reader.get_bytes(3 * size);
   record.rgb.assign(rgb.begin(), rgb.end());
-  record.movable_cells = get_cells(reader);
+  record.movable.cells = get_cells(reader);
   get_runs(reader, size, record.classes);
-  get_runs(reader, size, record.doubt.is_doubtful);
-  get_runs(reader, size, record.doubt.surface);
-  record.doubt.surfaces = reader.get<std::uint16_t>();
-  get_runs(reader, size, record.labels);
-  record.looked_for_objects = reader.get<std::uint8_t>() != 0;
-  record.sightings.resize(reader.get_count(sizeof(std::uint64_t)));
-  for (auto& sighting : record.sightings) sighting = get_sighting(reader);
+  get_runs(reader, size, record.unconfirmed.mask);
+  get_runs(reader, size, record.unconfirmed.surface);
+  record.unconfirmed.surfaces = reader.get<std::uint16_t>();
+  get_runs(reader, size, record.objects.labels);
+  record.objects.looked_for = reader.get<std::uint8_t>() != 0;
+  record.objects.sightings.resize(reader.get_count(sizeof(std::uint64_t)));
+  for (auto& sighting : record.objects.sightings) sighting = get_sighting(reader);
   if (auto read = reader.finish(); !read) return tl::unexpected(read.error());
   return record;
 }

@@ -17,10 +17,10 @@ int sampled(int pixels, int stride) {
 
 void sample_pixels(const KeyframeInput& input, KeyframeRecord& record) {
   const int first = input.color.order == image::ChannelOrder::kRgb ? 0 : 2;
-  for (int row = 0, i = 0; row < record.height; ++row)
-    for (int column = 0; column < record.width; ++column, ++i) {
-      const int x = column * record.stride;
-      const int y = row * record.stride;
+  for (int row = 0, i = 0; row < record.grid.height; ++row)
+    for (int column = 0; column < record.grid.width; ++column, ++i) {
+      const int x = column * record.grid.stride;
+      const int y = row * record.grid.stride;
       const auto index = static_cast<std::size_t>(i);
       record.depth_tenth_mm[index] = to_tenth_mm(input.depth.at(x, y));
       const auto& pixel = input.color.pixels.at<cv::Vec3b>(y, x);
@@ -75,14 +75,16 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
   record.id = input.id;
   record.stamp_ns = record.time_ns = input.stamp_ns;
   record.map_from_camera = input.map_from_camera;
-  record.camera = input.camera;
-  record.stride = config.stride_px;
-  record.width = sampled(input.camera.width, config.stride_px);
-  record.height = sampled(input.camera.height, config.stride_px);
-  record.rays = std::move(rays);
-  record.movable_cells = input.movable_cells.clone();
-  record.cell_px = image::cell_side_px({input.camera.width, input.camera.height}, input.movable_cells.size());
-  const auto count = static_cast<std::size_t>(record.width) * static_cast<std::size_t>(record.height);
+  record.grid.camera = input.camera;
+  record.grid.stride = config.stride_px;
+  record.grid.width = sampled(input.camera.width, config.stride_px);
+  record.grid.height = sampled(input.camera.height, config.stride_px);
+  record.grid.rays = std::move(rays);
+  record.movable.cells = input.movable_cells.clone();
+  record.movable.side_px =
+      image::cell_side_px({input.camera.width, input.camera.height}, input.movable_cells.size());
+  const auto count =
+      static_cast<std::size_t>(record.grid.width) * static_cast<std::size_t>(record.grid.height);
   record.depth_tenth_mm.resize(count);
   record.rgb.resize(3 * count);
   record.classes.resize(count);
@@ -91,10 +93,10 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
 }
 
 bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
-  if (record.cell_px == 0) return false;
-  const int row = static_cast<int>(pixel) / record.width * record.stride / record.cell_px;
-  const int column = static_cast<int>(pixel) % record.width * record.stride / record.cell_px;
-  return record.movable_cells(row, column) != 0;
+  if (record.movable.side_px == 0) return false;
+  const int row = record.grid.row(pixel) * record.grid.stride / record.movable.side_px;
+  const int column = record.grid.column(pixel) * record.grid.stride / record.movable.side_px;
+  return record.movable.cells(row, column) != 0;
 }
 
 }  // namespace rds::mapper

@@ -9,6 +9,27 @@
 
 namespace rds::mapper {
 
+/// The sampled pixels of a picture: every stride-th one of every stride-th row. Counted row by row.
+struct PixelGrid {
+  geometry::CameraModel camera;  // of the full picture
+  int stride = 1;
+  int width = 0;                                             // sampled columns
+  int height = 0;                                            // sampled rows
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;  // (x, y, 1)
+
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row * width + column);
+  }
+  [[nodiscard]] int column(std::size_t pixel) const { return static_cast<int>(pixel) % width; }
+  [[nodiscard]] int row(std::size_t pixel) const { return static_cast<int>(pixel) / width; }
+};
+
+/// Square cells of the full picture in which the tracker found motion: not 0.
+struct MovableCells {
+  cv::Mat1b cells;
+  int side_px = 0;  // 0: there are none
+};
+
 /// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
 /// with the pose.
 struct ObjectSighting {
@@ -19,10 +40,17 @@ struct ObjectSighting {
   std::vector<Eigen::Vector3f> points_in_camera;
 };
 
-/// Pixels of which it is in doubt whether they are static, and the connected surfaces by which resolve()
-/// decides; all empty where there is no doubt.
-struct DoubtfulPixels {
-  std::vector<bool> is_doubtful;
+/// The static objects that a detector found in a keyframe.
+struct ObjectsInView {
+  bool looked_for = false;            // whether a detector has seen the picture
+  std::vector<std::uint16_t> labels;  // of each pixel, empty while no object is labelled; 0 = none
+  std::vector<ObjectSighting> sightings;
+};
+
+/// Pixels that count as static only if their connected surface is confirmed, and these surfaces; all empty
+/// where there are none.
+struct UnconfirmedPixels {
+  std::vector<bool> mask;
   std::vector<std::uint16_t> surface;  // of each pixel, from 1; 0: of none
   std::uint16_t surfaces = 0;
 
@@ -40,25 +68,17 @@ struct KeyframeRecord {
   std::int64_t stamp_ns = 0;
   std::int64_t time_ns = 0;  // of the mapper's ContinuousTime, not stored; the stamp where none is told
   geometry::Pose map_from_camera = geometry::Pose::Identity();
-  geometry::CameraModel camera;  // of the full picture
-  int stride = 1;
-  int width = 0;   // sampled columns
-  int height = 0;  // sampled rows
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;
+  PixelGrid grid;
   std::vector<std::uint16_t> depth_tenth_mm;  // 0 = none, 65535 = 6.5 m or more
   std::vector<std::uint8_t> rgb;              // 3 per pixel
-  cv::Mat1b movable_cells;                    // as in KeyframeInput
+  MovableCells movable;
   PixelClasses classes;
-  DoubtfulPixels doubt;
-  std::vector<std::uint16_t> labels;  // empty while no object is labelled; 0 = none
-  bool looked_for_objects = false;
-  std::vector<ObjectSighting> sightings;
-
-  int cell_px = 0;  // side of a movable cell; 0: there are none
+  UnconfirmedPixels unconfirmed;
+  ObjectsInView objects;
 
   [[nodiscard]] std::size_t size() const { return depth_tenth_mm.size(); }
   [[nodiscard]] float depth_m(std::size_t i) const { return static_cast<float>(depth_tenth_mm[i]) * 1e-4F; }
-  [[nodiscard]] Eigen::Vector3f point_in_camera(std::size_t i) const { return (*rays)[i] * depth_m(i); }
+  [[nodiscard]] Eigen::Vector3f point_in_camera(std::size_t i) const { return (*grid.rays)[i] * depth_m(i); }
 };
 
 /// Why a keyframe cannot be used, in one sentence; nullopt if it can.

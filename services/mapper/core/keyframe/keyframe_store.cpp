@@ -42,7 +42,7 @@ void KeyframeStore::erase(std::uint64_t id) {
   if (stored_.erase(id) + outdated_.erase(id) > 0) storage_->erase(id);
 }
 
-bool KeyframeStore::leave(std::uint64_t id) {
+bool KeyframeStore::retire(std::uint64_t id) {
   const auto here = in_memory_.find(id);
   const bool kept = here == in_memory_.end() ? stored_.contains(id) : store(id, here->second);
   if (kept) stored_.erase(id);

@@ -38,11 +38,11 @@ class KeyframeStore {
   /// wrong.
   [[nodiscard]] std::optional<KeyframeRecord> get(std::uint64_t id) const;
   void erase(std::uint64_t id);
-  /// As erase(), but the storage keeps the record as it is now, for drop(). @return false if it could not be
-  /// stored: it is erased.
-  bool leave(std::uint64_t id);
-  /// What the storage kept after leave() goes.
-  void drop(std::uint64_t id) { storage_->erase(id); }
+  /// As erase(), but the storage keeps the record as it is now, for erase_retired(). @return false if it
+  /// could not be stored: it is erased.
+  bool retire(std::uint64_t id);
+  /// What the storage kept after retire() goes.
+  void erase_retired(std::uint64_t id) { storage_->erase(id); }
   void clear();
 
   /// Puts into the storage what it does not have as it is now; it stays in memory, too. @return false if some
@@ -65,7 +65,7 @@ class KeyframeStore {
   std::unique_ptr<SpillStorage> storage_;
   std::map<std::uint64_t, map_file::Bytes> in_memory_;
   std::map<std::uint64_t, std::uint64_t> stored_;  // checksums of what the storage has as it is now
-  std::set<std::uint64_t> outdated_;               // what it has otherwise
+  std::set<std::uint64_t> outdated_;               // of which it has an older record
   std::size_t bytes_in_memory_ = 0;
 };
 

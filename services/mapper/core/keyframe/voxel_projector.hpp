@@ -51,7 +51,7 @@ struct VoxelProjector {
   /// @param its_class  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
   [[nodiscard]] bool point(std::size_t pixel, PixelClass its_class, Eigen::Vector3d& at) const {
     if (its_class == PixelClass::kInvalid) return false;
-    const Eigen::Vector3f& ray = (*record.rays)[pixel];
+    const Eigen::Vector3f& ray = (*record.grid.rays)[pixel];
     if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
     const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
     const float depth = measured ? record.depth_m(pixel) : max_range_m;

@@ -14,6 +14,13 @@
 namespace rds::mapper {
 namespace {
 
+// Log-odds of an object's existence. A sighting outweighs seventeen misses, because a detector finds
+// furniture in few of the views that show it; two views through the object outweigh the sighting.
+constexpr double kHit = 0.85;  // as of a voxel
+constexpr double kMiss = 0.05;
+constexpr double kSeenThrough = 0.6;
+constexpr double kMaxExistence = 3.5;   // as P = .97 of a voxel: what was removed goes after six views
+constexpr double kBorderWeight = 0.25;  // of a sighting that the picture's border cuts
 constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
 constexpr double kOutward = 4;        // a view that shows more of the object counts so often
 constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
@@ -29,21 +36,21 @@ double iou(const geometry::Box3& a, const geometry::Box3& b) {
 }
 
 /// What the depth picture says about the place of an object.
-struct View {
+struct DepthProbes {
   int measured = 0;
   int occluded = 0;
   int seen_through = 0;
 };
 
-View look_at(const geometry::Box2& box, double near_m, double far_m, const KeyframeRecord& record) {
-  View view;
+DepthProbes probe(const geometry::Box2& box, double near_m, double far_m, const KeyframeRecord& record) {
+  DepthProbes view;
   for (int row = 0; row < kProbes; ++row)
     for (int column = 0; column < kProbes; ++column) {
       const double x = box.x0 + box.width() * (column + 0.5) / kProbes;
       const double y = box.y0 + box.height() * (row + 0.5) / kProbes;
-      const int sx = std::min(record.width - 1, static_cast<int>(x / record.stride));
-      const int sy = std::min(record.height - 1, static_cast<int>(y / record.stride));
-      const auto i = static_cast<std::size_t>(sy * record.width + sx);
+      const int sx = std::min(record.grid.width - 1, static_cast<int>(x / record.grid.stride));
+      const int sy = std::min(record.grid.height - 1, static_cast<int>(y / record.grid.stride));
+      const auto i = record.grid.index(sx, sy);
       if (record.depth_tenth_mm[i] == 0) continue;
       ++view.measured;
       const double depth = record.depth_m(i);
@@ -70,9 +77,9 @@ geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::P
 
 void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {
   for (auto& entry : entries_) entry.seen_now = false;
-  for (const auto& sighting : record.sightings) fuse(sighting, record, labels);
+  for (const auto& sighting : record.objects.sightings) fuse(sighting, record, labels);
   merge_duplicates();
-  if (!record.looked_for_objects) return;
+  if (!record.objects.looked_for) return;
   for (auto& entry : entries_)
     if (!entry.seen_now) fade(entry, record);
   std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
@@ -146,7 +153,7 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
     entry->object.first_seen_ns = record.stamp_ns;
   }
   const double weight =
-      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? config_.border_weight : 1.0);
+      std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? kBorderWeight : 1.0);
   if (entry->weight == 0) {
     entry->min = box.min;
     entry->max = box.max;
@@ -162,7 +169,7 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
     entry->max[axis] += step(box.max[axis] - entry->max[axis], box.max[axis] > entry->max[axis]);
   }
   entry->score_sum += sighting.score;
-  entry->existence = std::min(config_.max_existence, entry->existence + config_.hit);
+  entry->existence = std::min(kMaxExistence, entry->existence + kHit);
   entry->seen_now = true;
   ++entry->object.observations;
   entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, record.stamp_ns);
@@ -172,10 +179,10 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
 void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   const geometry::Pose camera_from_map = record.map_from_camera.inverse();
   const geometry::Box3 box{entry.min, entry.max};
-  const auto in_picture = geometry::project(box, camera_from_map, record.camera);
+  const auto in_picture = geometry::project(box, camera_from_map, record.grid.camera);
   const Eigen::Vector3d center = camera_from_map * box.center();
   if (!in_picture || center.z() <= 0) return;
-  geometry::CameraModel wide = record.camera;  // the same projection without the picture's limits
+  geometry::CameraModel wide = record.grid.camera;  // the same projection without the picture's limits
   constexpr int kBorder = 2000;
   wide.width += 2 * kBorder;
   wide.height += 2 * kBorder;
@@ -184,15 +191,15 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   const auto whole = geometry::project(box, camera_from_map, wide);
   if (!whole || in_picture->area() < kInViewShare * whole->area()) return;
   const double half_depth = box.size().norm() / 2;
-  const auto view = look_at(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
+  const auto view = probe(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
   if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
-  entry.existence -= 3 * view.seen_through > 2 * view.measured ? config_.seen_through : config_.miss;
+  entry.existence -= 3 * view.seen_through > 2 * view.measured ? kSeenThrough : kMiss;
 }
 
 std::vector<geometry::Box3> ObjectDatabase::undetected(const KeyframeRecord& record,
                                                        const LabelTable& labels) const {
   std::vector<std::pair<std::string, geometry::Box3>> sighted;
-  for (const auto& sighting : record.sightings)
+  for (const auto& sighting : record.objects.sightings)
     sighted.emplace_back(labels.names()[sighting.label], boundary_in_map(sighting, record.map_from_camera));
   std::vector<geometry::Box3> boxes;
   for (const auto& entry : entries_) {

@@ -22,7 +22,7 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
                            std::uint16_t label, const geometry::Box2& box_px, const KeyframeRecord& record) {
   ObjectSighting sighting{label,
                           std::isfinite(box.score) ? std::clamp(box.score, 0.0F, 1.0F) : 0.0F,
-                          is_cut_by_border(box_px, record.camera),
+                          is_cut_by_border(box_px, record.grid.camera),
                           {}};
   const std::size_t step = pixels.size() / ObjectSighting::kMaxPoints + 1;
   for (std::size_t k = 0; k < pixels.size(); k += step)
@@ -34,9 +34,9 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
 
 void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> boxes,
                           const MapperConfig& config, LabelTable& labels) {
-  record.labels.clear();
-  record.sightings.clear();
-  record.looked_for_objects = true;
+  record.objects.labels.clear();
+  record.objects.sightings.clear();
+  record.objects.looked_for = true;
   std::vector<const LabelledBox*> still;
   for (const auto& box : boxes)
     if (!box.movable) still.push_back(&box);
@@ -44,18 +44,18 @@ void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> b
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
   const auto segments =
       config.segmentation.enabled ? segment(record, config.segmentation) : std::vector<Segment>{};
-  record.labels.assign(record.size(), 0);
+  record.objects.labels.assign(record.size(), 0);
   for (const auto* box : still) {
     const auto box_px = image_box(*box, record);
     if (!box_px) continue;
     auto [pixels, flush] = static_object(record, *box, segments, config);
     if (flush && box->score < config.objects.flush_min_score) continue;
-    std::erase_if(pixels,
-                  [&](std::size_t i) { return record.labels[i] != 0; });  // of what is surer, or nearer
+    std::erase_if(
+        pixels, [&](std::size_t i) { return record.objects.labels[i] != 0; });  // of what is surer, or nearer
     const auto label = labels.index_of(box->label);
     if (pixels.size() < kMinSightingPixels || label == 0) continue;
-    for (const auto i : pixels) record.labels[i] = label;
-    record.sightings.push_back(sighting_of(pixels, *box, label, *box_px, record));
+    for (const auto i : pixels) record.objects.labels[i] = label;
+    record.objects.sightings.push_back(sighting_of(pixels, *box, label, *box_px, record));
   }
 }
 

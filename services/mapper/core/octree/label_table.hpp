@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,19 @@ class LabelTable {
  private:
   std::vector<std::string> names_{""};
   std::vector<Rgb> colors_{{255, 255, 255}};
+};
+
+/// Labels of a full map by the colours of its voxels, the same for writer and reader. Of labels with one
+/// colour the first is meant; a voxel whose surface happens to have a label's colour gets that label.
+class ColorLabels {
+ public:
+  /// @param labels  the label table; index 0 is "".
+  explicit ColorLabels(std::span<const std::string> labels);
+  /// Index of the label; 0 if the colour is none's.
+  [[nodiscard]] std::uint16_t label_of(const Rgb& color) const;
+
+ private:
+  std::map<Rgb, std::uint16_t> label_of_color_;
 };
 
 }  // namespace rds::mapper

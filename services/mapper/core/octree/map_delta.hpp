@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <octomap/ColorOcTree.h>
+
 namespace rds::mapper {
 
 /// What one step changed in the map. Applied to a tree of `base_revision` it gives the tree of `revision`.
@@ -21,6 +23,15 @@ struct MapDelta {
   std::vector<std::uint16_t> labels;        // N, index into the label table; 0 = no object
   std::vector<std::uint8_t> colors;         // 3N: r g b
   std::vector<std::uint16_t> deleted_keys;  // 3M
+
+  /// Appends a voxel with its new values.
+  void add(const octomap::OcTreeKey& key, const octomap::ColorOcTreeNode& voxel, std::uint16_t label) {
+    keys.insert(keys.end(), {key[0], key[1], key[2]});
+    log_odds.push_back(voxel.getLogOdds());
+    labels.push_back(label);
+    const auto color = voxel.getColor();
+    colors.insert(colors.end(), {color.r, color.g, color.b});
+  }
 
   /// True when there is nothing to tell: the revision did not change.
   [[nodiscard]] bool is_noop() const { return revision == base_revision; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/octree/semantic_octree.hpp"
+#include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -21,10 +22,8 @@ class TreeComparison {
     }
     const unsigned size = 1U << (EditableOcTree::kDepth - 1 - depth);
     for (unsigned i = 0; i < 8; ++i) {
-      const OcTreeKey child(static_cast<std::uint16_t>(key[0] + (i & 1 ? size : 0)),
-                            static_cast<std::uint16_t>(key[1] + (i & 2 ? size : 0)),
-                            static_cast<std::uint16_t>(key[2] + (i & 4 ? size : 0)));
-      walk(child_of(older_.tree(), was, i), child_of(newer_.tree(), is, i), depth + 1, child);
+      walk(child_of(older_.tree(), was, i), child_of(newer_.tree(), is, i), depth + 1,
+           child_key(key, i, size));
     }
   }
 
@@ -40,11 +39,7 @@ class TreeComparison {
     }
     const auto label = newer_.label(key);
     if (was != nullptr && *was == *is && older_.label(key) == label) return;
-    delta_.keys.insert(delta_.keys.end(), {key[0], key[1], key[2]});
-    delta_.log_odds.push_back(is->getLogOdds());
-    delta_.labels.push_back(label);
-    const auto color = is->getColor();
-    delta_.colors.insert(delta_.colors.end(), {color.r, color.g, color.b});
+    delta_.add(key, *is, label);
   }
 
   const SemanticOctree& older_;

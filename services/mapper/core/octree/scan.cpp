@@ -13,7 +13,7 @@ void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, PixelClass its
   }
   ++voxel.static_pixels;
   for (std::size_t c = 0; c < 3; ++c) voxel.rgb_sum[c] += record.rgb[3 * pixel + c];
-  const std::uint16_t label = record.labels.empty() ? std::uint16_t{0} : record.labels[pixel];
+  const std::uint16_t label = record.objects.labels.empty() ? std::uint16_t{0} : record.objects.labels[pixel];
   if (voxel.label_balance == 0) voxel.label = label;
   voxel.label_balance = voxel.label == label ? voxel.label_balance + 1 : voxel.label_balance - 1;
 }
@@ -83,7 +83,7 @@ void cast_rays(const KeyframeRecord& record, std::span<const PixelClass> classes
   mark_surfaces(project, classes, scan);
   if (!octree.carve_rays) return;
   carve(project, classes, false, scan);
-  if (octree.weak_sightings > 0) carve(project, classes, true, scan);
+  carve(project, classes, true, scan);
 }
 
 }  // namespace rds::mapper

@@ -6,30 +6,20 @@
 #include <cstring>
 
 #include "services/mapper/core/keyframe/voxel_projector.hpp"
+#include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::mapper {
 namespace {
 
 using Node = EditableOcTree::Node;
+// Log-odds per keyframe, paper §IV-C.
+constexpr double kHit = 0.85;
+constexpr double kMiss = -0.41;
+constexpr double kGhostMiss = -1.2;  // a voxel at the upper clamp is free after three rays
+constexpr double kLowest = 0.12;     // clamped to these probabilities, as OctoMap does
+constexpr double kHighest = 0.97;
+constexpr double kLabelShare = 0.25;  // of a voxel's votes: a detector misses an object in many views
 constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
-
-void append_key(std::vector<std::uint16_t>& keys, const octomap::OcTreeKey& key) {
-  keys.insert(keys.end(), {key[0], key[1], key[2]});
-}
-
-void append_voxel(MapDelta& delta, const octomap::OcTreeKey& key, const Node& node, std::uint16_t label) {
-  append_key(delta.keys, key);
-  delta.log_odds.push_back(node.getLogOdds());
-  delta.labels.push_back(label);
-  const auto color = node.getColor();
-  delta.colors.insert(delta.colors.end(), {color.r, color.g, color.b});
-}
-
-octomap::OcTreeKey child_key(const octomap::OcTreeKey& key, unsigned index, unsigned size) {
-  return {static_cast<std::uint16_t>(key[0] + (index & 1 ? size : 0)),
-          static_cast<std::uint16_t>(key[1] + (index & 2 ? size : 0)),
-          static_cast<std::uint16_t>(key[2] + (index & 4 ? size : 0))};
-}
 
 constexpr unsigned kMeasured = kSurface | kFreeSpace;
 
@@ -49,17 +39,17 @@ bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
 
 SemanticOctree::SemanticOctree(const OctreeConfig& config)
     : config_(config),
-      lowest_(octomap::logodds(config.clamp_min)),
-      highest_(octomap::logodds(config.clamp_max)),
+      lowest_(octomap::logodds(kLowest)),
+      highest_(octomap::logodds(kHighest)),
       tree_(config.resolution_m) {
-  tree_.setClampingThresMin(config.clamp_min);
-  tree_.setClampingThresMax(config.clamp_max);
+  tree_.setClampingThresMin(kLowest);
+  tree_.setClampingThresMax(kHighest);
   tree_.setOccupancyThres(0.5);
 }
 
 std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
-  const auto found = memory_.find(packed(key));
-  return found == memory_.end() ? std::uint16_t{0} : found->second.label(config_.label_share);
+  const auto found = voxels_.find(packed(key));
+  return found == voxels_.end() ? std::uint16_t{0} : found->second.label(kLabelShare);
 }
 
 void SemanticOctree::integrate(const Update& update) {
@@ -96,8 +86,7 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   for (unsigned index = 0; index < 8; ++index) {
     const auto flags = block.flags[first_cell + index];
     if ((flags & kMeasured) == 0 &&
-        ((flags & kNoReturnRay) == 0 ||
-         !is_doubtful(parent, index, child_key(base, index, 1), update)))
+        ((flags & kNoReturnRay) == 0 || !is_uncertain(parent, index, child_key(base, index, 1), update)))
       continue;
     const bool created = !tree_.nodeChildExists(parent, index);
     const SurfaceVoxel* surface =
@@ -107,21 +96,21 @@ void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& bas
   EditableOcTree::refresh(parent);
 }
 
-/// Whether it is in doubt that a voxel is occupied; of one that is not there is none.
-bool SemanticOctree::is_doubtful(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                                 const Update& update) const {
+/// True for an occupied voxel that a ray without return lowers, too: a ghost, or seen seldom.
+bool SemanticOctree::is_uncertain(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                                  const Update& update) const {
   if (!tree_.nodeChildExists(parent, index)) return false;
   if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
   if (update.history.is_ghost(key, update.time_ns)) return true;
-  const auto found = memory_.find(packed(key));
-  return found != memory_.end() && found->second.times_seen() <= config_.weak_sightings;
+  const auto found = voxels_.find(packed(key));
+  return found != voxels_.end() && found->second.times_seen() <= kUncertainHits;
 }
 
-/// Paper §IV-C; deviation: a ray through a ghost takes suspect_miss.
+/// Paper §IV-C; deviation: a ray through a ghost takes kGhostMiss.
 double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const {
-  if (surface != nullptr) return surface->is_hit() ? config_.hit : config_.miss;
-  return occupied && update.history.is_ghost(key, update.time_ns) ? config_.suspect_miss : config_.miss;
+  if (surface != nullptr) return surface->is_hit() ? kHit : kMiss;
+  return occupied && update.history.is_ghost(key, update.time_ns) ? kGhostMiss : kMiss;
 }
 
 void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
@@ -135,14 +124,14 @@ void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTre
   node->setLogOdds(std::clamp(before + change, lowest_, highest_));
   std::uint16_t label = 0;
   if (node->getLogOdds() > tree_.getOccupancyThresLog()) {
-    label = hit ? remember(node, key, *surface, update) : this->label(key);
+    label = hit ? update_semantics(node, key, *surface, update) : this->label(key);
   } else if (was_occupied) {
-    memory_.erase(packed(key));
+    voxels_.erase(packed(key));
     node->setColor(Node::Color());
   }
   const bool is_relabelled = hit && label != label_before;
   if (created || is_relabelled || node->getLogOdds() != before || node->getColor() != color_before)
-    append_voxel(update.delta, key, *node, label);
+    update.delta.add(key, *node, label);
 }
 
 /// True if the voxel is of an object that the detector has not found in this keyframe: no label is no vote
@@ -157,14 +146,14 @@ bool SemanticOctree::is_of_undetected(const octomap::OcTreeKey& key, const Updat
   });
 }
 
-std::uint16_t SemanticOctree::remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
-                                       const Update& update) {
-  auto& memory = memory_[packed(key)];
-  memory.see_color(surface);
+std::uint16_t SemanticOctree::update_semantics(Node* node, const octomap::OcTreeKey& key,
+                                               const SurfaceVoxel& surface, const Update& update) {
+  auto& voxel = voxels_[packed(key)];
+  voxel.see_color(surface);
   if (update.looked_for_objects && (surface.label != 0 || !is_of_undetected(key, update)))
-    memory.vote(surface.label);
-  const auto label = memory.label(config_.label_share);
-  const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : memory.color();
+    voxel.vote(surface.label);
+  const auto label = voxel.label(kLabelShare);
+  const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : voxel.color();
   node->setColor(color[0], color[1], color[2]);
   return label;
 }

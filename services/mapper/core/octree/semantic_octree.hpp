@@ -8,7 +8,7 @@
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/map_delta.hpp"
 #include "services/mapper/core/octree/scan.hpp"
-#include "services/mapper/core/octree/voxel_memory.hpp"
+#include "services/mapper/core/octree/semantic_voxel.hpp"
 
 namespace rds::mapper {
 
@@ -16,8 +16,8 @@ namespace rds::mapper {
 /// with dynamic points or that a ray passes (a miss), clamped; occupied above p = 0.5.
 ///
 /// Each voxel changes at most once per keyframe; a hit wins over a miss. Deviations: a ray that passes a
-/// ghost takes −1.2; a ray without return is a miss for voxels in doubt only (ghosts, and seldom seen ones).
-/// Labels: keyframes vote on them, see VoxelMemory.
+/// ghost takes −1.2; a ray without return is a miss for uncertain voxels only (ghosts, and seldom seen ones).
+/// Labels: keyframes vote on them, see SemanticVoxel.
 class SemanticOctree {
  public:
   /// One keyframe's news for the octree.
@@ -43,7 +43,7 @@ class SemanticOctree {
   /// @return what is wrong: another resolution; then nothing has changed.
   tl::expected<void, std::string> start_from(octomap::ColorOcTree&& tree);
 
-  /// Tree and what its voxels remember, in order of their keys.
+  /// Tree, colours and votes of its voxels, in order of their keys.
   void put(map_file::ByteWriter& writer) const;
   /// Starts from such bytes. Refuses another resolution, and all that put() cannot have written.
   void get(map_file::ByteReader& reader, std::size_t labels);
@@ -57,21 +57,21 @@ class SemanticOctree {
   void update_block(const ScanGrid::Block& block, const Update& update);
   void update_siblings(Node* parent, const octomap::OcTreeKey& base, const ScanGrid::Block& block,
                        unsigned first_cell, const Update& update);
-  [[nodiscard]] bool is_doubtful(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                                 const Update& update) const;
+  [[nodiscard]] bool is_uncertain(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                                  const Update& update) const;
   [[nodiscard]] double step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                             const Update& update) const;
   void update_voxel(Node* node, bool created, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
                     const Update& update);
   [[nodiscard]] bool is_of_undetected(const octomap::OcTreeKey& key, const Update& update) const;
-  std::uint16_t remember(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
-                         const Update& update);
+  std::uint16_t update_semantics(Node* node, const octomap::OcTreeKey& key, const SurfaceVoxel& surface,
+                                 const Update& update);
 
   OctreeConfig config_;
   float lowest_;  // clamping, log-odds
   float highest_;
   EditableOcTree tree_;
-  std::unordered_map<std::uint64_t, VoxelMemory> memory_;  // looked up by key only: its order means nothing
+  std::unordered_map<std::uint64_t, SemanticVoxel> voxels_;  // looked up by key only: its order means nothing
 };
 
 }  // namespace rds::mapper

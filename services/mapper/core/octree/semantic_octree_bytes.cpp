@@ -38,13 +38,13 @@ void SemanticOctree::put(ByteWriter& writer) const {
   writer.put_count(nodes.size());
   writer.put_bytes(nodes);
   std::vector<std::uint64_t> keys;
-  keys.reserve(memory_.size());
-  for (const auto& [key, memory] : memory_) keys.push_back(key);
+  keys.reserve(voxels_.size());
+  for (const auto& [key, voxel] : voxels_) keys.push_back(key);
   std::ranges::sort(keys);
   writer.put_count(keys.size());
   for (const std::uint64_t key : keys) {
     writer.put(key);
-    memory_.at(key).put(writer);
+    voxels_.at(key).put(writer);
   }
 }
 
@@ -57,11 +57,11 @@ void SemanticOctree::get(ByteReader& reader, std::size_t labels) {
   auto tree = tree_from_bytes(nodes, config_.resolution_m);
   if (!tree) return reader.refuse(tree.error());
   tree_.adopt(std::move(**tree));
-  memory_.clear();
+  voxels_.clear();
   const std::size_t voxels = reader.get_count(kVoxelBytes);
   for (std::size_t i = 0; i < voxels && reader.ok(); ++i) {
     const auto key = reader.get<std::uint64_t>();
-    if (key > kLastKey || !memory_.emplace(key, VoxelMemory::get(reader, labels)).second)
+    if (key > kLastKey || !voxels_.emplace(key, SemanticVoxel::get(reader, labels)).second)
       reader.refuse("a voxel twice, or outside of any map");
   }
 }

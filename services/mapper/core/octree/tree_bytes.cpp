@@ -55,57 +55,79 @@ void expand(EditableOcTree& tree, Node* leaf, unsigned depth) {
   for (unsigned i = 0; i < 8; ++i) expand(tree, tree.getNodeChild(leaf, i), depth + 1);
 }
 
-/// Reads nodes in the order in which writeData writes them. The depth is bounded, so recursion is.
-class FullReader {
+/// What two bits say of a child.
+enum Child : unsigned { kUnknown = 0, kFree = 1, kOccupied = 2, kInner = 3 };
+
+/// Reads nodes in the order in which writeData() and writeBinaryData() write them. The depth is bounded, so
+/// recursion is.
+class TreeReader {
  public:
-  FullReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
-      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerByte) {}
+  TreeReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree, bool is_binary)
+      : bytes_(bytes),
+        tree_(tree),
+        budget_(bytes.size(), is_binary ? kVoxelsPerBinaryByte : kVoxelsPerByte) {}
 
   /// Fault in one sentence; empty if all bytes were read.
-  std::string read() {
+  std::string read(bool is_binary) {
     std::array<Node*, EditableOcTree::kDepth + 1> path{};
-    if (!node(tree_.descend({0, 0, 0}, 0, path), 0)) return fault_;
-    if (at_ != bytes_.size()) return fmt::format("{} bytes after the last node", bytes_.size() - at_);
-    return {};
+    Node* root = tree_.descend({0, 0, 0}, 0, path);
+    if (auto fault = is_binary ? children_of(root, 0) : node(root, 0); !fault.empty()) return fault;
+    if (is_binary && !tree_.nodeHasChildren(root)) tree_.clear();
+    return at_ == bytes_.size() ? "" : fmt::format("{} bytes after the last node", bytes_.size() - at_);
   }
 
  private:
-  bool node(Node* node, unsigned depth) {
+  std::string node(Node* node, unsigned depth) {
     if (bytes_.size() - at_ < kNodeBytes)
-      return fail(fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size()));
+      return fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size());
     float value = 0;
     std::memcpy(&value, &bytes_[at_], 4);
     const std::uint8_t children = bytes_[at_ + 7];
-    if (!std::isfinite(value)) return fail(fmt::format("the log-odds at byte {} are not finite", at_));
+    if (!std::isfinite(value)) return fmt::format("the log-odds at byte {} are not finite", at_);
     node->setLogOdds(value);
     node->setColor(bytes_[at_ + 4], bytes_[at_ + 5], bytes_[at_ + 6]);
     at_ += kNodeBytes;
     if (children == 0) {
-      if (!budget_.take_leaf(depth)) return fail(kTooManyVoxels);
+      if (!budget_.take_leaf(depth)) return kTooManyVoxels;
       expand(tree_, node, depth);
-      return true;
+      return {};
     }
-    if (depth == EditableOcTree::kDepth) return fail("a node below the finest level");
+    if (depth == EditableOcTree::kDepth) return "a node below the finest level";
     for (unsigned i = 0; i < 8; ++i)
-      if ((children >> i & 1) != 0 && !this->node(tree_.child(node, i), depth + 1)) return false;
+      if ((children >> i & 1) != 0)
+        if (auto fault = this->node(tree_.child(node, i), depth + 1); !fault.empty()) return fault;
     EditableOcTree::refresh(node);
-    return true;
+    return {};
   }
 
-  bool fail(std::string fault) {
-    fault_ = std::move(fault);
-    return false;
+  std::string children_of(Node* node, unsigned depth) {
+    if (depth == EditableOcTree::kDepth) return "a node below the finest level";
+    if (bytes_.size() - at_ < 2)
+      return fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size());
+    const unsigned bits = bytes_[at_] | static_cast<unsigned>(bytes_[at_ + 1]) << 8;
+    at_ += 2;
+    for (unsigned i = 0; i < 8; ++i) {
+      const unsigned state = bits >> 2 * i & 3;
+      if (state == kUnknown) continue;
+      Node* child = tree_.child(node, i);
+      if (state == kInner) {
+        if (auto fault = children_of(child, depth + 1); !fault.empty()) return fault;
+        continue;
+      }
+      if (!budget_.take_leaf(depth + 1)) return kTooManyVoxels;
+      child->setLogOdds(state == kOccupied ? kBinaryLogOdds : -kBinaryLogOdds);
+      expand(tree_, child, depth + 1);
+    }
+    if (!tree_.nodeHasChildren(node)) return depth == 0 ? "" : "an inner node without children";
+    EditableOcTree::refresh(node);
+    return {};
   }
 
   std::span<const std::uint8_t> bytes_;
   EditableOcTree& tree_;
   std::size_t at_ = 0;
   VoxelBudget budget_;
-  std::string fault_;
 };
-
-/// What two bits say of a child.
-enum Child : unsigned { kUnknown = 0, kFree = 1, kOccupied = 2, kInner = 3 };
 
 class BinaryWriter {
  public:
@@ -141,50 +163,6 @@ class BinaryWriter {
   std::vector<std::uint8_t>& bytes_;
 };
 
-class BinaryReader {
- public:
-  BinaryReader(std::span<const std::uint8_t> bytes, EditableOcTree& tree)
-      : bytes_(bytes), tree_(tree), budget_(bytes.size(), kVoxelsPerBinaryByte) {}
-
-  /// Fault in one sentence; empty if all bytes were read.
-  std::string read() {
-    std::array<Node*, EditableOcTree::kDepth + 1> path{};
-    Node* root = tree_.descend({0, 0, 0}, 0, path);
-    if (auto fault = children_of(root, 0); !fault.empty()) return fault;
-    if (!tree_.nodeHasChildren(root)) tree_.clear();
-    return at_ == bytes_.size() ? "" : fmt::format("{} bytes after the last node", bytes_.size() - at_);
-  }
-
- private:
-  std::string children_of(Node* node, unsigned depth) {
-    if (depth == EditableOcTree::kDepth) return "a node below the finest level";
-    if (bytes_.size() - at_ < 2)
-      return fmt::format("the tree ends after {} bytes in the middle of a node", bytes_.size());
-    const unsigned bits = bytes_[at_] | static_cast<unsigned>(bytes_[at_ + 1]) << 8;
-    at_ += 2;
-    for (unsigned i = 0; i < 8; ++i) {
-      const unsigned state = bits >> 2 * i & 3;
-      if (state == kUnknown) continue;
-      Node* child = tree_.child(node, i);
-      if (state == kInner) {
-        if (auto fault = children_of(child, depth + 1); !fault.empty()) return fault;
-        continue;
-      }
-      if (!budget_.take_leaf(depth + 1)) return kTooManyVoxels;
-      child->setLogOdds(state == kOccupied ? kBinaryLogOdds : -kBinaryLogOdds);
-      expand(tree_, child, depth + 1);
-    }
-    if (!tree_.nodeHasChildren(node)) return depth == 0 ? "" : "an inner node without children";
-    EditableOcTree::refresh(node);
-    return {};
-  }
-
-  std::span<const std::uint8_t> bytes_;
-  EditableOcTree& tree_;
-  std::size_t at_ = 0;
-  VoxelBudget budget_;
-};
-
 }  // namespace
 
 std::vector<std::uint8_t> to_binary_bytes(const octomap::ColorOcTree& tree) {
@@ -203,15 +181,14 @@ std::vector<std::uint8_t> to_bytes(const octomap::ColorOcTree& tree) {
 
 namespace {
 
-/// Reads either payload. @tparam Reader  FullReader or BinaryReader.
-template <class Reader>
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree_bytes(
-    std::span<const std::uint8_t> bytes, double resolution_m) {
+    std::span<const std::uint8_t> bytes, double resolution_m, bool is_binary) {
   if (!(resolution_m > 1e-4 && resolution_m < 1e3))
     return tl::unexpected(fmt::format("a resolution of {} m is not possible", resolution_m));
   auto tree = std::make_unique<EditableOcTree>(resolution_m);
   if (bytes.empty()) return tree;
-  if (auto fault = Reader(bytes, *tree).read(); !fault.empty()) return tl::unexpected(std::move(fault));
+  if (auto fault = TreeReader(bytes, *tree, is_binary).read(is_binary); !fault.empty())
+    return tl::unexpected(std::move(fault));
   return tree;
 }
 
@@ -219,12 +196,12 @@ tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> read_tree_bytes
 
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> tree_from_bytes(
     std::span<const std::uint8_t> bytes, double resolution_m) {
-  return read_tree_bytes<FullReader>(bytes, resolution_m);
+  return read_tree_bytes(bytes, resolution_m, false);
 }
 
 tl::expected<std::unique_ptr<octomap::ColorOcTree>, std::string> tree_from_binary_bytes(
     std::span<const std::uint8_t> bytes, double resolution_m) {
-  return read_tree_bytes<BinaryReader>(bytes, resolution_m);
+  return read_tree_bytes(bytes, resolution_m, true);
 }
 
 }  // namespace rds::mapper

@@ -5,6 +5,14 @@
 
 namespace rds::mapper {
 
+/// Key of a node's child. @param half  of the node's side [voxels].
+inline octomap::OcTreeKey child_key(const octomap::OcTreeKey& key, unsigned index, unsigned half) {
+  const auto at = [&](unsigned axis) {
+    return static_cast<std::uint16_t>(key[axis] + ((index >> axis & 1) != 0 ? half : 0));
+  };
+  return {at(0), at(1), at(2)};
+}
+
 /// Calls visit(key, node) for every voxel at the finest level, in the order in which to_bytes() writes them;
 /// a pruned leaf is visited once for each voxel it stands for. Several times faster than OctoMap's iterators.
 template <class Visit>
@@ -21,10 +29,7 @@ class VoxelWalk {
     const bool is_pruned = !tree_.nodeHasChildren(&node);
     for (unsigned i = 0; i < 8; ++i) {
       if (!is_pruned && !tree_.nodeChildExists(&node, i)) continue;
-      const auto at = [&](unsigned axis) {
-        return static_cast<std::uint16_t>(key[axis] + ((i >> axis & 1) != 0 ? half : 0));
-      };
-      go(is_pruned ? node : *tree_.getNodeChild(&node, i), {at(0), at(1), at(2)}, half / 2);
+      go(is_pruned ? node : *tree_.getNodeChild(&node, i), child_key(key, i, half), half / 2);
     }
   }
 

@@ -16,32 +16,32 @@ constexpr float kParallel = 0.9F;            // cosine between a pixel's normal 
 constexpr int kToNeighbour = 3;              // sampled pixels, between which a normal is measured
 
 bool is_in_a_box(const KeyframeRecord& record, std::size_t pixel, std::span<const geometry::Box2> boxes) {
-  const auto width = static_cast<std::size_t>(record.width);
-  const auto x = static_cast<double>(pixel % width) * record.stride;
-  const auto y = static_cast<double>(pixel / width) * record.stride;
+  const auto width = static_cast<std::size_t>(record.grid.width);
+  const auto x = static_cast<double>(pixel % width) * record.grid.stride;
+  const auto y = static_cast<double>(pixel / width) * record.grid.stride;
   return std::ranges::any_of(boxes, [&](const geometry::Box2& box) { return box.contains(x, y); });
 }
 
 bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
-                     std::span<const geometry::Box2> movable, const SegmentationConfig& config) {
+                     std::span<const geometry::Box2> movable) {
   PointSums outside;
   for (const auto i : surface.pixels)
     if (!is_dynamic(record, i) && !is_in_a_box(record, i, movable))
       outside.add(record.point_in_camera(i).cast<double>());
-  return outside.count() >= config.min_plane_share * static_cast<double>(record.size()) &&
+  return outside.count() >= kMinPlaneShare * static_cast<double>(record.size()) &&
          outside.narrow_deviation_m() >= kWiderThanAPersonM;
 }
 
 /// True where the normal at a pixel is that of the plane: the plane's pixels include those of a person who
 /// stands in it.
 bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel) {
-  const int column = static_cast<int>(pixel) % record.width;
-  const int row = static_cast<int>(pixel) / record.width;
-  if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.width ||
-      row + kToNeighbour >= record.height)
+  const int column = record.grid.column(pixel);
+  const int row = record.grid.row(pixel);
+  if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.grid.width ||
+      row + kToNeighbour >= record.grid.height)
     return false;
   const auto aside = static_cast<std::size_t>(kToNeighbour);
-  const std::size_t down = aside * static_cast<std::size_t>(record.width);
+  const std::size_t down = aside * static_cast<std::size_t>(record.grid.width);
   const std::array around{pixel + aside, pixel - aside, pixel + down, pixel - down};
   if (std::ranges::any_of(around, [&](std::size_t i) { return record.classes[i] != PixelClass::kStatic; }))
     return false;
@@ -59,7 +59,7 @@ std::vector<bool> find_background(const KeyframeRecord& record, std::span<const 
   if (movable.empty()) return {};
   std::vector<bool> background(record.size(), false);
   for (const FlatSurface& surface : find_planes(record, config)) {
-    if (!goes_on_outside(surface, record, movable, config)) continue;
+    if (!goes_on_outside(surface, record, movable)) continue;
     for (const auto i : surface.pixels)
       if (lies_along(surface.plane, record, i)) background[i] = true;
   }

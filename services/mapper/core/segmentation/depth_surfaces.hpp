@@ -5,12 +5,24 @@
 
 namespace rds::mapper {
 
+/// 255 where a pixel and all within 4 sampled pixels have no depth; 0 elsewhere, and near the picture's
+/// border. Of the size of the sampled picture.
+cv::Mat1b without_depth_all_around(const KeyframeRecord& record);
+
+/// Neighbouring pixels are of one surface if their depths differ by no more than this × max(1, depth / 1 m)
+/// [m]: a surface that is seen at more than 7° changes by less from one
+/// sampled pixel to the next (2 px of 525).
+inline constexpr double kSurfaceStepM = 0.03;
+
+/// True if at least edge_support of the 8 neighbours are of this pixel's surface; a camera measures flying
+/// pixels between two surfaces.
+bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config);
+
 /// Surfaces of a keyframe: connected components of the static and unknown pixels; neighbours are connected if
-/// their depths differ by less than edge_depth_m × max(1, depth / 1 m).
+/// their depths differ by no more than kSurfaceStepM × max(1, depth / 1 m).
 ///
 /// @param surface  of each pixel, from 1; 0 for other classes and for components of fewer than 8 pixels.
 /// @return the number of surfaces.
-std::uint16_t find_surfaces(const KeyframeRecord& record, const SamplingConfig& config,
-                            std::vector<std::uint16_t>& surface);
+std::uint16_t find_surfaces(const KeyframeRecord& record, std::vector<std::uint16_t>& surface);
 
 }  // namespace rds::mapper

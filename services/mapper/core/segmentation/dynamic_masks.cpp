@@ -9,12 +9,14 @@
 namespace rds::mapper {
 namespace {
 
-/// A mask grown by rim_px to all sides.
-std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int rim_px, const KeyframeRecord& record) {
+constexpr int kRimPx = 8;  // at edges a depth camera is off by several pixels
+
+/// A mask grown by kRimPx to all sides.
+std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, const KeyframeRecord& record) {
   std::vector<std::uint8_t> rim(mask.size());
-  const int radius = (rim_px + record.stride - 1) / record.stride;
-  cv::Mat1b to(record.height, record.width, rim.data());
-  cv::dilate(cv::Mat1b(record.height, record.width, mask.data()), to,
+  const int radius = (kRimPx + record.grid.stride - 1) / record.grid.stride;
+  cv::Mat1b to(record.grid.height, record.grid.width, rim.data());
+  cv::dilate(cv::Mat1b(record.grid.height, record.grid.width, mask.data()), to,
              cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
   return rim;
 }
@@ -23,14 +25,14 @@ std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int rim_px, con
 
 DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
                              const MapperConfig& config) {
-  const double margin = config.region.margin_px;
+  const double margin = kMovableMarginPx;
   std::vector<geometry::Box2> boxes_px;
   std::vector<ObjectRegion> regions;
   for (const auto& box : boxes) {
     const auto px = box.movable ? image_box(box, record) : std::nullopt;
     if (!px) continue;
     boxes_px.push_back({px->x0 - margin, px->y0 - margin, px->x1 + margin, px->y1 + margin});
-    regions.push_back(object_region(record, box, config.region));
+    regions.push_back(object_region(record, box));
   }
   if (boxes_px.empty()) return {};
   DynamicMasks masks;
@@ -38,7 +40,7 @@ DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const Label
   masks.object.resize(record.size());
   for (const auto& region : regions)
     for (const auto i : region.pixels) masks.object[i] = 1;
-  masks.beside = grown(masks.object, config.region.rim_px, record);
+  masks.beside = grown(masks.object, record);
   for (const auto& region : regions)
     if (!region.pixels.empty())
       for (const auto i : region.small_parts) masks.beside[i] = 1;

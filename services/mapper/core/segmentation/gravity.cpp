@@ -22,7 +22,7 @@ constexpr float kMaxStep = 0.1F;  // neighbours farther apart than this share of
 void append_normals(const KeyframeRecord& record, const Eigen::Vector3d& guess,
                     std::vector<Eigen::Vector3d>& normals) {
   const auto point = [&](int x, int y, Eigen::Vector3f& p) {
-    const auto i = static_cast<std::size_t>(y * record.width + x);
+    const auto i = record.grid.index(x, y);
     p = record.point_in_camera(i);
     return record.classes[i] == PixelClass::kStatic;
   };
@@ -30,8 +30,8 @@ void append_normals(const KeyframeRecord& record, const Eigen::Vector3d& guess,
   Eigen::Vector3f right;
   Eigen::Vector3f above;
   Eigen::Vector3f below;
-  for (int y = kReach; y + kReach < record.height; y += kStep)
-    for (int x = kReach; x + kReach < record.width; x += kStep) {
+  for (int y = kReach; y + kReach < record.grid.height; y += kStep)
+    for (int x = kReach; x + kReach < record.grid.width; x += kStep) {
       if (!point(x - kReach, y, left) || !point(x + kReach, y, right) || !point(x, y - kReach, above) ||
           !point(x, y + kReach, below))
         continue;

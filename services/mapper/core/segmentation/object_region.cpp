@@ -10,9 +10,11 @@ namespace rds::mapper {
 namespace {
 
 constexpr double kInnerShare = 0.6;  // part of the box, about its centre, in which the object surely lies
-constexpr int kStaticMarginPx = 4;
-constexpr double kStaticBefore = 0.4;   // share of half_depth_m: things stand before tables
+constexpr int kStaticMarginPx = 4;   // narrow: nothing may be added to a static object
+constexpr double kStaticBefore = 0.4;   // share of kHalfDepthM: things stand before tables
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
+constexpr double kMinInside = 0.05;     // share of a connected part that lies in the box as it was detected
+constexpr double kSmallPart = 0.05;     // parts with a smaller share of the largest may be of other things
 
 struct DepthInterval {
   float min_m;
@@ -21,11 +23,11 @@ struct DepthInterval {
 
 /// The box in sampled pixels, widened, inside the picture.
 cv::Rect sampled_rect(const geometry::Box2& box, double margin_px, const KeyframeRecord& record) {
-  const double s = record.stride;
+  const double s = record.grid.stride;
   const auto low = [&](double v) { return static_cast<int>(std::ceil((v - margin_px) / s)); };
   const auto high = [&](double v) { return static_cast<int>(std::ceil((v + margin_px) / s)); };
   const cv::Rect rect(cv::Point(low(box.x0), low(box.y0)), cv::Point(high(box.x1), high(box.y1)));
-  return rect & cv::Rect(0, 0, record.width, record.height);
+  return rect & cv::Rect(0, 0, record.grid.width, record.grid.height);
 }
 
 geometry::Box2 inner_part(const geometry::Box2& box) {
@@ -39,7 +41,7 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
   std::vector<float> depths;
   for (int y = rect.y; y < rect.y + rect.height; ++y)
     for (int x = rect.x; x < rect.x + rect.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * record.width + x);
+      const auto i = record.grid.index(x, y);
       const float d = record.depth_m(i);
       const bool used =
           record.classes[i] != PixelClass::kInvalid && record.classes[i] != PixelClass::kUnknown;
@@ -49,8 +51,8 @@ std::vector<float> depths_in(const cv::Rect& rect, const DepthInterval& limits,
 }
 
 /// Depths between which the object must lie, from its depth or 3-D box; all depths if neither is known.
-DepthInterval depth_limits(const LabelledBox& box, const KeyframeRecord& record, const RegionConfig& config) {
-  const auto half = static_cast<float>(config.half_depth_m);
+DepthInterval depth_limits(const LabelledBox& box, const KeyframeRecord& record) {
+  const auto half = static_cast<float>(kHalfDepthM);
   if (box.depth_m > 0 && std::isfinite(box.depth_m)) return {box.depth_m - half, box.depth_m + half};
   if (!box.box_in_map) return {0, 100};
   DepthInterval interval{100, 0};
@@ -77,23 +79,21 @@ float depth_in_box(const geometry::Box2& box_px, const DepthInterval& limits, co
   return inner > 0 ? inner : object_depth(depths_in(sampled_rect(box_px, 0, record), limits, record));
 }
 
-/// Wide for a movable object, of which nothing may be left out; narrow for a static one, to which nothing may
-/// be added.
-double margin_px(const LabelledBox& box, const RegionConfig& config) {
-  return box.movable ? config.margin_px : std::min(config.margin_px, kStaticMarginPx);
+double margin_px(const LabelledBox& box) {
+  return box.movable ? kMovableMarginPx : kStaticMarginPx;
 }
 
 /// How far an object reaches behind its depth [m]: of a large static one mostly the front is seen.
 float reach_behind(const LabelledBox& box, const geometry::Box2& box_px, float depth_m,
-                   const RegionConfig& config, const KeyframeRecord& record) {
-  const auto half = static_cast<float>(config.half_depth_m);
-  const double side_m = std::max(box_px.width(), box_px.height()) * depth_m / record.camera.fx;
+                   const KeyframeRecord& record) {
+  const auto half = static_cast<float>(kHalfDepthM);
+  const double side_m = std::max(box_px.width(), box_px.height()) * depth_m / record.grid.camera.fx;
   return box.movable ? half : std::max(half, static_cast<float>(side_m / 2));
 }
 
 /// And before it [m].
-float reach_before(const LabelledBox& box, const RegionConfig& config) {
-  return static_cast<float>(box.movable ? config.half_depth_m : kStaticBefore * config.half_depth_m);
+float reach_before(const LabelledBox& box) {
+  return static_cast<float>(box.movable ? kHalfDepthM : kStaticBefore * kHalfDepthM);
 }
 
 cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float behind_m,
@@ -101,7 +101,7 @@ cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float be
   cv::Mat near(rect.size(), CV_8U, cv::Scalar(0));
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
-      const auto i = static_cast<std::size_t>((rect.y + y) * record.width + rect.x + x);
+      const auto i = record.grid.index(rect.x + x, rect.y + y);
       const float behind = record.depth_m(i) - depth_m;
       const bool inside = record.depth_tenth_mm[i] != 0 && behind >= -before_m && behind <= behind_m;
       near.at<std::uint8_t>(y, x) = inside ? 1 : 0;
@@ -110,8 +110,7 @@ cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float be
 }
 
 /// Of each connected part of `near`: its size as a share of the largest; 0 where it is not of the object.
-std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside,
-                                    const RegionConfig& config) {
+std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside) {
   std::vector<int> area(static_cast<std::size_t>(count), 0);
   std::vector<int> area_inside(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < parts.rows; ++y)
@@ -124,7 +123,7 @@ std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::R
   const double largest = *std::ranges::max_element(area_inside);
   std::vector<double> shares(area.size(), 0);
   for (std::size_t part = 1; part < area.size(); ++part)
-    if (area_inside[part] >= config.min_inside * area[part]) shares[part] = area_inside[part] / largest;
+    if (area_inside[part] >= kMinInside * area[part]) shares[part] = area_inside[part] / largest;
   return shares;
 }
 
@@ -132,19 +131,19 @@ std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::R
 
 std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record) {
   if (box.box_px.area() > 0) {
-    const auto clipped = box.box_px.clipped(record.camera.width, record.camera.height);
+    const auto clipped = box.box_px.clipped(record.grid.camera.width, record.grid.camera.height);
     const bool finite = std::isfinite(clipped.x0 + clipped.y0 + clipped.x1 + clipped.y1);
     return finite && clipped.area() > 0 ? std::optional(clipped) : std::nullopt;
   }
   if (!box.box_in_map || !box.box_in_map->min.allFinite() || !box.box_in_map->max.allFinite())
     return std::nullopt;
-  return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.camera);
+  return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
 }
 
 bool ObjectPlace::is_in_box(const KeyframeRecord& record, std::size_t pixel) const {
-  const int column = static_cast<int>(pixel) % record.width;
-  const int row = static_cast<int>(pixel) / record.width;
-  return box_px.contains(column * record.stride, row * record.stride);
+  const int column = record.grid.column(pixel);
+  const int row = record.grid.row(pixel);
+  return box_px.contains(column * record.grid.stride, row * record.grid.stride);
 }
 
 bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
@@ -152,41 +151,39 @@ bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) cons
   return is_in_box(record, pixel) && depth >= min_depth_m && depth <= max_depth_m;
 }
 
-std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
-                                        const RegionConfig& config) {
+std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box) {
   const auto box_px = image_box(box, record);
   if (!box_px) return std::nullopt;
-  const auto limits = depth_limits(box, record, config);
+  const auto limits = depth_limits(box, record);
   const float depth = depth_in_box(*box_px, limits, record);
   if (depth <= 0) return std::nullopt;
-  const double margin = margin_px(box, config);
+  const double margin = margin_px(box);
   const bool has_extent = box.box_in_map && !(box.depth_m > 0);
   return ObjectPlace{{box_px->x0 - margin, box_px->y0 - margin, box_px->x1 + margin, box_px->y1 + margin},
-                     has_extent ? limits.min_m : depth - reach_before(box, config),
-                     has_extent ? limits.max_m : depth + reach_behind(box, *box_px, depth, config, record)};
+                     has_extent ? limits.min_m : depth - reach_before(box),
+                     has_extent ? limits.max_m : depth + reach_behind(box, *box_px, depth, record)};
 }
 
-ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box, const RegionConfig& config) {
+ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box) {
   const auto box_px = image_box(box, record);
   if (!box_px) return {};
-  const float depth = depth_in_box(*box_px, depth_limits(box, record, config), record);
+  const float depth = depth_in_box(*box_px, depth_limits(box, record), record);
   if (depth <= 0) return {};
 
-  const cv::Rect wide = sampled_rect(*box_px, margin_px(box, config), record);
+  const cv::Rect wide = sampled_rect(*box_px, margin_px(box), record);
   cv::Mat parts;
-  const int count =
-      cv::connectedComponents(near_depth(wide, depth, reach_before(box, config),
-                                         reach_behind(box, *box_px, depth, config, record), record),
-                              parts, 8, CV_32S);
-  const auto shares = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl(), config);
-  const double sure = box.movable ? config.sure_part : 0;
+  const int count = cv::connectedComponents(
+      near_depth(wide, depth, reach_before(box), reach_behind(box, *box_px, depth, record), record), parts, 8,
+      CV_32S);
+  const auto shares = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl());
+  const double smallest = box.movable ? kSmallPart : 0;
   ObjectRegion region;
   for (int y = 0; y < wide.height; ++y)
     for (int x = 0; x < wide.width; ++x) {
       const double share = shares[static_cast<std::size_t>(parts.at<int>(y, x))];
       if (share > 0)
-        (share >= sure ? region.pixels : region.small_parts)
-            .push_back(static_cast<std::size_t>((wide.y + y) * record.width + wide.x + x));
+        (share >= smallest ? region.pixels : region.small_parts)
+            .push_back(record.grid.index(wide.x + x, wide.y + y));
     }
   return region;
 }

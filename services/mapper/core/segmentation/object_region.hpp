@@ -9,6 +9,13 @@ namespace rds::mapper {
 /// @return nullopt if it is not finite or has no area inside the picture.
 std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRecord& record);
 
+/// Pixels nearer than this to an object's depth are the object's [m]: a person, arms included, is
+/// about 0.6 m deep.
+inline constexpr double kHalfDepthM = 0.35;
+/// The box of a movable object is widened by this: detectors cut off hands and feet, and nothing of it may be
+/// left out [px].
+inline constexpr int kMovableMarginPx = 24;
+
 /// Sampled pixels of an object, ascending.
 struct ObjectRegion {
   std::vector<std::size_t> pixels;
@@ -22,7 +29,7 @@ struct ObjectRegion {
 /// in connected parts that lie in the box.
 /// @return nothing if the box has no usable depth.
 /// Source: depth mask inside the box (NGD-SLAM); paper §IV-C asks for points inside the 3-D box.
-ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box, const RegionConfig& config);
+ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box);
 
 /// Where an object is in a keyframe: inside this box of the picture, between these depths.
 struct ObjectPlace {
@@ -34,9 +41,8 @@ struct ObjectPlace {
   [[nodiscard]] bool contains(const KeyframeRecord& record, std::size_t pixel) const;
 };
 
-/// The place of an object: its 3-D box if known, else its depth in the picture give or take half_depth_m.
+/// The place of an object: its 3-D box if known, else its depth in the picture give or take kHalfDepthM.
 /// @return nullopt if the box has no usable depth.
-std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box,
-                                        const RegionConfig& config);
+std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box);
 
 }  // namespace rds::mapper

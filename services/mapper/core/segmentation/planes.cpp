@@ -8,6 +8,7 @@
 namespace rds::mapper {
 namespace {
 
+constexpr double kPlaneDistanceM = 0.01;  // relief of walls and table tops, beside the noise of depth
 constexpr int kCellPx = 8;            // side of a cell in sampled pixels
 constexpr double kMinMeasured = 0.5;  // share of a cell's pixels
 constexpr std::size_t kBlock = 9;     // cells, 3×3, that a plane begins with
@@ -16,7 +17,7 @@ using CellIndices = std::vector<std::size_t>;
 
 /// Of a pixel from its plane at this depth.
 double tolerance_m(double depth_m, const SegmentationConfig& config) {
-  return config.plane_distance_m + config.plane_noise * depth_m * depth_m;
+  return kPlaneDistanceM + config.plane_noise * depth_m * depth_m;
 }
 
 /// The cells of a picture; free are those that are no part of a plane yet.
@@ -25,8 +26,8 @@ class Cells {
   Cells(const KeyframeRecord& record, const SegmentationConfig& config)
       : record_(record),
         config_(config),
-        columns_((record.width + kCellPx - 1) / kCellPx),
-        rows_((record.height + kCellPx - 1) / kCellPx),
+        columns_((record.grid.width + kCellPx - 1) / kCellPx),
+        rows_((record.grid.height + kCellPx - 1) / kCellPx),
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
     for (std::size_t i = 0; i < record.size(); ++i)
@@ -98,7 +99,7 @@ class Cells {
 
  private:
   [[nodiscard]] std::size_t cell_of(std::size_t pixel) const {
-    const auto width = static_cast<std::size_t>(record_.width);
+    const auto width = static_cast<std::size_t>(record_.grid.width);
     return pixel / width / kCellPx * static_cast<std::size_t>(columns_) + pixel % width / kCellPx;
   }
 
@@ -147,7 +148,7 @@ bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const Segmentatio
 
 std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const SegmentationConfig& config) {
   Cells cells(record, config);
-  const double needed = config.min_plane_share * static_cast<double>(record.size()) / (kCellPx * kCellPx);
+  const double needed = kMinPlaneShare * static_cast<double>(record.size()) / (kCellPx * kCellPx);
   std::vector<CellIndices> regions;
   for (const auto seed : cells.seeds()) regions.push_back(cells.take_region(seed));
   for (const auto& region : regions) cells.give_back(region);

@@ -12,6 +12,9 @@ struct FlatSurface {
   std::vector<std::size_t> pixels;  // indices of sampled pixels, ascending
 };
 
+/// Share of the picture that a plane fills at least: 10 000 px of 640×480.
+inline constexpr double kMinPlaneShare = 0.033;
+
 /// True for a point in the camera's frame that is measured as well as on the plane.
 bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const SegmentationConfig& config);
 
@@ -21,7 +24,7 @@ bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const Segmentatio
 ///
 /// Sums over cells bear with a depth picture that is noisy and lacks single pixels; integral-image normals
 /// need places without either.
-/// @return surfaces of at least min_plane_share of the picture, the largest first; pixels that are not
+/// @return surfaces of at least kMinPlaneShare of the picture, the largest first; pixels that are not
 /// kStatic take no part. Source: Proença & Gao 2018 (CAPE), §III. Deviation: cells are compared with the
 /// plane, not by their normals.
 std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const SegmentationConfig& config);

@@ -18,8 +18,11 @@ using Cloud = pcl::PointCloud<Point>;
 using LabelCloud = pcl::PointCloud<pcl::Label>;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr int kSameSurfaceTenthMm =
-    500;  // depth step between a point of a cluster and the pixels it stands for
+constexpr double kMinClusterShare = 0.0033;  // of the picture: a tenth of a plane's
+/// Between neighbours, × depth: twice that of two points on a surface seen straight on.
+constexpr float kClusterDistance = 0.015F;
+/// Depth step between a point of a cluster and the pixels it stands for.
+constexpr int kSameSurfaceTenthMm = 500;
 
 /// Neighbours belong together when they are nearer than a share of their depth (PCL's own comparator grows
 /// with depth², and joins everything at 3 m).
@@ -39,28 +42,28 @@ class NearInSpace : public pcl::Comparator<Point> {
 /// The static points that are on no plane, NaN for all others.
 Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>& on_plane, int stride) {
   auto cloud = pcl::make_shared<Cloud>();
-  for (int y = 0; y < record.height; y += stride)
-    for (int x = 0; x < record.width; x += stride) {
-      const auto i = static_cast<std::size_t>(y * record.width + x);
+  for (int y = 0; y < record.grid.height; y += stride)
+    for (int x = 0; x < record.grid.width; x += stride) {
+      const auto i = record.grid.index(x, y);
       const bool used = record.classes[i] == PixelClass::kStatic && !on_plane[i];
       const Eigen::Vector3f p = used ? record.point_in_camera(i) : Eigen::Vector3f::Constant(kNan);
       cloud->push_back(Point(p.x(), p.y(), p.z()));
     }
-  cloud->width = static_cast<std::uint32_t>((record.width + stride - 1) / stride);
-  cloud->height = static_cast<std::uint32_t>((record.height + stride - 1) / stride);
+  cloud->width = static_cast<std::uint32_t>((record.grid.width + stride - 1) / stride);
+  cloud->height = static_cast<std::uint32_t>((record.grid.height + stride - 1) / stride);
   cloud->is_dense = false;
   return cloud;
 }
 
-std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud, const SegmentationConfig& config) {
-  const auto near = pcl::make_shared<NearInSpace>(static_cast<float>(config.cluster_distance));
+std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud) {
+  const auto near = pcl::make_shared<NearInSpace>(kClusterDistance);
   near->setInputCloud(cloud);
   pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(near);
   clustering.setInputCloud(cloud);
   LabelCloud labels;
   std::vector<pcl::PointIndices> clusters;
   clustering.segment(labels, clusters);
-  const double needed = config.min_cluster_share * static_cast<double>(cloud->size());
+  const double needed = kMinClusterShare * static_cast<double>(cloud->size());
   std::erase_if(clusters, [&](const auto& c) { return static_cast<double>(c.indices.size()) < needed; });
   return clusters;
 }
@@ -69,15 +72,15 @@ std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud, const Segm
 /// stand for.
 std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, const KeyframeRecord& record,
                                    const std::vector<bool>& on_plane) {
-  const int columns = (record.width + stride - 1) / stride;
+  const int columns = (record.grid.width + stride - 1) / stride;
   std::vector<std::size_t> pixels;
   for (const int index : indices) {
     const int x0 = index % columns * stride;
     const int y0 = index / columns * stride;
-    const int depth = record.depth_tenth_mm[static_cast<std::size_t>(y0 * record.width + x0)];
-    for (int y = y0; y < std::min(record.height, y0 + stride); ++y)
-      for (int x = x0; x < std::min(record.width, x0 + stride); ++x) {
-        const auto i = static_cast<std::size_t>(y * record.width + x);
+    const int depth = record.depth_tenth_mm[record.grid.index(x0, y0)];
+    for (int y = y0; y < std::min(record.grid.height, y0 + stride); ++y)
+      for (int x = x0; x < std::min(record.grid.width, x0 + stride); ++x) {
+        const auto i = record.grid.index(x, y);
         if (!on_plane[i] && std::abs(record.depth_tenth_mm[i] - depth) <= kSameSurfaceTenthMm)
           pixels.push_back(i);
       }
@@ -88,10 +91,10 @@ std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, cons
 
 geometry::Box2 box_around(const std::vector<std::size_t>& pixels, const KeyframeRecord& record) {
   geometry::Box2 box{1e9, 1e9, -1e9, -1e9};
-  const double s = record.stride;
+  const double s = record.grid.stride;
   for (const auto i : pixels) {
-    const auto x = static_cast<double>(i % static_cast<std::size_t>(record.width));
-    const auto y = static_cast<double>(i / static_cast<std::size_t>(record.width));
+    const auto x = static_cast<double>(i % static_cast<std::size_t>(record.grid.width));
+    const auto y = static_cast<double>(i / static_cast<std::size_t>(record.grid.width));
     box = {std::min(box.x0, x * s), std::min(box.y0, y * s), std::max(box.x1, (x + 1) * s),
            std::max(box.y1, (y + 1) * s)};
   }
@@ -108,7 +111,7 @@ std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationCon
     const auto box = box_around(surface.pixels, record);
     segments.push_back({box, std::move(surface.pixels), surface.plane});
   }
-  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride), config)) {
+  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride))) {
     auto pixels = pixels_of(cluster.indices, config.stride, record, on_plane);
     const auto box = box_around(pixels, record);
     segments.push_back({box, std::move(pixels), std::nullopt});

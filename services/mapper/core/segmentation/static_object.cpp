@@ -50,10 +50,10 @@ bool is_flush(const std::vector<std::size_t>& region, std::span<const Plane> pla
 
 StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
                            std::span<const Segment> segments, const MapperConfig& config) {
-  const auto place = object_place(record, box, config.region);
+  const auto place = object_place(record, box);
   if (!place) return {};
   std::vector<bool> is_object(record.size(), false);
-  const auto region = object_region(record, box, config.region).pixels;
+  const auto region = object_region(record, box).pixels;
   for (const auto i : region) is_object[i] = true;
   std::vector<Plane> elsewhere;
   for (const auto& segment : segments) {

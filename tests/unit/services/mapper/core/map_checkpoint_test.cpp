@@ -70,11 +70,11 @@ TEST_F(RestoredMap, IsTheMapAsItWasBitForBit) {
   auto after = mapper_on(rows_);
   const auto restored = after->restore(*checkpoint);
   ASSERT_TRUE(restored) << restored.error();
-  EXPECT_EQ(after->map_epoch(), kEpoch);
+  EXPECT_EQ(after->map().epoch, kEpoch);
   EXPECT_EQ(after->archive().size(), 12U);
-  EXPECT_TRUE(after->to_bytes() == before->to_bytes());
+  EXPECT_TRUE(test::saved_bytes(*after) == test::saved_bytes(*before));
   EXPECT_EQ(after->archive().lost(), 0U);
-  EXPECT_GT(after->revision(), 0U);
+  EXPECT_GT(after->map().revision, 0U);
 }
 
 TEST_F(RestoredMap, GoesOnAsIfNothingHadHappened) {
@@ -93,7 +93,7 @@ TEST_F(RestoredMap, GoesOnAsIfNothingHadHappened) {
     ASSERT_TRUE(killed->restore(checkpoint));
   }
   for (auto* mapper : {through.get(), killed.get()}) mapper->settle(poses_);
-  EXPECT_TRUE(killed->to_bytes() == through->to_bytes());
+  EXPECT_TRUE(test::saved_bytes(*killed) == test::saved_bytes(*through));
 }
 
 TEST_F(RestoredMap, KeyframesThatAreFinalAreInIt) {
@@ -112,8 +112,9 @@ TEST_F(RestoredMap, KeyframesThatAreFinalAreInIt) {
   ASSERT_TRUE(after->restore(checkpoint));
   EXPECT_EQ(after->archive().size(), 115U);
   EXPECT_EQ(after->archive().poses().size(), 4U);
-  EXPECT_NEAR(static_cast<double>(after->tree().size()), static_cast<double>(before->tree().size()),
-              0.05 * static_cast<double>(before->tree().size()));
+  EXPECT_NEAR(static_cast<double>(after->map().tree().size()),
+              static_cast<double>(before->map().tree().size()),
+              0.05 * static_cast<double>(before->map().tree().size()));
 }
 
 TEST_F(RestoredMap, RecordsThatAreGoneAreCountedAndLeftOut) {
@@ -135,7 +136,7 @@ TEST_F(RestoredMap, IsNotMadeOnAnotherSavedMap) {
   SemanticMapper saved(MapperConfig{});
   saved.integrate(world_.next());
   auto after = mapper_on(rows_);
-  ASSERT_TRUE(after->start_from(saved.to_bytes()));
+  ASSERT_TRUE(test::start_from(*after, test::saved_bytes(saved)));
   const auto restored = after->restore(*checkpoint);
   ASSERT_FALSE(restored);
   EXPECT_THAT(restored.error(), HasSubstr("another saved map"));

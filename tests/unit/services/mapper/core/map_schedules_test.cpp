@@ -38,7 +38,7 @@ struct Reader {
 class Schedule {
  public:
   explicit Schedule(unsigned seed)
-      : keyframes_(seed, {"person", "sofa", "couch", "chair"}), mapper_(config_for(seed), 100) {}
+      : keyframes_(seed, {"person", "sofa", "couch", "chair"}), config_(config_for(seed)) {}
 
   void run() {
     for (int i = 0; i < kEvents; ++i) {
@@ -47,7 +47,7 @@ class Schedule {
     }
     publish_full();
     compare();
-    for (const Reader& reader : readers_) EXPECT_EQ(reader.replica.revision(), mapper_.revision());
+    for (const Reader& reader : readers_) EXPECT_EQ(reader.replica.revision(), mapper_.map().revision);
   }
   [[nodiscard]] const std::array<Reader, 3>& readers() const { return readers_; }
   [[nodiscard]] int restarts() const { return restarts_; }
@@ -64,8 +64,8 @@ class Schedule {
 
   void one_event() {
     const double which = keyframes_.uniform();
-    if (which < 0.08) return restart_mapper(mapper_.map_epoch());
-    if (which < 0.12) return restart_mapper(mapper_.map_epoch() + 1);  // a tracker that began anew
+    if (which < 0.08) return restart_mapper(mapper_.map().epoch);
+    if (which < 0.12) return restart_mapper(mapper_.map().epoch + 1);  // a tracker that began anew
     if (which < 0.20) return readers_[static_cast<std::size_t>(keyframes_.below(3))].restart();
     if (which < 0.35) return send(mapper_.apply_poses(moved()));
     integrate(keyframes_.next());
@@ -87,8 +87,8 @@ class Schedule {
 
   void restart_mapper(std::uint64_t map_epoch) {
     ++restarts_;
-    if (map_epoch != mapper_.map_epoch()) kept_.clear();
-    mapper_ = SemanticMapper(mapper_.config(), map_epoch);
+    if (map_epoch != mapper_.map().epoch) kept_.clear();
+    mapper_ = SemanticMapper(config_, map_epoch);
     ++map_id_;
     for (const KeyframeInput& input : kept_) send(mapper_.integrate(input));
   }
@@ -107,15 +107,15 @@ class Schedule {
       reader.is_new = false;
       const auto status = reader.replica.apply(published.full).status;
       EXPECT_TRUE(status == ReplicaStatus::kApplied || status == ReplicaStatus::kOld);
-      EXPECT_EQ(reader.replica.revision(), mapper_.revision());
+      EXPECT_EQ(reader.replica.revision(), mapper_.map().revision);
     }
   }
 
   void compare() {
     for (Reader& reader : readers_) {
       const OctreeReplica& replica = reader.replica;
-      if (!replica.is_valid() || replica.map_epoch() != mapper_.map_epoch() || replica.map_id() != map_id_ ||
-          replica.revision() != mapper_.revision())
+      if (!replica.is_valid() || replica.map_epoch() != mapper_.map().epoch || replica.map_id() != map_id_ ||
+          replica.revision() != mapper_.map().revision)
         continue;
       test::expect_same(replica, mapper_);
       ++reader.compared;
@@ -123,7 +123,8 @@ class Schedule {
   }
 
   RandomKeyframes keyframes_;
-  SemanticMapper mapper_;
+  MapperConfig config_;
+  SemanticMapper mapper_{config_, 100};
   std::uint64_t map_id_ = 1;
   std::deque<KeyframeInput> kept_;
   std::array<Reader, 3> readers_;

@@ -34,13 +34,13 @@ Value at(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
 TEST(MapSnapshot, PointsAreTheOccupiedVoxelsWithColorAndLabel) {
   const SemanticMapper mapper = mapper_with("chair", true);
   const MapSnapshot snapshot = take_snapshot(mapper);
-  const MapPoints points = points_of(mapper.tree(), snapshot);
-  ASSERT_EQ(points.count, extent_of(mapper.tree()).occupied);
+  const MapPoints points = points_of(mapper.map().tree(), snapshot);
+  ASSERT_EQ(points.count, extent_of(mapper.map().tree()).occupied);
   ASSERT_EQ(points.rows.size(), points.count * std::size_t{20});
   std::size_t chairs = 0;
   for (std::size_t row = 0; row < points.rows.size(); row += 20) {
-    const auto* voxel = mapper.tree().search(at<float>(points.rows, row), at<float>(points.rows, row + 4),
-                                             at<float>(points.rows, row + 8));
+    const auto* voxel = mapper.map().tree().search(
+        at<float>(points.rows, row), at<float>(points.rows, row + 4), at<float>(points.rows, row + 8));
     ASSERT_NE(voxel, nullptr);
     EXPECT_GT(voxel->getLogOdds(), 0);
     const auto color = voxel->getColor();
@@ -54,11 +54,11 @@ TEST(MapSnapshot, PointsAreTheOccupiedVoxelsWithColorAndLabel) {
 
 TEST(MapSnapshot, TheExtentIsOctoMapsOwn) {
   const SemanticMapper mapper = mapper_with("chair", true);
-  const MapExtent extent = extent_of(mapper.tree());
+  const MapExtent extent = extent_of(mapper.map().tree());
   Eigen::Vector3d low;
   Eigen::Vector3d high;
-  mapper.tree().getMetricMin(low.x(), low.y(), low.z());
-  mapper.tree().getMetricMax(high.x(), high.y(), high.z());
+  mapper.map().tree().getMetricMin(low.x(), low.y(), low.z());
+  mapper.map().tree().getMetricMax(high.x(), high.y(), high.z());
   EXPECT_TRUE(extent.min.isApprox(low)) << extent.min.transpose();
   EXPECT_TRUE(extent.max.isApprox(high)) << extent.max.transpose();
   EXPECT_EQ(extent_of(octomap::ColorOcTree(0.1)).occupied, 0U);
@@ -66,14 +66,14 @@ TEST(MapSnapshot, TheExtentIsOctoMapsOwn) {
 
 TEST(MapSnapshot, LabelsThatColorsDoNotTellAreListed) {
   const SemanticMapper by_label = mapper_with("chair", true);
-  EXPECT_TRUE(labels_not_told_by_colors(by_label.tree(), take_snapshot(by_label)).keys.empty());
+  EXPECT_TRUE(labels_not_shown_by_colors(by_label.map().tree(), take_snapshot(by_label)).keys.empty());
   const SemanticMapper by_picture = mapper_with("chair", false);
-  const LabelRows rows = labels_not_told_by_colors(by_picture.tree(), take_snapshot(by_picture));
+  const LabelRows rows = labels_not_shown_by_colors(by_picture.map().tree(), take_snapshot(by_picture));
   ASSERT_GT(rows.values.size(), 100U);
   EXPECT_EQ(rows.keys.size(), 3 * rows.values.size());
   EXPECT_THAT(rows.values, testing::Each(1));
   for (std::size_t i = 0; i < rows.values.size(); ++i)
-    EXPECT_EQ(by_picture.label({rows.keys[3 * i], rows.keys[3 * i + 1], rows.keys[3 * i + 2]}), 1);
+    EXPECT_EQ(by_picture.map().label({rows.keys[3 * i], rows.keys[3 * i + 1], rows.keys[3 * i + 2]}), 1);
 }
 
 TEST(MapSnapshot, ASurfaceInALabelsColorIsNotTakenForIt) {

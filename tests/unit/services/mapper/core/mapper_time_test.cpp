@@ -47,14 +47,14 @@ SemanticMapper make_mapper(int max_keyframes = 1000) {
 std::vector<std::uint8_t> map_of(const std::vector<KeyframeInput>& inputs, int max_keyframes = 1000) {
   SemanticMapper mapper = make_mapper(max_keyframes);
   for (const KeyframeInput& input : inputs) mapper.integrate(input);
-  return to_bytes(mapper.tree());
+  return to_bytes(mapper.map().tree());
 }
 
 bool bag_is_in_map(std::int64_t later_ns) {
   SemanticMapper mapper = make_mapper();
   for (const KeyframeInput& input : keyframes(later_ns)) mapper.integrate(input);
   mapper.settle({});
-  return test::is_occupied(mapper.tree(), kBag);
+  return test::is_occupied(mapper.map().tree(), kBag);
 }
 
 TEST(MapperTime, AClockThatIsSetBackIsNotTakenForTimeThatPassed) {
@@ -81,7 +81,7 @@ TEST(MapperTime, TheSettledMapDoesNotDependOnTheOrderOfArrival) {
   SemanticMapper mixed = make_mapper();
   for (const KeyframeInput& input : inputs) mixed.integrate(input);
   mixed.settle({});
-  EXPECT_TRUE(to_bytes(in_order.tree()) == to_bytes(mixed.tree()));
+  EXPECT_TRUE(to_bytes(in_order.map().tree()) == to_bytes(mixed.map().tree()));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using test::record_of;
 using test::SyntheticKeyframe;
 
 PixelClass class_at(const KeyframeRecord& record, int x_px, int y_px) {
-  return record.classes[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
+  return record.classes[record.grid.index(x_px / record.grid.stride, y_px / record.grid.stride)];
 }
 
 TEST(Pipeline, CutsAPersonOutOfHisBoxAndLeavesARimUnknown) {
@@ -26,7 +26,7 @@ TEST(Pipeline, CutsAPersonOutOfHisBoxAndLeavesARimUnknown) {
   EXPECT_EQ(class_at(record, 160, 120), PixelClass::kDynamic);
   EXPECT_EQ(class_at(record, 116, 120), PixelClass::kUnknown);
   EXPECT_EQ(class_at(record, 95, 120), PixelClass::kStatic);
-  EXPECT_TRUE(record.sightings.empty());
+  EXPECT_TRUE(record.objects.sightings.empty());
 }
 
 TEST(Pipeline, AWallThatGoesOnOutsideABoxIsOfNobodyInIt) {
@@ -71,10 +71,10 @@ TEST(Pipeline, AnObjectIsLookedForAtItsOwnDepthNotOnTheWallBehind) {
   auto input = SyntheticKeyframe(0).rectangle(chair, 2.0).looked_for_objects().make();
   input.boxes->push_back({"chair", 0.9F, {100, 60, 220, 180}, std::nullopt, 2.0F, false});
   const auto record = record_of(input, labels);
-  ASSERT_EQ(record.sightings.size(), 1U);
-  for (const auto& p : record.sightings[0].points_in_camera) EXPECT_NEAR(p.z(), 2.0F, 0.1F);
+  ASSERT_EQ(record.objects.sightings.size(), 1U);
+  for (const auto& p : record.objects.sightings[0].points_in_camera) EXPECT_NEAR(p.z(), 2.0F, 0.1F);
   for (std::size_t i = 0; i < record.size(); ++i) {
-    if (record.labels[i] == 0) continue;
+    if (record.objects.labels[i] == 0) continue;
     EXPECT_NEAR(record.depth_m(i), 2.0F, 0.1F);
   }
 }
@@ -105,8 +105,8 @@ TEST(Pipeline, TheHigherScoreHasThePixel) {
                                     .box("chair", thing, false, 0.4F)
                                     .make(),
                                 labels);
-  const auto center = static_cast<std::size_t>(120 / record.stride * record.width + 160 / record.stride);
-  EXPECT_EQ(labels.names()[record.labels[center]], "sofa");
+  const auto center = record.grid.index(160 / record.grid.stride, 120 / record.grid.stride);
+  EXPECT_EQ(labels.names()[record.objects.labels[center]], "sofa");
 }
 
 TEST(Pipeline, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
@@ -138,8 +138,8 @@ TEST(Pipeline, ABoxWithoutDepthHasNoRegion) {
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);
   const LabelledBox box{"person", 1.0F, {110, 60, 190, 140}, std::nullopt, 0.0F, true};
-  EXPECT_TRUE(object_region(record, box, RegionConfig{}).pixels.empty());
-  EXPECT_FALSE(object_place(record, box, RegionConfig{}).has_value());
+  EXPECT_TRUE(object_region(record, box).pixels.empty());
+  EXPECT_FALSE(object_place(record, box).has_value());
 }
 
 }  // namespace

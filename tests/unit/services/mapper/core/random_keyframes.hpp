@@ -44,9 +44,9 @@ class RandomKeyframes {
 struct PublishedMap {
   PublishedMap(const SemanticMapper& mapper, std::uint64_t map_id)
       : snapshot(take_snapshot(mapper)),
-        untold(labels_not_told_by_colors(mapper.tree(), snapshot)),
-        full{snapshot.nodes,    snapshot.resolution, mapper.map_epoch(), map_id,
-             mapper.revision(), snapshot.labels,     untold.keys,        untold.values} {}
+        untold(labels_not_shown_by_colors(mapper.map().tree(), snapshot)),
+        full{snapshot.nodes,        snapshot.resolution, mapper.map().epoch, map_id,
+             mapper.map().revision, snapshot.labels,     untold.keys,        untold.values} {}
   PublishedMap(const PublishedMap&) = delete;
   PublishedMap& operator=(const PublishedMap&) = delete;
 
@@ -58,11 +58,11 @@ struct PublishedMap {
 /// Bit for bit, label for label.
 inline void expect_same(const OctreeReplica& replica, const SemanticMapper& mapper) {
   ASSERT_TRUE(replica.is_valid());
-  EXPECT_EQ(replica.revision(), mapper.revision());
-  EXPECT_TRUE(to_bytes(replica.tree()) == to_bytes(mapper.tree()));
+  EXPECT_EQ(replica.revision(), mapper.map().revision);
+  EXPECT_TRUE(to_bytes(replica.tree()) == to_bytes(mapper.map().tree()));
   std::size_t different_labels = 0;
   for (auto leaf = replica.tree().begin_leafs(), end = replica.tree().end_leafs(); leaf != end; ++leaf)
-    different_labels += replica.label(leaf.getKey()) != mapper.label(leaf.getKey()) ? 1U : 0U;
+    different_labels += replica.label(leaf.getKey()) != mapper.map().label(leaf.getKey()) ? 1U : 0U;
   EXPECT_EQ(different_labels, 0U);
 }
 

@@ -32,19 +32,19 @@ geometry::Pose shifted(double x, double y, double z) {
 TEST(SemanticMapper, InsertsAStaticSurfaceWithThePapersLogOdds) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(SyntheticKeyframe(0).make());
-  EXPECT_FLOAT_EQ(log_odds_at(mapper.tree(), point_at(20, 20, kWallM)), 0.85F);
+  EXPECT_FLOAT_EQ(log_odds_at(mapper.map().tree(), point_at(20, 20, kWallM)), 0.85F);
   mapper.integrate(SyntheticKeyframe(1).make());
-  EXPECT_FLOAT_EQ(log_odds_at(mapper.tree(), point_at(20, 20, kWallM)), 1.7F);
+  EXPECT_FLOAT_EQ(log_odds_at(mapper.map().tree(), point_at(20, 20, kWallM)), 1.7F);
   for (std::uint64_t id = 2; id < 8; ++id) mapper.integrate(SyntheticKeyframe(id).make());
-  EXPECT_NEAR(log_odds_at(mapper.tree(), point_at(20, 20, kWallM)), std::log(0.97 / 0.03), 1e-4);
+  EXPECT_NEAR(log_odds_at(mapper.map().tree(), point_at(20, 20, kWallM)), std::log(0.97 / 0.03), 1e-4);
 }
 
 TEST(SemanticMapper, NeverInsertsAMovableObjectAndKeepsTheWallBesideIt) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(with_person(0).box("person", kPerson, true).make());
-  EXPECT_EQ(occupied_between(mapper.tree(), 0, 2.5), 0);
-  EXPECT_FLOAT_EQ(log_odds_at(mapper.tree(), point_at(160, 120, kPersonM)), -0.41F);
-  EXPECT_TRUE(is_occupied(mapper.tree(), point_at(20, 120, kWallM)));
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 0, 2.5), 0);
+  EXPECT_FLOAT_EQ(log_odds_at(mapper.map().tree(), point_at(160, 120, kPersonM)), -0.41F);
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), point_at(20, 120, kWallM)));
 }
 
 TEST(SemanticMapper, KeepsTheTableBehindAPersonInsideHisBox) {
@@ -53,9 +53,9 @@ TEST(SemanticMapper, KeepsTheTableBehindAPersonInsideHisBox) {
   auto keyframe = with_person(0).make();
   keyframe.boxes.emplace().push_back({"person", 0.9F, {60, 20, 260, 240}, std::nullopt, 1.5F, true});
   mapper.integrate(keyframe);
-  EXPECT_TRUE(is_occupied(mapper.tree(), point_at(75, 120, kWallM)));
-  EXPECT_TRUE(is_occupied(mapper.tree(), point_at(245, 120, kWallM)));
-  EXPECT_EQ(occupied_between(mapper.tree(), 0, 2.5), 0);
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), point_at(75, 120, kWallM)));
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), point_at(245, 120, kWallM)));
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 0, 2.5), 0);
 }
 
 TEST(SemanticMapper, APersonInsertedBeforeHisDetectionVanishesAtTheNextMovableSightings) {
@@ -63,26 +63,26 @@ TEST(SemanticMapper, APersonInsertedBeforeHisDetectionVanishesAtTheNextMovableSi
   config.octree.carve_rays = false;  // the paper's rule alone
   SemanticMapper mapper(config);
   mapper.integrate(with_person(0).looked_for_objects().make());
-  EXPECT_TRUE(is_occupied(mapper.tree(), point_at(160, 120, kPersonM)));
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), point_at(160, 120, kPersonM)));
   for (std::uint64_t id = 1; id < 4; ++id)
     mapper.integrate(with_person(id).box("person", kPerson, true).make());
-  EXPECT_EQ(occupied_between(mapper.tree(), 1.6, 2.5), 0);
-  EXPECT_FALSE(is_occupied(mapper.tree(), point_at(160, 120, kPersonM)));
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 1.6, 2.5), 0);
+  EXPECT_FALSE(is_occupied(mapper.map().tree(), point_at(160, 120, kPersonM)));
 }
 
 TEST(SemanticMapper, RaysToTheBackgroundCarveAwayWhoStoodThere) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(with_person(0).make());
-  EXPECT_GT(occupied_between(mapper.tree(), 1.4, 1.6), 100);
+  EXPECT_GT(occupied_between(mapper.map().tree(), 1.4, 1.6), 100);
   for (std::uint64_t id = 1; id < 4; ++id) mapper.integrate(SyntheticKeyframe(id).make());
-  EXPECT_EQ(occupied_between(mapper.tree(), 1.4, 1.6), 0);
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 1.4, 1.6), 0);
 }
 
 TEST(SemanticMapper, RaysBeyondTheRangeCarveToo) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(with_person(0).make());
   for (std::uint64_t id = 1; id < 4; ++id) mapper.integrate(SyntheticKeyframe(id, 5.5).make());
-  EXPECT_EQ(occupied_between(mapper.tree(), 0, 10), 0);
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 0, 10), 0);
 }
 
 TEST(SemanticMapper, WhoStoodBeforeNothingMeasurableIsGoneThreeKeyframesAfterLeaving) {
@@ -90,11 +90,11 @@ TEST(SemanticMapper, WhoStoodBeforeNothingMeasurableIsGoneThreeKeyframesAfterLea
   SemanticMapper mapper(MapperConfig{});
   const auto person = test::point_at(160, 120, 1.5);
   mapper.integrate(SyntheticKeyframe(0, kNothing).rectangle({120, 40, 80, 160}, 1.5));
-  EXPECT_TRUE(is_occupied(mapper.tree(), person));
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), person));
   for (std::uint64_t id = 1; id <= 3; ++id) mapper.integrate(SyntheticKeyframe(id, kNothing));
-  EXPECT_EQ(occupied_between(mapper.tree(), 0, 4), 0);
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 0, 4), 0);
   const auto beside = test::point_at(40, 120, 1.0);
-  EXPECT_TRUE(std::isnan(log_odds_at(mapper.tree(), beside)));  // free is only what a ray measured
+  EXPECT_TRUE(std::isnan(log_odds_at(mapper.map().tree(), beside)));  // free is only what a ray measured
 }
 
 TEST(SemanticMapper, ADarkSurfaceThatIsSeenNowAndThenStays) {
@@ -103,7 +103,7 @@ TEST(SemanticMapper, ADarkSurfaceThatIsSeenNowAndThenStays) {
   for (std::uint64_t id = 0; id < 3; ++id)
     mapper.integrate(SyntheticKeyframe(id, kNothing).rectangle(kPerson, 1.5));
   for (std::uint64_t id = 3; id < 20; ++id) mapper.integrate(SyntheticKeyframe(id, kNothing));
-  EXPECT_TRUE(is_occupied(mapper.tree(), test::point_at(160, 120, 1.5)));
+  EXPECT_TRUE(is_occupied(mapper.map().tree(), test::point_at(160, 120, 1.5)));
 }
 
 TEST(SemanticMapper, AVoxelChangesOncePerKeyframe) {
@@ -122,7 +122,7 @@ TEST(SemanticMapper, PixelsWithoutUsableDepthLeaveNoTrace) {
     SemanticMapper mapper(MapperConfig{});
     const auto delta = mapper.integrate(SyntheticKeyframe(0, depth).make());
     EXPECT_TRUE(delta.keys.empty()) << depth;
-    EXPECT_EQ(mapper.tree().size(), 0U) << depth;
+    EXPECT_EQ(mapper.map().tree().size(), 0U) << depth;
   }
 }
 
@@ -131,8 +131,8 @@ TEST(SemanticMapper, FlyingPixelsAtADepthEdgeAreRejected) {
       SyntheticKeyframe(0).rectangle({160, 0, 160, 240}, 1.5).rectangle({158, 0, 2, 240}, 2.2).make();
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(keyframe);
-  EXPECT_EQ(occupied_between(mapper.tree(), 1.8, 2.7), 0);
-  EXPECT_GT(occupied_between(mapper.tree(), 1.4, 1.6), 0);
+  EXPECT_EQ(occupied_between(mapper.map().tree(), 1.8, 2.7), 0);
+  EXPECT_GT(occupied_between(mapper.map().tree(), 1.4, 1.6), 0);
 }
 
 TEST(SemanticMapper, SurvivesBoxesThatMakeNoSense) {
@@ -179,15 +179,15 @@ TEST(SemanticMapper, LabelsTheVoxelsOfAStaticObjectAndColoursThem) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 2; ++id)
     mapper.integrate(SyntheticKeyframe(id).rectangle(chair, 2.0).box("chair", chair, false).make());
-  const auto& tree = mapper.tree();
+  const auto& tree = mapper.map().tree();
   const auto on_chair = point_at(145, 125, 2.0);
   const auto key = tree.coordToKey(on_chair.x(), on_chair.y(), on_chair.z());
-  EXPECT_EQ(mapper.labels().names().at(mapper.label(key)), "chair");
+  EXPECT_EQ(mapper.map().labels.names().at(mapper.map().label(key)), "chair");
   const Rgb expected = label_color("chair");
   const auto color = tree.search(key)->getColor();
   EXPECT_EQ((Rgb{color.r, color.g, color.b}), expected);
   const auto on_wall = point_at(20, 20, kWallM);
-  EXPECT_EQ(mapper.label(tree.coordToKey(on_wall.x(), on_wall.y(), on_wall.z())), 0);
+  EXPECT_EQ(mapper.map().label(tree.coordToKey(on_wall.x(), on_wall.y(), on_wall.z())), 0);
   const auto wall_color = tree.search(on_wall.x(), on_wall.y(), on_wall.z())->getColor();
   EXPECT_EQ((Rgb{wall_color.r, wall_color.g, wall_color.b}), (Rgb{110, 100, 90}));
 }
@@ -207,21 +207,21 @@ TEST(SemanticMapper, FollowsPoseCorrectionsAsIfItHadKnownThemAllAlong) {
   const auto delta = live.apply_poses(corrected);
   EXPECT_FALSE(delta.is_noop());
   EXPECT_FALSE(delta.deleted_keys.empty());
-  EXPECT_EQ(to_bytes(live.tree()), to_bytes(known.tree()));
-  EXPECT_EQ(to_json(live.objects()), to_json(known.objects()));
+  EXPECT_EQ(to_bytes(live.map().tree()), to_bytes(known.map().tree()));
+  EXPECT_EQ(to_json(live.map().objects()), to_json(known.map().objects()));
 }
 
 TEST(SemanticMapper, SmallCorrectionsWaitForSettle) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(SyntheticKeyframe(0).make());
-  const auto before = to_bytes(mapper.tree());
+  const auto before = to_bytes(mapper.map().tree());
   const std::vector<KeyframePose> poses{{0, 0, shifted(0, 0, 0.008)}};
   EXPECT_TRUE(mapper.apply_poses(poses).is_noop());
-  EXPECT_EQ(to_bytes(mapper.tree()), before);
+  EXPECT_EQ(to_bytes(mapper.map().tree()), before);
   EXPECT_FALSE(mapper.settle(poses).is_noop());
   SemanticMapper scratch(MapperConfig{});
   scratch.integrate(SyntheticKeyframe(0).pose(shifted(0, 0, 0.008)).make());
-  EXPECT_EQ(to_bytes(mapper.tree()), to_bytes(scratch.tree()));
+  EXPECT_EQ(to_bytes(mapper.map().tree()), to_bytes(scratch.map().tree()));
 }
 
 TEST(SemanticMapper, SettlesToTheSameBytesWhateverTheOrderOfArrival) {
@@ -237,11 +237,11 @@ TEST(SemanticMapper, SettlesToTheSameBytesWhateverTheOrderOfArrival) {
     in_order.integrate(complete);
   }
   for (const std::uint64_t id : {2U, 0U, 1U}) disordered.integrate(keyframe(id));
-  EXPECT_NE(to_bytes(disordered.tree()), to_bytes(in_order.tree()));
+  EXPECT_NE(to_bytes(disordered.map().tree()), to_bytes(in_order.map().tree()));
   for (const std::uint64_t id : {1U, 2U, 0U}) EXPECT_TRUE(disordered.set_boxes(id, boxes));
   EXPECT_FALSE(disordered.set_boxes(99, boxes));
   disordered.settle({});
-  EXPECT_EQ(to_bytes(disordered.tree()), to_bytes(in_order.tree()));
+  EXPECT_EQ(to_bytes(disordered.map().tree()), to_bytes(in_order.map().tree()));
 }
 
 TEST(SemanticMapper, IgnoresPosesThatAreNotFiniteOrOfUnknownKeyframes) {
@@ -264,7 +264,7 @@ TEST(SemanticMapper, KeyframesBeyondTheLimitBecomeFinalAndStayInTheMap) {
   limited.settle({});
   EXPECT_EQ(limited.archive().size(), 5U);
   EXPECT_EQ(limited.archive().poses().size(), 2U);
-  EXPECT_EQ(to_bytes(limited.tree()), to_bytes(unlimited.tree()));
+  EXPECT_EQ(to_bytes(limited.map().tree()), to_bytes(unlimited.map().tree()));
   EXPECT_FALSE(limited.set_boxes(0, {}));
 }
 
@@ -281,7 +281,7 @@ TEST(SemanticMapper, KeyframesThatNobodyTellsOfBecomeFinalAndStayInTheMap) {
   mapper.settle({});
   EXPECT_EQ(mapper.archive().size(), 5U);
   EXPECT_EQ(mapper.archive().poses().size(), 3U);
-  EXPECT_EQ(to_bytes(mapper.tree()), to_bytes(all.tree()));
+  EXPECT_EQ(to_bytes(mapper.map().tree()), to_bytes(all.map().tree()));
   mapper.make_others_final({});
   EXPECT_EQ(mapper.archive().poses().size(), 3U);
 }

@@ -62,7 +62,7 @@ SyntheticKeyframe person_at(std::uint64_t keyframe, double background_m, const N
 class StandingPerson : public testing::TestWithParam<Notice> {
  protected:
   /// Voxels occupied before the background.
-  [[nodiscard]] int left_over() const { return test::occupied_between(mapper_.tree(), 0.5, 2.5); }
+  [[nodiscard]] int left_over() const { return test::occupied_between(mapper_.map().tree(), 0.5, 2.5); }
 
   void stands_for_ten_seconds(double background_m) {
     for (std::uint64_t k = 0; k * kStep < kLeaves; ++k)
@@ -81,18 +81,18 @@ class StandingPerson : public testing::TestWithParam<Notice> {
 int voxels_of_person() {
   SemanticMapper mapper{MapperConfig{}};
   mapper.integrate(person_at(0, kNothing, {"", never, never}));
-  return test::occupied_between(mapper.tree(), 0.5, 2.5);
+  return test::occupied_between(mapper.map().tree(), 0.5, 2.5);
 }
 
 TEST_P(StandingPerson, IsGoneThreeKeyframesAfterHeLeft) {
   stands_for_ten_seconds(3.0);
   three_keyframes_without_him(3.0);
   EXPECT_LE(left_over(), 0.01 * voxels_of_person());
-  EXPECT_TRUE(test::is_occupied(mapper_.tree(), test::point_at(20, 120, 3.0)));
+  EXPECT_TRUE(test::is_occupied(mapper_.map().tree(), test::point_at(20, 120, 3.0)));
   mapper_.settle({});
   EXPECT_LE(left_over(), 0.01 * voxels_of_person());
-  EXPECT_TRUE(test::is_occupied(mapper_.tree(), test::point_at(20, 120, 3.0)));
-  EXPECT_TRUE(test::is_occupied(mapper_.tree(), test::point_at(160, 120, 3.0)));
+  EXPECT_TRUE(test::is_occupied(mapper_.map().tree(), test::point_at(20, 120, 3.0)));
+  EXPECT_TRUE(test::is_occupied(mapper_.map().tree(), test::point_at(160, 120, 3.0)));
 }
 
 /// Half of the keyframes or more know of him, by a box or by cells, all the time that he is there; else he

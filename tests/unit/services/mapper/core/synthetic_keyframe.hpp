@@ -96,4 +96,19 @@ inline int occupied_between(const octomap::ColorOcTree& tree, double lower, doub
   return count;
 }
 
+/// As the mapper's part of a saved map.
+inline map_file::Bytes saved_bytes(const SemanticMapper& mapper) {
+  return to_bytes(mapper.map(), mapper.up_in_map());
+}
+
+/// Goes on from such bytes or from a tree, if they fit.
+template <class Saved>
+tl::expected<void, std::string> start_from(SemanticMapper& mapper, Saved&& saved,
+                                           const MapperConfig& config = {}) {
+  auto map = saved_map_from(std::forward<Saved>(saved), config);
+  if (!map) return tl::unexpected(map.error());
+  mapper.start_from(std::move(*map));
+  return {};
+}
+
 }  // namespace rds::mapper::test

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/io/octomap_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
@@ -22,49 +23,46 @@ class MapFiles : public testing::Test {
     EXPECT_FALSE(read.has_value());
     return read ? "" : read.error();
   }
-  std::string content(const std::string& name) {
-    std::ifstream in(folder_.path() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
   rds::test::TemporaryFolder folder_;
   SemanticMapper mapper_{MapperConfig{}};
 };
 
 TEST_F(MapFiles, ATreeReadsBackAndOctoMapReadsItToo) {
-  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.map().tree()));
   auto read = read_tree(folder_.path() / "map.ot");
   ASSERT_TRUE(read.has_value()) << read.error();
   EXPECT_TRUE(looks_like_tree(folder_.path() / "map.ot"));
   EXPECT_FALSE(looks_like_tree(folder_.path()));
   EXPECT_EQ((*read)->getResolution(), 0.05);
-  EXPECT_EQ(to_bytes(**read), to_bytes(mapper_.tree()));
+  EXPECT_EQ(to_bytes(**read), to_bytes(mapper_.map().tree()));
   const std::unique_ptr<octomap::AbstractOcTree> octomaps(
       octomap::AbstractOcTree::read((folder_.path() / "map.ot").string()));
   ASSERT_NE(octomaps, nullptr);
   EXPECT_EQ(octomaps->getTreeType(), "ColorOcTree");
-  EXPECT_EQ(octomaps->size(), mapper_.tree().size());
+  EXPECT_EQ(octomaps->size(), mapper_.map().tree().size());
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "map.ot.partial"));
 }
 
 TEST_F(MapFiles, ASavedMapGoesOn) {
-  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.map().tree()));
   auto read = read_tree(folder_.path() / "map.ot");
   ASSERT_TRUE(read.has_value());
   SemanticMapper continued{MapperConfig{}};
-  ASSERT_TRUE(continued.start_from(std::move(**read)));
-  EXPECT_EQ(to_bytes(continued.tree()), to_bytes(mapper_.tree()));
+  ASSERT_TRUE(test::start_from(continued, std::move(**read)));
+  EXPECT_EQ(to_bytes(continued.map().tree()), to_bytes(mapper_.map().tree()));
   continued.integrate(test::SyntheticKeyframe(1).make());
   mapper_.integrate(test::SyntheticKeyframe(1).make());
-  EXPECT_EQ(continued.tree().size(), mapper_.tree().size());
+  EXPECT_EQ(continued.map().tree().size(), mapper_.map().tree().size());
   continued.settle({});
-  EXPECT_FLOAT_EQ(test::log_odds_at(continued.tree(), test::point_at(20, 20, 3.0)), 1.7F);
-  EXPECT_FALSE(continued.start_from(octomap::ColorOcTree(0.1)));
+  EXPECT_FLOAT_EQ(test::log_odds_at(continued.map().tree(), test::point_at(20, 20, 3.0)), 1.7F);
+  EXPECT_FALSE(test::start_from(continued, octomap::ColorOcTree(0.1)));
 }
 
 TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
-  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.tree()));
-  const auto good = content("map.ot");
+  ASSERT_TRUE(write_tree(folder_.path() / "map.ot", mapper_.map().tree()));
+  std::ifstream in(folder_.path() / "map.ot", std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
   EXPECT_THAT(refusal(good.substr(0, good.size() / 2)),
               testing::HasSubstr("bad.ot: is damaged: the tree ends after"));
   EXPECT_THAT(refusal(good + "x"), testing::HasSubstr("1 bytes after the last node"));
@@ -79,14 +77,17 @@ TEST_F(MapFiles, RefusesTornAndForeignFilesWithASentence) {
 }
 
 TEST_F(MapFiles, WritesTheOtherFilesOfARun) {
-  ASSERT_TRUE(write_objects(folder_.path() / "objects.json", mapper_.objects()));
-  ASSERT_TRUE(write_grid(folder_.path(), mapper_.grid()));
-  ASSERT_TRUE(write_keyframes(folder_.path() / "keyframes.txt", mapper_.archive().poses()));
+  const auto grid = make_grid(mapper_.map().tree(), mapper_.up_in_map(), {});
+  const auto files = files_for_others(mapper_.map().tree(), mapper_.map().objects(), grid);
+  const auto content = [&](const std::string& name) {
+    const auto& bytes = files.at(name);
+    return std::string(bytes.begin(), bytes.end());
+  };
   EXPECT_EQ(content("objects.json"), "[]\n");
   EXPECT_THAT(content("grid.pgm"), testing::StartsWith("P5\n"));
   EXPECT_THAT(content("grid.yaml"), testing::HasSubstr("image: grid.pgm"));
-  EXPECT_THAT(content("keyframes.txt"), testing::HasSubstr("0.000000000 0.000000000"));
-  EXPECT_THAT(write_objects(folder_.path() / "no" / "objects.json", {}).error(),
+  EXPECT_TRUE(starts_as_octomap_file(content("map.ot")));
+  EXPECT_THAT(write_tree(folder_.path() / "no" / "map.ot", mapper_.map().tree()).error(),
               testing::HasSubstr("cannot be written"));
 }
 

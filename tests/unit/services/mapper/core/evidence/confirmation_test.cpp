@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/confirmation.hpp"
-
 #include <gtest/gtest.h>
 
+#include "services/mapper/core/evidence/surface_rules.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -30,12 +29,12 @@ SyntheticKeyframe person_with_legs(std::uint64_t id) {
 
 PixelClass class_at(const KeyframeRecord& record, const StaticHistory& history, int x_px, int y_px) {
   const auto classes = resolve(record, {history, DynamicHistory(kVoxelM)}, {});
-  return classes[static_cast<std::size_t>(y_px / record.stride * record.width + x_px / record.stride)];
+  return classes[record.grid.index(x_px / record.grid.stride, y_px / record.grid.stride)];
 }
 
 TEST(Confirmation, WithoutAnythingMovableThereAreNoDoubts) {
   const auto record = record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM));
-  EXPECT_TRUE(record.doubt.surface.empty());
+  EXPECT_TRUE(record.unconfirmed.surface.empty());
   EXPECT_EQ(resolve(record, {{}, DynamicHistory(kVoxelM)}, {}), record.classes);
 }
 
@@ -96,7 +95,7 @@ TEST(Confirmation, ASurfaceIsJudgedAsAWhole) {
 TEST(Confirmation, RadiusZeroIsOff) {
   MapperConfig config;
   config.confirmation.radius_m = 0;
-  EXPECT_TRUE(record_of(person_with_legs(0), config).doubt.surface.empty());
+  EXPECT_TRUE(record_of(person_with_legs(0), config).unconfirmed.surface.empty());
 }
 
 TEST(StaticHistory, ASavedVoxelHasAlwaysBeenThere) {
@@ -111,11 +110,11 @@ TEST(SemanticMapper, LegsOutOfTheBoxStayOutAndATableComesInOnceItWasSeenAlone) {
   SemanticMapper mapper(MapperConfig{});
   const auto legs = test::point_at(160, 190, kPersonM);
   mapper.integrate(person_with_legs(0));
-  EXPECT_FALSE(test::is_occupied(mapper.tree(), legs));
+  EXPECT_FALSE(test::is_occupied(mapper.map().tree(), legs));
   mapper.integrate(SyntheticKeyframe(kTwoSeconds).rectangle(kLegs, kPersonM).looked_for_objects());
-  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.tree(), legs), 0.85F);
+  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.map().tree(), legs), 0.85F);
   mapper.settle({});
-  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.tree(), legs), 1.7F);  // now it has stood all along
+  EXPECT_FLOAT_EQ(test::log_odds_at(mapper.map().tree(), legs), 1.7F);  // now it has stood all along
 }
 
 TEST(SemanticMapper, DoubtsSettleToTheSameBytesWhateverTheOrderOfArrival) {
@@ -127,7 +126,7 @@ TEST(SemanticMapper, DoubtsSettleToTheSameBytesWhateverTheOrderOfArrival) {
       else
         mapper.integrate(SyntheticKeyframe(id * 7).rectangle(kLegs, kPersonM).looked_for_objects());
     mapper.settle({});
-    return mapper.to_bytes();
+    return test::saved_bytes(mapper);
   };
   EXPECT_EQ(bytes_after({0, 1, 2, 3, 4}), bytes_after({3, 0, 4, 2, 1}));
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/transient_surfaces.hpp"
-
 #include <gtest/gtest.h>
 
+#include "services/mapper/core/evidence/surface_rules.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -59,7 +58,7 @@ TEST_F(TransientSurfaces, AnObjectThatTheDetectorFoundStays) {
 }
 
 TEST_F(TransientSurfaces, TheShareTellsWhatGoesOn) {
-  config_.confirmation.passing_share = 0.3;
+  config_.confirmation.transient_share = 0.3;
   EXPECT_EQ(class_at(SyntheticKeyframe(1).rectangle({60, 30, 200, 180}, kDepthM), 160, 120),
             PixelClass::kInvalid);
 }

@@ -92,7 +92,7 @@ TEST(KeyframeBytes, ComeBackAsTheyWere) {
   EXPECT_EQ(back->depth_tenth_mm, record.depth_tenth_mm);
   EXPECT_EQ(back->rgb, record.rgb);
   EXPECT_EQ(back->classes, record.classes);
-  EXPECT_EQ(back->camera, record.camera);
+  EXPECT_EQ(back->grid.camera, record.grid.camera);
   EXPECT_EQ(to_bytes(*back), bytes);
   EXPECT_LT(bytes.size(), 5 * record.size());
 }
@@ -114,8 +114,8 @@ TEST(KeyframeStore, SpillingChangesNoBitOfTheMap) {
     EXPECT_TRUE(mapper->set_boxes(1, std::span(late).first(1)));
     mapper->apply_poses(corrected(kKeyframes));
   }
-  EXPECT_EQ(to_bytes(narrow.tree()), to_bytes(roomy.tree()));
-  EXPECT_EQ(narrow.to_bytes(), roomy.to_bytes());
+  EXPECT_EQ(to_bytes(narrow.map().tree()), to_bytes(roomy.map().tree()));
+  EXPECT_EQ(test::saved_bytes(narrow), test::saved_bytes(roomy));
   EXPECT_EQ(narrow.archive().poses().size(), kKeyframes);
   EXPECT_EQ(narrow.archive().lost(), 0U);
 }
@@ -129,7 +129,8 @@ TEST(KeyframeStore, AFullDiskLeavesKeyframesWhereTheyAreAndCountsThem) {
   EXPECT_EQ(mapper.archive().size(), kKeyframes);
   EXPECT_EQ(mapper.archive().poses().size(), kKeyframes - mapper.archive().lost());
   mapper.apply_poses(corrected(kKeyframes));
-  EXPECT_TRUE(test::is_occupied(mapper.tree(), keyframe(4).map_from_camera * test::point_at(60, 30, 3.0)));
+  EXPECT_TRUE(
+      test::is_occupied(mapper.map().tree(), keyframe(4).map_from_camera * test::point_at(60, 30, 3.0)));
 }
 
 TEST(KeyframeStore, ATornFileCostsItsKeyframesOnly) {

@@ -22,7 +22,7 @@ SyntheticKeyframe with_chair(std::uint64_t id, float score = 0.8F) {
 TEST(ObjectDatabase, FusesSightingsOfTheSameObjectIntoOne) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 5; ++id) mapper.integrate(with_chair(id).make());
-  const auto objects = mapper.objects();
+  const auto objects = mapper.map().objects();
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(objects[0].label, "chair");
   EXPECT_EQ(objects[0].observations, 5U);
@@ -36,17 +36,17 @@ TEST(ObjectDatabase, FusesSightingsOfTheSameObjectIntoOne) {
 TEST(ObjectDatabase, ReportsAnObjectOnlyAfterEnoughSightings) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(with_chair(0).make());
-  EXPECT_TRUE(mapper.objects().empty());
+  EXPECT_TRUE(mapper.map().objects().empty());
   mapper.integrate(with_chair(1).make());
-  EXPECT_EQ(mapper.objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects().size(), 1U);
 }
 
 TEST(ObjectDatabase, ReportsAnObjectOfWeakBoxesAfterMoreSightings) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 3; ++id) mapper.integrate(with_chair(id, 0.3F));
-  EXPECT_TRUE(mapper.objects().empty());
+  EXPECT_TRUE(mapper.map().objects().empty());
   mapper.integrate(with_chair(3, 0.3F));
-  EXPECT_EQ(mapper.objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects().size(), 1U);
 }
 
 TEST(ObjectDatabase, KeepsNeighboursOfTheSameClassApart) {
@@ -60,7 +60,7 @@ TEST(ObjectDatabase, KeepsNeighboursOfTheSameClassApart) {
                          .box("chair", left, false)
                          .box("chair", right, false)
                          .make());
-  EXPECT_EQ(mapper.objects().size(), 2U);
+  EXPECT_EQ(mapper.map().objects().size(), 2U);
 }
 
 TEST(ObjectDatabase, ASightingWhoseMiddleLiesInAnObjectIsOfIt) {
@@ -73,7 +73,7 @@ TEST(ObjectDatabase, ASightingWhoseMiddleLiesInAnObjectIsOfIt) {
   for (; id < 5; ++id)
     mapper.integrate(
         SyntheticKeyframe(id).rectangle(end_and_more, 2.0).box("diningtable", end_and_more, false));
-  EXPECT_EQ(mapper.objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects().size(), 1U);
 }
 
 TEST(ObjectDatabase, KeepsWithItsLabelsWhatTheDetectorSeldomFinds) {
@@ -82,9 +82,9 @@ TEST(ObjectDatabase, KeepsWithItsLabelsWhatTheDetectorSeldomFinds) {
   for (; id < 2; ++id) mapper.integrate(with_chair(id));
   for (; id < 25; ++id)
     mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
-  EXPECT_EQ(mapper.objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects().size(), 1U);
   const auto middle = point_at(140, 120, kChairM);
-  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  const auto color = mapper.map().tree().search(middle.x(), middle.y(), middle.z())->getColor();
   EXPECT_EQ((Rgb{color.r, color.g, color.b}), label_color("chair"));
 }
 
@@ -96,7 +96,7 @@ TEST(ObjectDatabase, WhatIsFoundLateHasItsLabelWhenTheMapSettles) {
   for (; id < 24; ++id) mapper.integrate(with_chair(id));
   const auto middle = point_at(140, 120, kChairM);
   const auto color = [&] {
-    const auto c = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+    const auto c = mapper.map().tree().search(middle.x(), middle.y(), middle.z())->getColor();
     return Rgb{c.r, c.g, c.b};
   };
   EXPECT_NE(color(), label_color("chair"));
@@ -110,11 +110,11 @@ TEST(ObjectDatabase, ForgetsWhatWasFoundTwiceAndThenNeverAgain) {
   for (; id < 2; ++id) mapper.integrate(with_chair(id));
   for (; id < 60; ++id)
     mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
-  EXPECT_TRUE(mapper.objects().empty());
+  EXPECT_TRUE(mapper.map().objects().empty());
   for (; id < 80; ++id)
     mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).looked_for_objects());
   const auto middle = point_at(140, 120, kChairM);
-  const auto color = mapper.tree().search(middle.x(), middle.y(), middle.z())->getColor();
+  const auto color = mapper.map().tree().search(middle.x(), middle.y(), middle.z())->getColor();
   EXPECT_NE((Rgb{color.r, color.g, color.b}), label_color("chair"));
 }
 
@@ -122,16 +122,16 @@ TEST(ObjectDatabase, MovableObjectsNeverEnter) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 4; ++id)
     mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("person", kChair, true).make());
-  EXPECT_TRUE(mapper.objects().empty());
+  EXPECT_TRUE(mapper.map().objects().empty());
 }
 
 TEST(ObjectDatabase, ForgetsWhatIsSeenThrough) {
   SemanticMapper mapper(MapperConfig{});
   std::uint64_t id = 0;
   for (; id < 4; ++id) mapper.integrate(with_chair(id).make());
-  ASSERT_EQ(mapper.objects().size(), 1U);
+  ASSERT_EQ(mapper.map().objects().size(), 1U);
   for (; id < 12; ++id) mapper.integrate(SyntheticKeyframe(id).looked_for_objects().make());
-  EXPECT_TRUE(mapper.objects().empty());
+  EXPECT_TRUE(mapper.map().objects().empty());
 }
 
 TEST(ObjectDatabase, KeepsWhatIsHiddenOrOutOfViewOrNotLookedFor) {
@@ -144,7 +144,7 @@ TEST(ObjectDatabase, KeepsWhatIsHiddenOrOutOfViewOrNotLookedFor) {
     mapper.integrate(SyntheticKeyframe(id + 1000).looked_for_objects().pose(turned).make());
     mapper.integrate(SyntheticKeyframe(id + 2000).make());
   }
-  EXPECT_EQ(mapper.objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects().size(), 1U);
 }
 
 TEST(ObjectDatabase, WritesJson) {

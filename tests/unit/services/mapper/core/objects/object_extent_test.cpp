@@ -22,7 +22,7 @@ TEST(ObjectExtent, WhatMostViewsTookForSomethingElseIsNotTheObjects) {
     keyframe.rectangle(kTable, kTableM).rectangle(shelf, kTableM + 0.05);
     mapper.integrate(keyframe.box("diningtable", id == 3 ? kTable | shelf : kTable, false));
   }
-  const auto objects = mapper.objects();
+  const auto objects = mapper.map().objects();
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_NEAR(objects[0].center.x(), point_at(160, 120, kTableM).x(), 0.03);
   EXPECT_NEAR(objects[0].size.x(), 160 * kTableM / 290, 0.08);
@@ -37,7 +37,7 @@ TEST(ObjectExtent, ASideThatFewViewsShowedCountsAsMuch) {
     if (id > 1) keyframe.rectangle({170, 0, 150, 240}, 1.0);  // somebody stands before the right half
     mapper.integrate(keyframe.box("diningtable", id > 1 ? left : kTable, false));
   }
-  const auto objects = mapper.objects();
+  const auto objects = mapper.map().objects();
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_NEAR(objects[0].center.x(), point_at(160, 120, kTableM).x(), 0.03);
 }
@@ -52,7 +52,7 @@ TEST(ObjectExtent, AVoxelIsOfTheNearestObject) {
                          .rectangle(right, kTableM)
                          .box("chair", left, false)
                          .box("chair", right, false));
-  const auto objects = mapper.objects();
+  const auto objects = mapper.map().objects();
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_NEAR(objects[0].center.x(), point_at(100, 120, kTableM).x(), 0.04);
   EXPECT_NEAR(objects[1].center.x(), point_at(190, 120, kTableM).x(), 0.04);

@@ -14,15 +14,15 @@ namespace {
 std::vector<std::uint8_t> some_tree() {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(test::SyntheticKeyframe(0).make());
-  return to_bytes(mapper.tree());
+  return to_bytes(mapper.map().tree());
 }
 
 TEST(TreeBytes, AreWhatOctoMapWritesAndReads) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(test::SyntheticKeyframe(0).make());
   std::stringstream octomaps;
-  mapper.tree().writeData(octomaps);
-  const auto ours = to_bytes(mapper.tree());
+  mapper.map().tree().writeData(octomaps);
+  const auto ours = to_bytes(mapper.map().tree());
   EXPECT_EQ(octomaps.str(), std::string(ours.begin(), ours.end()));
   octomap::ColorOcTree read(0.05);
   read.readData(octomaps);
@@ -69,40 +69,40 @@ TEST(TreeBytes, RefuseHostileBytes) {
 TEST(BinaryTreeBytes, AreWhatOctoMapWritesOfThePrunedTree) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(test::SyntheticKeyframe(0).make());
-  const auto ours = to_binary_bytes(mapper.tree());
+  const auto ours = to_binary_bytes(mapper.map().tree());
   octomap::OcTree read(0.05);  // as octomap_msgs::binaryMsgToMap makes it
   std::stringstream stream(std::string(ours.begin(), ours.end()));
   read.readBinaryData(stream);
   EXPECT_EQ(stream.peek(), EOF);
   octomap::ColorOcTree pruned(0.05);
   std::stringstream full;
-  mapper.tree().writeData(full);
+  mapper.map().tree().writeData(full);
   pruned.readData(full);
   pruned.toMaxLikelihood();
   pruned.prune();
   std::ostringstream octomaps;
   pruned.writeBinaryData(octomaps);
   EXPECT_EQ(octomaps.str(), std::string(ours.begin(), ours.end()));
-  EXPECT_LT(ours.size(), to_bytes(mapper.tree()).size() / 10);
+  EXPECT_LT(ours.size(), to_bytes(mapper.map().tree()).size() / 10);
 }
 
 TEST(BinaryTreeBytes, ComeBackVoxelByVoxel) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(test::SyntheticKeyframe(0).make());
-  const auto read = tree_from_binary_bytes(to_binary_bytes(mapper.tree()), 0.05);
+  const auto read = tree_from_binary_bytes(to_binary_bytes(mapper.map().tree()), 0.05);
   ASSERT_TRUE(read) << read.error();
-  ASSERT_EQ((*read)->getNumLeafNodes(), mapper.tree().getNumLeafNodes());
+  ASSERT_EQ((*read)->getNumLeafNodes(), mapper.map().tree().getNumLeafNodes());
   for (auto leaf = (*read)->begin_leafs(), end = (*read)->end_leafs(); leaf != end; ++leaf)
     ASSERT_EQ((*read)->isNodeOccupied(*leaf),
-              mapper.tree().isNodeOccupied(mapper.tree().search(leaf.getKey())));
-  EXPECT_EQ(to_binary_bytes(**read), to_binary_bytes(mapper.tree()));
+              mapper.map().tree().isNodeOccupied(mapper.map().tree().search(leaf.getKey())));
+  EXPECT_EQ(to_binary_bytes(**read), to_binary_bytes(mapper.map().tree()));
   EXPECT_TRUE(to_binary_bytes(octomap::ColorOcTree(0.1)).empty());
 }
 
 TEST(BinaryTreeBytes, RefuseTruncationsAndHostileBytes) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(test::SyntheticKeyframe(0).make());
-  const auto whole = to_binary_bytes(mapper.tree());
+  const auto whole = to_binary_bytes(mapper.map().tree());
   for (std::size_t length = 1; length < whole.size(); length += whole.size() / 20)
     EXPECT_FALSE(tree_from_binary_bytes({whole.data(), length}, 0.05)) << length;
   const std::vector<std::uint8_t> ever_deeper(400, 0xff);

@@ -15,10 +15,8 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
   for (int x = 120; x < 180; ++x) input.depth.values(cv::Rect(x, 150, 1, 60)).setTo(1.0 + 0.01 * (x - 120));
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, config.sampling, surface), 4);
-  const auto at = [&](int x_px, int y_px) {
-    return surface[static_cast<std::size_t>(y_px / 2 * record.width + x_px / 2)];
-  };
+  EXPECT_EQ(find_surfaces(record, surface), 4);
+  const auto at = [&](int x_px, int y_px) { return surface[record.grid.index(x_px / 2, y_px / 2)]; };
   EXPECT_EQ(at(10, 10), at(310, 230));  // the wall
   EXPECT_NE(at(70, 70), at(10, 10));
   EXPECT_NE(at(70, 70), at(230, 70));
@@ -32,8 +30,8 @@ TEST(DepthSurfaces, AFewPixelsAreNone) {
   const KeyframeInput input = test::SyntheticKeyframe(0).rectangle({100, 100, 4, 4}, 1.5);
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, config.sampling, surface), 1);
-  EXPECT_EQ(surface[static_cast<std::size_t>(51 * record.width + 51)], 0);
+  EXPECT_EQ(find_surfaces(record, surface), 1);
+  EXPECT_EQ(surface[record.grid.index(51, 51)], 0);
 }
 
 }  // namespace

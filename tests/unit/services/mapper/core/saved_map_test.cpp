@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "services/mapper/io/saved_tree.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -32,9 +32,9 @@ class SavedMapper : public ::testing::Test {
     SemanticMapper mapper(MapperConfig{}, 5);
     for (std::uint64_t id = 0; id < 3; ++id) mapper.integrate(keyframe(id, 0.01 * static_cast<double>(id)));
     mapper.settle({});
-    bytes = mapper.to_bytes();
-    objects = to_json(mapper.objects());
-    tree = to_bytes(mapper.tree());
+    bytes = test::saved_bytes(mapper);
+    objects = to_json(mapper.map().objects());
+    tree = to_bytes(mapper.map().tree());
     up = mapper.up_in_map();
   }
 
@@ -46,16 +46,16 @@ class SavedMapper : public ::testing::Test {
 
 TEST_F(SavedMapper, TheWholeMapComesBack) {
   SemanticMapper mapper(MapperConfig{}, 7);
-  const auto read = mapper.start_from(bytes);
+  const auto read = test::start_from(mapper, bytes);
   ASSERT_TRUE(read) << read.error();
-  EXPECT_EQ(mapper.to_bytes(), bytes);
-  EXPECT_EQ(to_bytes(mapper.tree()), tree);
-  EXPECT_EQ(to_json(mapper.objects()), objects);
+  EXPECT_EQ(test::saved_bytes(mapper), bytes);
+  EXPECT_EQ(to_bytes(mapper.map().tree()), tree);
+  EXPECT_EQ(to_json(mapper.map().objects()), objects);
   EXPECT_EQ(mapper.up_in_map(), up);
-  EXPECT_THAT(mapper.labels().names(), testing::ElementsAre("", "tvmonitor"));
+  EXPECT_THAT(mapper.map().labels.names(), testing::ElementsAre("", "tvmonitor"));
   EXPECT_EQ(mapper.archive().size(), 0U) << "keyframes are not in it";
-  EXPECT_EQ(mapper.map_epoch(), 7U);
-  EXPECT_EQ(mapper.revision(), 1U);
+  EXPECT_EQ(mapper.map().epoch, 7U);
+  EXPECT_EQ(mapper.map().revision, 1U);
 }
 
 TEST_F(SavedMapper, ItsTreeCanBeLookedInto) {
@@ -70,47 +70,47 @@ TEST_F(SavedMapper, GoesOnAsIfItHadNeverStopped) {
   SemanticMapper whole(MapperConfig{});
   for (std::uint64_t id = 0; id < 6; ++id) whole.integrate(keyframe(id, 0.01 * static_cast<double>(id)));
   SemanticMapper continued(MapperConfig{});
-  ASSERT_TRUE(continued.start_from(bytes));
+  ASSERT_TRUE(test::start_from(continued, bytes));
   for (std::uint64_t id = 3; id < 6; ++id) continued.integrate(keyframe(id, 0.01 * static_cast<double>(id)));
-  EXPECT_EQ(to_bytes(continued.tree()), to_bytes(whole.tree()));
-  EXPECT_EQ(to_json(continued.objects()), to_json(whole.objects()));
+  EXPECT_EQ(to_bytes(continued.map().tree()), to_bytes(whole.map().tree()));
+  EXPECT_EQ(to_json(continued.map().objects()), to_json(whole.map().objects()));
   continued.settle({});
-  EXPECT_EQ(to_bytes(continued.tree()), to_bytes(whole.tree())) << "the loaded part is final";
+  EXPECT_EQ(to_bytes(continued.map().tree()), to_bytes(whole.map().tree())) << "the loaded part is final";
 }
 
 TEST_F(SavedMapper, AnotherEpochStartsWithTheSavedMapAgain) {
   SemanticMapper mapper(MapperConfig{});
-  ASSERT_TRUE(mapper.start_from(bytes));
+  ASSERT_TRUE(test::start_from(mapper, bytes));
   mapper.integrate(keyframe(3, 0.5));
   mapper.settle({});
   mapper.reset(9);
-  EXPECT_EQ(mapper.to_bytes(), bytes);
-  EXPECT_EQ(mapper.map_epoch(), 9U);
+  EXPECT_EQ(test::saved_bytes(mapper), bytes);
+  EXPECT_EQ(mapper.map().epoch, 9U);
 }
 
 TEST_F(SavedMapper, KeyframesBeyondTheLimitDoNotChangeWhatAnEpochStartsWith) {
   MapperConfig config;
   config.correction.max_keyframes = 1;
   SemanticMapper mapper(config);
-  ASSERT_TRUE(mapper.start_from(bytes));
+  ASSERT_TRUE(test::start_from(mapper, bytes));
   for (std::uint64_t id = 3; id < 6; ++id) mapper.integrate(keyframe(id, 0.5));
   mapper.reset(1);
-  EXPECT_EQ(to_bytes(mapper.tree()), tree);
+  EXPECT_EQ(to_bytes(mapper.map().tree()), tree);
 }
 
 TEST_F(SavedMapper, ARevisionIsNeverUsedTwiceInAnEpoch) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 4; ++id) mapper.integrate(keyframe(id));
-  ASSERT_TRUE(mapper.start_from(bytes));
-  EXPECT_EQ(mapper.revision(), 5U);
+  ASSERT_TRUE(test::start_from(mapper, bytes));
+  EXPECT_EQ(mapper.map().revision, 5U);
 }
 
 TEST_F(SavedMapper, TornBytesAreRefusedAndChangeNothing) {
   SemanticMapper mapper(MapperConfig{});
   for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 40)
-    EXPECT_FALSE(mapper.start_from(std::span(bytes).first(size))) << size;
-  EXPECT_EQ(mapper.tree().size(), 0U);
-  EXPECT_EQ(mapper.revision(), 0U);
+    EXPECT_FALSE(test::start_from(mapper, std::span(bytes).first(size))) << size;
+  EXPECT_EQ(mapper.map().tree().size(), 0U);
+  EXPECT_EQ(mapper.map().revision, 0U);
 }
 
 TEST_F(SavedMapper, AlteredBytesDoNoHarm) {
@@ -118,7 +118,7 @@ TEST_F(SavedMapper, AlteredBytesDoNoHarm) {
     map_file::Bytes altered = bytes;
     altered[at] = static_cast<std::uint8_t>(~altered[at]);
     SemanticMapper mapper(MapperConfig{});
-    if (mapper.start_from(altered)) mapper.integrate(keyframe(3));
+    if (test::start_from(mapper, altered)) mapper.integrate(keyframe(3));
   }
 }
 
@@ -126,7 +126,7 @@ TEST_F(SavedMapper, SaysWhatDoesNotFit) {
   MapperConfig coarse;
   coarse.octree.resolution_m = 0.1;
   SemanticMapper mapper(coarse);
-  const auto read = mapper.start_from(bytes);
+  const auto read = test::start_from(mapper, bytes, coarse);
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error(), HasSubstr("voxels of 0.05 m, expected 0.1 m"));
 }

@@ -6,8 +6,8 @@
 
 namespace rds::mapper {
 
-/// What an occupied voxel remembers besides its log-odds.
-class VoxelMemory {
+/// Colour and label of an occupied voxel, from all keyframes that have seen it.
+class SemanticVoxel {
  public:
   void see_color(const SurfaceVoxel& surface);
   /// One vote per keyframe that looked for objects; label 0 votes against all.
@@ -19,7 +19,7 @@ class VoxelMemory {
 
   void put(map_file::ByteWriter& writer) const;
   /// @param labels  of the label table. Refuses colours and labels that cannot be.
-  static VoxelMemory get(map_file::ByteReader& reader, std::size_t labels);
+  static SemanticVoxel get(map_file::ByteReader& reader, std::size_t labels);
 
  private:
   struct Votes {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "services/mapper/core/semantic_map.hpp"
+
+namespace rds::mapper {
+
+/// A saved map, as map epochs begin with it. It stays as it is; keyframes are integrated into copies.
+struct SavedMap {
+  std::shared_ptr<Map> map;  // nullptr: none
+  LabelTable labels;
+  std::optional<Eigen::Vector3d> up;  // in the map, if it is known
+  std::uint64_t checksum = 0;         // of what it was read from
+};
+
+/// Or what does not fit, in one sentence.
+using ReadMap = tl::expected<SavedMap, std::string>;
+
+/// From a tree without labels and objects, fully expanded.
+ReadMap saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config);
+/// From what to_bytes() gave: with labels, objects and the direction of gravity.
+ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config);
+
+/// The map with all that further keyframes need of it; not the keyframes.
+/// @param up  unit vector against gravity in the map frame.
+map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up);
+
+}  // namespace rds::mapper

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "services/mapper/core/objects/object_extent.hpp"
+#include "services/mapper/core/pipeline.hpp"
+
+namespace rds::mapper {
+
+/// The map as it stands.
+struct SemanticMap {
+  SemanticMap(const MapperConfig& config, std::uint64_t map_epoch)
+      : epoch(map_epoch), content(std::make_unique<Map>(config)) {}
+
+  std::uint64_t epoch;
+  std::uint64_t revision = 0;  // 0: the empty map, which is never published
+  LabelTable labels;
+  std::unique_ptr<Map> content;
+
+  [[nodiscard]] const octomap::ColorOcTree& tree() const { return content->octree.tree(); }
+  [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const {
+    return content->octree.label(key);
+  }
+  /// Objects seen often and surely enough, with the extent of their voxels.
+  [[nodiscard]] std::vector<MapObject> objects() const {
+    auto objects = content->objects.objects();
+    fit_to_voxels(objects, content->octree, labels);
+    return objects;
+  }
+};
+
+}  // namespace rds::mapper

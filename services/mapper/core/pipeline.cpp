@@ -42,7 +42,7 @@ void update_map(const KeyframeRecord& record, const SceneHistory& history, const
 void add_saved_surfaces(Map& map) {
   const auto& tree = map.octree.tree();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) map.history.statics.add_saved(leaf.getKey());
+    if (tree.isNodeOccupied(*leaf)) map.history.statics.know(leaf.getKey());
 }
 
 }  // namespace rds::mapper

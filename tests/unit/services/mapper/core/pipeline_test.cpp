@@ -116,7 +116,7 @@ TEST(Pipeline, WhatIsFlushWithAWallIsAnObjectOnlyByAHighScore) {
     return record_of(
                SyntheticKeyframe(0).rectangle(poster, depth_m).box("tvmonitor", poster, false, score).make(),
                labels)
-        .sightings.size();
+        .objects.sightings.size();
   };
   EXPECT_EQ(sightings(2.97, 0.65F), 0U);
   EXPECT_EQ(sightings(2.97, 0.75F), 1U);

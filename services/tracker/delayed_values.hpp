@@ -18,7 +18,7 @@ namespace rds::tracker {
 template <class T>
 class DelayedValues {
  public:
-  /// When kMaxWaiting questions wait, the oldest is given up and counted: nobody answers.
+  /// When kMaxWaiting questions wait, the oldest is given up and counted.
   void ask(std::uint64_t key, std::uint64_t due_frame) {
     waiting_.push_back({key, due_frame, std::nullopt});
     if (waiting_.size() <= kMaxWaiting) return;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/keyframe_answers.hpp"
 
+#include <chrono>
+
+#include <spdlog/spdlog.h>
+
 #include "common/messages/conversions.hpp"
 #include "common/topics/topics.hpp"
 
@@ -10,13 +14,15 @@ constexpr std::size_t kMaxAnswers = 100;
 }
 
 KeyframeAnswers::KeyframeAnswers(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-                                 const LockstepConfig& lockstep)
+                                 const LockstepConfig& lockstep, int mapping_nice)
     : diagnostics_(context.diagnostics),
+      mailbox_(mailbox),
       loop_closer_(context.bus),
       lockstep_(lockstep),
       boxes_inbox_(mailbox, kMaxAnswers),
       poses_inbox_(mailbox, kMaxAnswers),
-      mapping_inbox_(mailbox, 2) {}
+      mapping_inbox_(mailbox, 2),
+      mapping_worker_(mapping_nice, mapping_inbox_) {}
 
 bool KeyframeAnswers::locked_ready() const {
   return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
@@ -52,15 +58,29 @@ void KeyframeAnswers::ask_for_boxes(std::int64_t stamp_ns, const KeyframeSnapsho
 }
 
 void KeyframeAnswers::ask_for_poses(std::uint64_t keyframe, std::uint64_t frame) {
-  poses_.ask(keyframe, frame + lockstep_.loop_latency_frames);
+  poses_.ask(keyframe, frame + kPosesAfter);
 }
 
-void KeyframeAnswers::ask_for_mapping(std::uint64_t keyframe, std::uint64_t frame) {
-  mappings_.ask(keyframe, frame + lockstep_.mapping_latency_frames);
+void KeyframeAnswers::ask_for_mapping(LocalMappingJob job, std::uint64_t frame) {
+  mappings_.ask(job.keyframe, frame + kMappingAfter);
+  mapping_worker_.start(std::move(job));
 }
 
-bool KeyframeAnswers::complete(std::uint64_t frame) const {
-  return boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame);
+void KeyframeAnswers::await(std::uint64_t frame, std::uint64_t map_epoch, const std::stop_token& stop,
+                            const std::function<void()>& beat) {
+  using Clock = std::chrono::steady_clock;
+  if (!lockstep_.enabled) return;
+  const auto deadline = Clock::now() + std::chrono::duration<double>(lockstep_.timeout_s);
+  while (!stop.stop_requested()) {
+    beat();
+    sort_in(map_epoch);
+    if (boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame)) return;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) break;
+    mailbox_.wait_for(stop, left, [this] { return locked_ready(); });
+  }
+  ++diagnostics_.counter("lockstep timeouts");
+  spdlog::warn("frame {} goes on without an answer it waited {} s for", frame, lockstep_.timeout_s);
 }
 
 bool KeyframeAnswers::empty() const {

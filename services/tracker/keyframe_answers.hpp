@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
@@ -13,18 +15,17 @@
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
-#include "services/tracker/core/mapping/local_mapping.hpp"
 #include "services/tracker/delayed_values.hpp"
+#include "services/tracker/mapping_worker.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::tracker {
 
-/// What late boxes of a keyframe need.
+/// A keyframe when it was made; its boxes are lifted into the map with this pose.
 struct KeyframeSnapshot {
   std::uint64_t id;
-  geometry::Pose
-      camera_from_map;  // when the keyframe was made: with this pose its boxes were lifted into the map
+  geometry::Pose camera_from_map;
   geometry::CameraModel camera;
 };
 
@@ -36,12 +37,17 @@ class KeyframeAnswers {
   using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
   using Poses = std::shared_ptr<const rds_msgs::msg::KeyFramePoses>;
 
+  /// In lockstep a keyframe's answers take effect so many frames after its own.
+  static constexpr std::uint64_t kMappingAfter = 3;
+  static constexpr std::uint64_t kPosesAfter = 10;
+
+  /// @param mailbox       that the worker waits on.
+  /// @param mapping_nice  by how much local mapping's thread gives way to others.
   KeyframeAnswers(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-                  const LockstepConfig& lockstep);
+                  const LockstepConfig& lockstep, int mapping_nice);
 
   void push(Boxes boxes) { boxes_inbox_.push(std::move(boxes)); }
   void push(Poses poses) { poses_inbox_.push(std::move(poses)); }
-  concurrency::Inbox<LocalMappingResult>& mapping_results() { return mapping_inbox_; }
   /// Whether something was pushed; for Mailbox::wait's condition only.
   [[nodiscard]] bool locked_ready() const;
   /// Gives what was pushed to the keyframes that asked for it; refuses poses of other map epochs.
@@ -49,10 +55,12 @@ class KeyframeAnswers {
 
   void ask_for_boxes(std::int64_t stamp_ns, const KeyframeSnapshot& snapshot, std::uint64_t frame);
   void ask_for_poses(std::uint64_t keyframe, std::uint64_t frame);
-  void ask_for_mapping(std::uint64_t keyframe, std::uint64_t frame);
+  void ask_for_mapping(LocalMappingJob job, std::uint64_t frame);
 
-  /// Whether all that takes effect at this frame is here.
-  [[nodiscard]] bool complete(std::uint64_t frame) const;
+  /// In lockstep: waits until all that takes effect at this frame is here, as long as the settings allow.
+  /// @param beat  called now and then meanwhile.
+  void await(std::uint64_t frame, std::uint64_t map_epoch, const std::stop_token& stop,
+             const std::function<void()>& beat);
   /// Whether nothing is asked for.
   [[nodiscard]] bool empty() const;
   [[nodiscard]] bool is_mapping() const { return !mappings_.empty(); }
@@ -74,6 +82,7 @@ class KeyframeAnswers {
   }
 
   service::Diagnostics& diagnostics_;
+  concurrency::Mailbox& mailbox_;
   service::FollowedWriter loop_closer_;
   LockstepConfig lockstep_;
   concurrency::Inbox<Boxes> boxes_inbox_;
@@ -83,6 +92,7 @@ class KeyframeAnswers {
   DelayedValues<Poses> poses_;                          // by keyframe id
   DelayedValues<LocalMappingResult> mappings_;          // by keyframe id; at most one
   std::map<std::int64_t, KeyframeSnapshot> snapshots_;  // by stamp, of keyframes whose boxes have not come
+  MappingWorker mapping_worker_;                        // last: it fills mapping_inbox_
 };
 
 }  // namespace rds::tracker

@@ -15,9 +15,8 @@ class MappingWorker {
  public:
   /// @param nice     by how much the thread gives way to others.
   /// @param results  gets the result of every job.
-  MappingWorker(const LocalMappingConfig& config, int nice, concurrency::Inbox<LocalMappingResult>& results)
-      : config_(config),
-        nice_(nice),
+  MappingWorker(int nice, concurrency::Inbox<LocalMappingResult>& results)
+      : nice_(nice),
         results_(results),
         jobs_(mailbox_, 1),
         thread_([this](const std::stop_token& s) { run(s); }) {}
@@ -28,10 +27,9 @@ class MappingWorker {
   void run(const std::stop_token& stop) {
     concurrency::give_way(nice_);
     while (mailbox_.wait(stop, [this] { return !jobs_.locked_empty(); }))
-      if (const auto job = jobs_.try_pop()) results_.push(run_local_mapping(*job, config_));
+      if (const auto job = jobs_.try_pop()) results_.push(run_local_mapping(*job));
   }
 
-  LocalMappingConfig config_;
   int nice_;
   concurrency::Inbox<LocalMappingResult>& results_;
   concurrency::Mailbox mailbox_;

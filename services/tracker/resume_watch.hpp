@@ -25,6 +25,7 @@ class ResumeWatch {
     last_ns_.reset();
   }
   [[nodiscard]] bool is_looking() const { return is_looking_; }
+  [[nodiscard]] double patience_s() const { return patience_s_; }
 
   /// The next frame. @param is_usable  shows enough to be found by. @return true if the map is to be given
   /// up.

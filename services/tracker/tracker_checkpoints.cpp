@@ -33,8 +33,8 @@ tl::expected<TrackerCheckpoints::Epoch, std::string> epoch_from(std::span<const 
 
 }  // namespace
 
-tl::expected<std::optional<TrackerCheckpoints::Epoch>, std::string> TrackerCheckpoints::restore(std::uint64_t start,
-                                                                                        Tracker& tracker) {
+tl::expected<std::optional<TrackerCheckpoints::Epoch>, std::string> TrackerCheckpoints::restore(
+    std::uint64_t start, Tracker& tracker) {
   const auto row = writer_ ? writer_->get(kEpoch, 0) : std::nullopt;
   if (!row) return std::nullopt;
   const auto epoch = epoch_from(*row);
@@ -43,7 +43,7 @@ tl::expected<std::optional<TrackerCheckpoints::Epoch>, std::string> TrackerCheck
   const auto resumed = tracker.resume(
       [this](const std::string& kind, const VisitRow& visit) { return writer_->for_each(kind, visit); });
   if (!resumed) return tl::unexpected(resumed.error());
-  if (tracker.map().keyframes() == 0) return std::nullopt;
+  if (tracker.map().keyframes().size() == 0) return std::nullopt;
   return *epoch;
 }
 

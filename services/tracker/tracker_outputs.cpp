@@ -1,32 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/tracker_outputs.hpp"
 
+#include <algorithm>
+
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/topics/endpoints.hpp"
-#include "services/tracker/keyframe_message.hpp"
 
 namespace rds::tracker {
 namespace {
 
 const std::string kMap = "map";
-const std::string kOdom = "odom";
 const std::string kCamera = "camera_color_optical_frame";
-
-geometry_msgs::msg::TransformStamped transform(std::int64_t stamp_ns, const std::string& parent,
-                                               const std::string& child,
-                                               const geometry::Pose& parent_from_child) {
-  geometry_msgs::msg::TransformStamped message;
-  message.header(messages::make_header(stamp_ns, parent));
-  message.child_frame_id(child);
-  message.transform(messages::to_transform_message(parent_from_child));
-  return message;
-}
 
 /// A mono8 image of the mask's cells, without pixels if nothing is movable.
 sensor_msgs::msg::Image movable_cells(const MovableMask& movable, const std_msgs::msg::Header& header) {
   return messages::to_image_message(movable.any() ? movable.cells() : cv::Mat1b(), header);
+}
+
+void fill(rds_msgs::msg::KeyFrameFeatures& message, const KeyframeData& keyframe) {
+  message.keyframe_id(keyframe.id);
+  message.map_from_camera(messages::to_pose_message(keyframe.map_from_camera));
+  const std::size_t count = keyframe.features.size();
+  message.keypoints().reserve(4 * count);
+  message.points().reserve(3 * count);
+  message.descriptors().reserve(32 * count);
+  for (const KeyframeFeature& f : keyframe.features) {
+    const Feature& feature = f.feature;
+    message.keypoints().insert(
+        message.keypoints().end(),
+        {feature.px.x(), feature.px.y(), static_cast<float>(feature.level), feature.angle_rad});
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(feature.descriptor.data());
+    message.descriptors().insert(message.descriptors().end(), bytes, bytes + 32);
+    message.points().insert(message.points().end(), f.point_in_camera.data(), f.point_in_camera.data() + 3);
+    message.map_point_ids().push_back(f.map_point_id);
+    message.movable().push_back(feature.movable ? 1 : 0);
+  }
+  for (const CovisiblePose& covisible : keyframe.covisible) {
+    message.covisible_keyframes().push_back(covisible.id);
+    message.covisible_weights().push_back(static_cast<std::uint32_t>(covisible.weight));
+    messages::append_pose(covisible.map_from_camera, message.covisible_poses());
+  }
 }
 
 void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
@@ -38,8 +53,7 @@ void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
 TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch)
     : instance_(context.instance),
       map_epoch_(map_epoch),
-      odometry_(topics::advertise(context.bus, topics::kOdometry, topics::kTracker)),
-      tf_(topics::advertise(context.bus, topics::kTransforms, topics::kTracker)),
+      odometry_(context.bus),
       state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
       boxes_(topics::advertise(context.bus, topics::kPredictedBoxes, topics::kTracker)),
       features_(topics::advertise(context.bus, topics::kFeatures, topics::kTracker)),
@@ -51,49 +65,36 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   pose_changes_.clear();
-  map_from_odom_ = geometry::Pose::Identity();
-}
-
-void TrackerOutputs::move_map(const geometry::Pose& corrected_map_from_map) {
-  map_from_odom_ = corrected_map_from_map * map_from_odom_;
+  odometry_.reset();
 }
 
 bool TrackerOutputs::has_new_reader() {
   const int readers = keyframe_poses_.matched();
-  const bool more = readers > pose_readers_;
-  pose_readers_ = readers;
-  reader_waits_ |= more;
-  return more;
+  informed_readers_ = std::min(informed_readers_, readers);
+  return readers > informed_readers_;
 }
 
 void TrackerOutputs::publish(const FrameReport& report) {
-  if (has_pose(report.result.state)) publish_pose(report);
+  if (has_pose(report.result.state)) odometry_.publish(report.frame.stamp_ns, report.result.map_from_camera);
   publish_boxes(report);
   publish_features(report);
   if (report.result.keyframe) publish_keyframe(report);
   publish_state(report);
 }
 
-void TrackerOutputs::publish_pose(const FrameReport& report) {
-  const std::int64_t stamp = report.frame.stamp_ns;
-  const geometry::Pose odom_from_camera = map_from_odom_.inverse() * report.result.map_from_camera;
-  nav_msgs::msg::Odometry odometry;
-  odometry.header(messages::make_header(stamp, kOdom));
-  odometry.child_frame_id(kCamera);
-  odometry.pose().pose(messages::to_pose_message(odom_from_camera));
-  odometry_.write(odometry);
-  tf2_msgs::msg::TFMessage tf;
-  tf.transforms().push_back(transform(stamp, kMap, kOdom, map_from_odom_));
-  tf.transforms().push_back(transform(stamp, kOdom, kCamera, odom_from_camera));
-  tf_.write(tf);
-}
-
-void TrackerOutputs::publish_boxes(const FrameReport& report) {
-  rds_msgs::msg::PredictedBoxes message;
-  message.header(messages::make_header(report.frame.stamp_ns, kMap));
+/// A message about a frame. @param frame_id  that it is in.
+template <class Message>
+Message TrackerOutputs::about(const FrameReport& report, const std::string& frame_id) const {
+  Message message;
+  message.header(messages::make_header(report.frame.stamp_ns, frame_id));
   message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.frame_index(report.frame_index);
+  return message;
+}
+
+void TrackerOutputs::publish_boxes(const FrameReport& report) {
+  auto message = about<rds_msgs::msg::PredictedBoxes>(report, kMap);
   for (const auto& [object, box] : report.objects) {
     const geometry::Box3 volume = object.box.axis_aligned_hull();
     message.ids().push_back(object.id);
@@ -112,11 +113,7 @@ void TrackerOutputs::publish_boxes(const FrameReport& report) {
 
 void TrackerOutputs::publish_features(const FrameReport& report) {
   if (features_.matched() == 0) return;
-  rds_msgs::msg::FrameFeatures message;
-  message.header(messages::make_header(report.frame.stamp_ns, kCamera));
-  message.instance(instance_);
-  message.map_epoch(map_epoch_);
-  message.frame_index(report.frame_index);
+  auto message = about<rds_msgs::msg::FrameFeatures>(report, kCamera);
   message.positions().reserve(2 * report.result.verdicts.size());
   for (const KeypointVerdict& verdict : report.result.verdicts) {
     message.positions().push_back(verdict.image_px.x());
@@ -129,37 +126,25 @@ void TrackerOutputs::publish_features(const FrameReport& report) {
 
 void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   const KeyframeData& keyframe = *report.result.keyframe;
-  const auto header = messages::make_header(keyframe.stamp_ns, kCamera);
-  rds_msgs::msg::KeyFrameImages images;
-  images.header(header);
-  images.instance(instance_);
-  images.map_epoch(map_epoch_);
+  auto images = about<rds_msgs::msg::KeyFrameImages>(report, kCamera);
   images.keyframe_id(keyframe.id);
-  images.frame_index(report.frame_index);
   images.map_from_camera(messages::to_pose_message(keyframe.map_from_camera));
-  images.camera_info(messages::to_camera_info(report.frame.camera, header));
-  images.color(messages::to_image_message(report.frame.color, header));
-  images.depth(messages::to_image_message(report.frame.depth, header));
-  images.movable(movable_cells(report.result.movable, header));
+  images.camera_info(messages::to_camera_info(report.frame.camera, images.header()));
+  images.color(messages::to_image_message(report.frame.color, images.header()));
+  images.depth(messages::to_image_message(report.frame.depth, images.header()));
+  images.movable(movable_cells(report.result.movable, images.header()));
   keyframe_images_.write(images);
   sharing_.share(std::move(images));
   if (!keyframe.in_map) return;
-  rds_msgs::msg::KeyFrameFeatures features = to_message(keyframe);
-  features.header(header);
-  features.instance(instance_);
-  features.map_epoch(map_epoch_);
-  features.frame_index(report.frame_index);
+  auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, kCamera);
+  fill(features, keyframe);
   keyframe_features_.write(features);
   sharing_.share(std::move(features));
 }
 
 void TrackerOutputs::publish_state(const FrameReport& report) {
   const FrameResult& result = report.result;
-  rds_msgs::msg::TrackingState message;
-  message.header(messages::make_header(report.frame.stamp_ns, kMap));
-  message.instance(instance_);
-  message.map_epoch(map_epoch_);
-  message.frame_index(report.frame_index);
+  auto message = about<rds_msgs::msg::TrackingState>(report, kMap);
   message.state(static_cast<std::uint8_t>(result.state));
   message.features(result.features);
   message.dynamic_features(result.dynamic_features);
@@ -189,8 +174,9 @@ std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses,
   message.loop_revision(loops.revision);
   message.loops_closed(loops.loops_closed);
   if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
-  const bool somebody_new = has_new_reader() || std::exchange(reader_waits_, false);
-  messages::append_poses(pose_changes_.next(poses, somebody_new || exact, message), message);
+  const bool has_new = has_new_reader();
+  informed_readers_ = keyframe_poses_.matched();
+  messages::append_poses(pose_changes_.next(poses, has_new || exact, message), message);
   keyframe_poses_.write(message);
   return pose_changes_.revision();
 }

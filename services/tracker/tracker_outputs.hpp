@@ -10,7 +10,6 @@
 #include "common/keyframe_transfer/keyframe_sharing.hpp"
 #include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/service.hpp"
-#include "nav_msgs/msg/Odometry.h"
 #include "rds_msgs/msg/FrameFeatures.h"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFrameImages.h"
@@ -19,7 +18,7 @@
 #include "rds_msgs/msg/TrackingState.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
-#include "tf2_msgs/msg/TFMessage.h"
+#include "services/tracker/odometry_output.hpp"
 
 namespace rds::tracker {
 
@@ -42,7 +41,7 @@ struct LoopState {
   std::uint32_t loops_closed = 0;
 };
 
-/// All topics that the tracker writes. Keeps odom: odom→camera is continuous, map→odom takes the jumps.
+/// All topics that the tracker writes.
 class TrackerOutputs {
  public:
   TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch);
@@ -56,16 +55,15 @@ class TrackerOutputs {
   std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,
                               bool exact = false);
 
-  /// True once after somebody new has subscribed to the poses: he waits for all of them.
+  /// True while a new subscriber to the poses has not got all of them.
   bool has_new_reader();
 
-  /// The map moved under the camera: the next frame's map→odom takes the jump.
-  void move_map(const geometry::Pose& corrected_map_from_map);
-
+  OdometryOutput& odometry() { return odometry_; }
   void set_epoch(std::uint64_t map_epoch);
 
  private:
-  void publish_pose(const FrameReport& report);
+  template <class Message>
+  [[nodiscard]] Message about(const FrameReport& report, const std::string& frame_id) const;
   void publish_boxes(const FrameReport& report);
   void publish_features(const FrameReport& report);
   void publish_keyframe(const FrameReport& report);
@@ -74,11 +72,8 @@ class TrackerOutputs {
   std::uint64_t instance_;
   std::uint64_t map_epoch_;
   messages::KeyframePoseChanges pose_changes_;
-  int pose_readers_ = 0;
-  bool reader_waits_ = false;
-  geometry::Pose map_from_odom_ = geometry::Pose::Identity();
-  bus::Publisher<nav_msgs::msg::Odometry> odometry_;
-  bus::Publisher<tf2_msgs::msg::TFMessage> tf_;
+  int informed_readers_ = 0;  // subscribers that have got all poses
+  OdometryOutput odometry_;
   bus::Publisher<rds_msgs::msg::TrackingState> state_;
   bus::Publisher<rds_msgs::msg::PredictedBoxes> boxes_;
   bus::Publisher<rds_msgs::msg::FrameFeatures> features_;

@@ -2,22 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
+#include <stop_token>
+#include <vector>
 
-#include <tl/expected.hpp>
-
-#include "common/concurrency/parallel_for.hpp"
 #include "common/map_commands/map_commands.hpp"
 #include "common/service/service.hpp"
-#include "common/time/stamp_watch.hpp"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/frame_input.hpp"
 #include "services/tracker/keyframe_answers.hpp"
-#include "services/tracker/mapping_worker.hpp"
-#include "services/tracker/resume_watch.hpp"
-#include "services/tracker/tracker_checkpoints.hpp"
+#include "services/tracker/map_epoch.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 
@@ -29,7 +23,7 @@ class TrackerService : public service::Service {
   TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config);
   void run(const std::stop_token& stop) override;
   /// Hands over what is to last.
-  void close() override { save_checkpoint(); }
+  void close() override { epoch_.save(); }
 
  protected:
   bool begin(const service::PendingCommand& command) override;
@@ -41,11 +35,9 @@ class TrackerService : public service::Service {
   using PosesMessage = KeyframeAnswers::Poses;
 
   void take(const image::RgbdFrame& frame);
-  void drop(const image::RgbdFrame& frame);
-  void acknowledge(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
-  void await_answers();
+  void acknowledge(const image::RgbdFrame& frame);
   void apply_answers();
   void apply(const BoxesMessage& boxes);
   void apply(const PosesMessage& poses);
@@ -53,37 +45,22 @@ class TrackerService : public service::Service {
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
   void publish_poses();
-  void reset();
-  void start_map();
-  void go_on_from_checkpoint();
-  void save_checkpoint();
-  void give_up_where_lost(const image::RgbdFrame& frame, const FrameResult& result);
-  [[nodiscard]] map_file::MapPart map_part() const;
-  void load(const service::PendingCommand& command);
+  service::CommandOutcome reset();
+  service::CommandOutcome begin_epoch();
   service::CommandOutcome finish();
 
   TrackerServiceConfig config_;
   std::stop_token stop_;
-  std::uint64_t map_epoch_;
-  concurrency::ParallelFor parallel_for_;  // of the worker
   Tracker tracker_;
-  std::optional<SavedMap> start_;     // the saved map that every map epoch begins with
-  std::uint64_t start_checksum_ = 0;  // of the one that the settings name
-  TrackerCheckpoints checkpoints_;
-  ResumeWatch resume_;
+  MapEpoch epoch_;
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;
-  time::StampWatch stamps_;  // of frames
   KeyframeAnswers answers_;
   std::uint64_t frame_index_ = 0;
-  std::uint64_t box_sets_used_ = 0;
-  LoopState loops_;
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
-  MappingWorker mapping_worker_;
-  bus::Subscription boxes_subscription_;
-  bus::Subscription poses_subscription_;
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };
 
 }  // namespace rds::tracker

@@ -16,10 +16,6 @@ void read(config::ConfigReader& reader, LockstepConfig& config) {
   reader.value("lockstep", config.enabled);
   reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1},
                std::uint64_t{100}, "frames");
-  reader.value("mapping_latency_frames", config.mapping_latency_frames, std::uint64_t{1}, std::uint64_t{100},
-               "frames");
-  reader.value("loop_latency_frames", config.loop_latency_frames, std::uint64_t{1}, std::uint64_t{1000},
-               "frames");
   reader.value("lockstep_timeout_s", config.timeout_s, 0.1, 600.0, "s");
 }
 
@@ -45,7 +41,7 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
     reader.violation("localize_only", "true", "expected a map_file to localise in");
   read(reader.section("prediction"), config.prediction);
   labels::read(reader, config.prediction.labels);
-  if (config.lockstep.enabled) config.tracker.map.pose_only_s = 0;  // a run ends, and is the same every time
+  config.tracker.keep_all_poses = config.lockstep.enabled;  // a run ends
   if (!config.dynamics) config.tracker.removal.method = "off";
 }
 

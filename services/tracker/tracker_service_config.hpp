@@ -7,8 +7,8 @@
 #include "common/config/config_reader.hpp"
 #include "common/store/maps_folder.hpp"
 #include "common/topics/topics.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
-#include "services/tracker/core/tracker_config.hpp"
 
 namespace rds::tracker {
 
@@ -23,13 +23,11 @@ struct CameraTopics {
   bool operator==(const CameraTopics&) const = default;
 };
 
-/// When answers of other threads and processes take effect (architecture, "Lockstep, not luck").
+/// When answers of other threads and processes take effect.
 struct LockstepConfig {
-  bool enabled = false;                        // otherwise whatever has arrived is used
+  bool enabled = false;   // at the frames that KeyframeAnswers names; otherwise as soon as they have arrived
   std::uint64_t detection_latency_frames = 2;  // boxes of keyframe k take effect at frame k + this
-  std::uint64_t mapping_latency_frames = 3;    // local mapping of keyframe k likewise
-  std::uint64_t loop_latency_frames = 10;      // the loop closer's answer to keyframe k likewise
-  double timeout_s = 10;                       // then a frame goes on without the answer
+  double timeout_s = 10;  // then a frame goes on without the answer
 
   bool operator==(const LockstepConfig&) const = default;
 };

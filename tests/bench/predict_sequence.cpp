@@ -112,10 +112,10 @@ void run(const Options& options) {
     const auto camera_from_map = geometry::interpolate(*dataset.ground_truth(), frame.stamp_ns).inverse();
     json boxes = json::array();
     for (const PredictedObject& object : predictor.predict(frame.stamp_ns))
-      if (const auto seen = to_image(object, camera_from_map, dataset.camera()))
+      if (const auto seen = to_image(object.box, camera_from_map, dataset.camera()))
         boxes.push_back(to_json(
             object,
-            with_reach(seen->box, object.movable ? predictor.config().reach_share : 0, dataset.camera())));
+            with_reach(seen->box, object.movable ? kReachShare : 0, dataset.camera())));
     out << json{{"stamp", geometry::stamp_seconds(frame.stamp_ns)}, {"boxes", boxes}} << '\n';
   }
 }

@@ -47,7 +47,7 @@ void predict_frame(benchmark::State& state, const char* algorithm) {
   const rds::geometry::CameraModel camera = view().camera;
   for (auto _ : state)
     for (const PredictedObject& object : predictor.predict(9 * kKeyframePeriodNs + kKeyframePeriodNs / 2))
-      benchmark::DoNotOptimize(to_image(object, camera_from_map, camera));
+      benchmark::DoNotOptimize(to_image(object.box, camera_from_map, camera));
 }
 
 void update_keyframe(benchmark::State& state, const char* algorithm) {

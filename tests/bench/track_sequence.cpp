@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/config/config_reader.hpp"
 #include "tests/support/tracker_sequence.hpp"
 
 namespace {
@@ -37,7 +38,7 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
   fmt::print(
       "frames {} with pose {} keyframes made {} kept {} points {} readout {:.1f} ms focal length x {:.4f} "
       "states",
-      times.total.size(), sequence.live().size(), sequence.keyframes_made(), map.keyframes(), map.points(),
+      times.total.size(), sequence.live().size(), sequence.keyframes_made(), map.keyframes().size(), map.points().size(),
       1e3 * sequence.tracker().calibration().readout_s(), sequence.tracker().calibration().focal_scale());
   for (const auto& [state, count] : sequence.frames_by_state()) fmt::print(" {}:{}", state, count);
   fmt::print(

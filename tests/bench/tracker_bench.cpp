@@ -47,8 +47,7 @@ void sparse_alignment(benchmark::State& state) {
     for (std::size_t i = 0; i < s.last_followed.points.size(); ++i)
       if (const MapPoint* p = s.map->point(s.last_followed.points[i]))
         seen.push_back({(*s.last_followed.features)[i].image_px, s.last_camera_from_map * p->position});
-    return align_sparsely(*s.last_images, seen, *s.next_images, s.next.camera, Pose::Identity(),
-                          s.config.following);
+    return align_sparsely(*s.last_images, seen, *s.next_images, s.next.camera, Pose::Identity());
   });
 }
 BENCHMARK(sparse_alignment)->Unit(benchmark::kMicrosecond);
@@ -60,7 +59,7 @@ BENCHMARK(point_following)->Unit(benchmark::kMicrosecond);
 
 void point_following_with_helper(benchmark::State& state) {
   concurrency::ParallelFor helper;
-  const ParallelFor on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
+  const Executor on_both = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   measure(state, [&](Scene& s) { return s.follow(s.points, s.next, *s.next_images, on_both); });
 }
 BENCHMARK(point_following_with_helper)->Unit(benchmark::kMicrosecond)->UseRealTime();
@@ -73,7 +72,7 @@ void feature_alignment_of_a_point(benchmark::State& state) {
     warp.reference = s.last_images.get();
     warp.reference_px = f.image_px;
     warp.scale = s.pyramid.scale(f.level);
-    return align_feature(warp, *s.next_images, f.image_px, s.config.following.max_shift_px);
+    return align_feature(warp, *s.next_images, f.image_px, 3);
   });
 }
 BENCHMARK(feature_alignment_of_a_point)->Unit(benchmark::kMicrosecond);
@@ -81,7 +80,7 @@ BENCHMARK(feature_alignment_of_a_point)->Unit(benchmark::kMicrosecond);
 void pose_optimisation(benchmark::State& state) {
   measure(state, [](Scene& s) {
     TrackedFrame frame = s.next_followed;
-    return optimize_frame(*s.map, s.model, s.pyramid, s.config.pose, frame);
+    return optimize_frame(*s.map, s.model, s.pyramid, frame);
   });
 }
 BENCHMARK(pose_optimisation)->Unit(benchmark::kMicrosecond);
@@ -89,8 +88,7 @@ BENCHMARK(pose_optimisation)->Unit(benchmark::kMicrosecond);
 void association_with_local_map(benchmark::State& state) {
   measure(state, [](Scene& s) {
     TrackedFrame frame = s.extracted;
-    return match_points(*s.map, s.points, s.model, s.pyramid, s.config.matching,
-                        s.config.matching.map_window_factor, frame)
+    return match_points(*s.map, s.points, s.model, s.pyramid, FeatureTracker::kUsualWindow, frame)
         .found;
   });
 }
@@ -99,21 +97,20 @@ BENCHMARK(association_with_local_map)->Unit(benchmark::kMicrosecond);
 void local_map_selection(benchmark::State& state) {
   std::uint64_t mark = 2'000'000'000;
   measure(state,
-          [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, s.config.map, ++mark); });
+          [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, ++mark); });
 }
 BENCHMARK(local_map_selection)->Unit(benchmark::kMicrosecond);
 
 void keyframe_insertion(benchmark::State& state) {
   measure_on_copy(
-      state, [](Scene& s, SlamMap& map) { insert_keyframe(map, s.extracted, s.config.depth, s.config.map); });
+      state, [](Scene& s, SlamMap& map) { insert_keyframe(map, s.extracted, s.config.depth); });
 }
 BENCHMARK(keyframe_insertion)->Unit(benchmark::kMicrosecond);
 
 LocalMappingJob job_of(Scene& s) {
-  LocalMappingJob job = make_mapping_job(*s.map, s.newest, s.config.local_mapping);
+  LocalMappingJob job = make_mapping_job(*s.map, s.newest);
   job.pyramid = s.pyramid;
   job.depth = s.config.depth;
-  job.robust = s.config.pose;
   return job;
 }
 
@@ -123,7 +120,7 @@ void mapping_job(benchmark::State& state) {
 BENCHMARK(mapping_job)->Unit(benchmark::kMicrosecond);
 
 void local_mapping(benchmark::State& state) {
-  measure(state, [](Scene& s) { return run_local_mapping(job_of(s), s.config.local_mapping); });
+  measure(state, [](Scene& s) { return run_local_mapping(job_of(s)); });
 }
 BENCHMARK(local_mapping)->Unit(benchmark::kMicrosecond);
 
@@ -132,7 +129,7 @@ void mapping_result(benchmark::State& state) {
   measure_on_copy(state, [&](Scene& s, SlamMap& map) {
     if (!result) {
       state.PauseTiming();
-      result = run_local_mapping(job_of(s), s.config.local_mapping);
+      result = run_local_mapping(job_of(s));
       state.ResumeTiming();
     }
     apply_mapping_result(map, *result);
@@ -146,13 +143,13 @@ void place_query(benchmark::State& state) {
 BENCHMARK(place_query)->Unit(benchmark::kMicrosecond);
 
 void relocalisation_by_a_keyframe(benchmark::State& state) {
-  Relocalizer relocalizer{RelocalizationConfig{}};
+  Relocalizer relocalizer;
   measure(state, [&](Scene& s) {
     if (relocalizer.places() == 0) {
       relocalizer.add(s.newest);
       relocalizer.index_pending(*s.map);
     }
-    const PoseSettings settings{s.pyramid, s.config.depth, s.config.matching, s.config.pose, s.config.map};
+    const PoseSettings settings{s.pyramid, s.config.depth};
     const TrackingContext context{*s.map, settings, s.next, s.model, {}, {}};
     TrackedFrame frame = s.extracted;
     return relocalizer.localize(context, frame);

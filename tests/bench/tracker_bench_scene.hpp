@@ -10,6 +10,8 @@
 
 #include "services/tracker/core/features/orb_extractor.hpp"
 #include "services/tracker/core/map/local_map.hpp"
+#include "services/tracker/core/pose/feature_tracker.hpp"
+#include "services/tracker/core/pose/sparse_image_alignment.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
 #include "tests/support/tracker_sequence.hpp"
 
@@ -39,16 +41,16 @@ struct Scene {
     for (std::size_t i = 0; i < kFramesBefore; ++i) sequence.step(i);
     map = std::make_unique<SlamMap>(sequence.tracker().map());
     last_camera_from_map = sequence.live().back().map_from_camera.inverse();
-    map->all_keyframes().for_each([&](const Keyframe& k) {
+    map->keyframes().for_each([&](const Keyframe& k) {
       newest = k.id;
       places.add(k.id, static_descriptors(*k.features));
     });
     last_images = pyramid_of(last);
     next_images = pyramid_of(next);
     std::vector<PointId> all;
-    map->all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
+    map->points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
     last_followed = followed(follow(all, last, *last_images), last);
-    local = select_local_map(*map, last_followed.points, config.map, 1'000'000'000);
+    local = select_local_map(*map, last_followed.points, 1'000'000'000);
     points = last_followed.points;
     points.insert(points.end(), local.points.begin(), local.points.end());
     next_followed = followed(follow(points, next, *next_images), next);
@@ -58,14 +60,14 @@ struct Scene {
   static std::shared_ptr<const ImagePyramid> pyramid_of(const image::RgbdFrame& frame) {
     cv::Mat gray;
     frame.color.to_gray(gray);
-    return std::make_shared<const ImagePyramid>(gray, FollowingConfig{}.coarsest_level + 1);
+    return std::make_shared<const ImagePyramid>(gray, kAlignmentLevels);
   }
 
   [[nodiscard]] FollowedPoints follow(std::span<const PointId> ids, const image::RgbdFrame& frame,
                                       const ImagePyramid& images,
-                                      const ParallelFor& parallel_for = serial_for) const {
-    return PointSearch(*map, ids, {frame, images, last_camera_from_map, {}}, model, pyramid, config.following)
-        .find({}, parallel_for);
+                                      const Executor& executor = execute_serially) const {
+    return PointSearch(*map, ids, {frame, images, last_camera_from_map, {}}, model, pyramid, config.following.points)
+        .find({}, executor);
   }
 
   [[nodiscard]] TrackedFrame frame_of(std::vector<Feature> features, const image::RgbdFrame& picture) const {

@@ -20,13 +20,13 @@ TEST(SectionReaders, SectionOfTheTracker) {
   tracker::Tracker tracker(config);
   for (int i = 0; i < 6; ++i)
     tracker.track(tracker::test::picture_of_wall(tracker::test::truth(i), i * tracker::test::kFrameNs), {});
-  const auto poses = tracker.map().keyframe_poses();
+  const auto poses = keyframe_poses(tracker.map());
   const double fx = tracker::test::small_camera().fx;
   const std::vector<Bytes> seeds{tracker::to_bytes(tracker.map(), {fx, 1}, config.extraction)};
   feed(
       2, seeds, [](std::size_t bytes) { return kMemoryOfAnEmptyMap + 32 * bytes; },
       [&](const Bytes& bytes) {
-        return tracker::map_from_bytes(bytes, poses, config.map, config.extraction).has_value();
+        return tracker::map_from_bytes(bytes, poses, config.extraction).has_value();
       });
 }
 

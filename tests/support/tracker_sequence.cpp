@@ -59,7 +59,7 @@ TrackerSequence::TrackerSequence(const TrackerSequenceOptions& options, const im
     : options_(options),
       dataset_(dataset),
       config_(config),
-      tracker_(config, {}, tracker::serial_for, now_us),
+      tracker_(config, {}, tracker::execute_serially, now_us),
       objects_({}) {
   if (!options.detections.empty()) detections_ = read_detections(options.detections);
   if (options.truth_boxes || options.late_boxes) boxes_ = read_truth_boxes(dataset.folder());
@@ -176,8 +176,8 @@ void TrackerSequence::record(std::size_t i, const tracker::FrameResult& result) 
   if (options_.verbose)
     fmt::print("{} state {} features {} dynamic {} inliers {} kf {} ref {} points {} ms {:.1f} kept {}\n", i,
                static_cast<int>(result.state), result.features, result.dynamic_features, result.inliers,
-               result.keyframe.has_value(), result.reference_keyframe_id, tracker_.map().points(),
-               times_.total.back(), tracker_.map().keyframes());
+               result.keyframe.has_value(), result.reference_keyframe_id, tracker_.map().points().size(),
+               times_.total.back(), tracker_.map().keyframes().size());
   if (options_.masks) compare_removal(i, result);
   if (!tracker::has_pose(result.state)) return;
   const auto& frame = dataset_.frames()[i];
@@ -213,7 +213,7 @@ void TrackerSequence::run_mapping(std::size_t i) {
   times_.snapshot.push_back(processor_ms() - start);
   if (!job) return;
   const auto begin = processor_ms();
-  result_ = tracker::run_local_mapping(*job, config_.local_mapping);
+  result_ = tracker::run_local_mapping(*job);
   times_.mapping.push_back(processor_ms() - begin);
   result_due_ = i + options_.mapping_latency;
 }

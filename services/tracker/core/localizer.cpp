@@ -4,48 +4,48 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/tracker/core/pose/sparse_image_alignment.hpp"
+
 namespace rds::tracker {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-constexpr double kMaxFromDepthM = 0.1;  // between the poses by depth and by points, and …
+constexpr int kMinInliersWeak = 15;      // below: lost
+constexpr double kMinFoundShare = 0.25;  // of the usual share of expected points found; below: weak
+constexpr double kWeakS = 1;             // of weak tracking in a row, then lost
+constexpr double kByDepthS = 0.5;        // of tracking by depth alone, then lost
+constexpr double kChangedShare = 0.35;   // drop of the share of expected points found that counts as a change
+constexpr double kMaxFromDepthM = 0.1;   // between the poses by depth and by points, and …
 constexpr double kMaxFromDepthRad = 0.1;
 
-PoseSettings pose_settings(const TrackerConfig& config) {
-  return {ScalePyramid(config.extraction.levels, config.extraction.scale_factor), config.depth,
-          config.matching, config.pose, config.map};
-}
-
 /// Movable objects hide what is expected; then few found points say nothing against the pose.
-bool sees_enough(const TrackedFrame& frame, const QualityConfig& quality) {
-  return frame.movable_in_view || frame.found_share >= quality.min_found_share;
+bool sees_enough(const TrackedFrame& frame) {
+  return frame.movable_in_view || frame.found_share >= kMinFoundShare;
 }
 
 }  // namespace
 
-Localizer::Localizer(const TrackerConfig& config, const ParallelFor& parallel_for, Stopwatch now_us,
+Localizer::Localizer(const TrackerConfig& config, const Executor& executor, Stopwatch now_us,
                      bool poses_are_given)
     : config_(config),
-      settings_(pose_settings(config)),
+      settings_{ScalePyramid(config.extraction.levels, config.extraction.scale_factor), config.depth},
       now_us_(std::move(now_us)),
       poses_are_given_(poses_are_given),
       follows_points_(config.following.enabled && !poses_are_given),
-      follower_(config.following, parallel_for),
-      features_(make_feature_extractor(config.extraction, parallel_for), config.relocalization.min_matches),
-      relocalizer_(config.relocalization) {}
+      follower_(config.following.points, executor),
+      features_(make_feature_extractor(config.extraction, executor)) {}
 
 void Localizer::guess(TrackingContext& context, State before) const {
   cv::Mat gray;
   context.picture.color.to_gray(gray);
-  context.frame.images =
-      std::make_shared<const ImagePyramid>(gray, follows_points_ ? follower_.pyramid_levels() : 1);
+  context.frame.images = std::make_shared<const ImagePyramid>(gray, follows_points_ ? kAlignmentLevels : 1);
   const std::optional<LastFrame>& last = features_.last();
   if (poses_are_given_ || !last || !has_pose(before)) return;
   context.guess = context.motion.camera_from_map();
   if (!follows_points_) return;
   const Pose aligned = follower_.align(context, *last);
   if (last->frame.movable_in_view && context.motion.innovation(aligned) > 1)
-    context.alignment = aligned;  // something that moves may have taken the points along
+    context.alignment = aligned;  // the points may be on something that moves
   else
     context.guess = aligned;
 }
@@ -70,7 +70,7 @@ PoseEstimate Localizer::localize(TrackingContext& context, State before, const K
   PoseEstimate estimate{std::move(followed->frame), State::kTracking, true, false, nullptr, 0};
   TrackedFrame& frame = estimate.frame;
   follower_.count_found(context.map, followed->expected, frame);
-  if (!sees_enough(frame, config_.quality) || context.motion.is_jump(frame.camera_from_map))
+  if (!sees_enough(frame) || context.motion.is_jump(frame.camera_from_map))
     return match(context, before, keyframes);
   features_.set_reference(context.local.reference);
   const double support_of_points = support(frame, context.motion);
@@ -102,7 +102,7 @@ PoseEstimate Localizer::match(const TrackingContext& context, State before,
   } else if (before == State::kNotInitialized) {
     const auto with_depth = std::ranges::count_if(
         frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
-    if (config_.localize_only || with_depth < config_.quality.min_features_to_start) return found;
+    if (config_.localize_only || with_depth < kMinFeaturesToStart) return found;
     frame.camera_from_map = Pose::Identity();
     found.state = State::kTracking;
     found.begins_map = true;
@@ -115,21 +115,20 @@ PoseEstimate Localizer::match(const TrackingContext& context, State before,
 /// By the last frame and the keyframes; where that does not do by depth, by relocalisation.
 State Localizer::estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                           TrackedFrame& frame) {
-  const QualityConfig& quality = config_.quality;
   const bool was_lost = before == State::kLost;
   const int inliers = features_.track(context, frame);
   const bool jumped = context.motion.is_jump(frame.camera_from_map);
-  if (was_lost && inliers >= relocalizer_.min_inliers()) return State::kRelocalised;
-  if (!was_lost && inliers >= quality.min_inliers && sees_enough(frame, quality))
+  if (was_lost && inliers >= Relocalizer::kMinInliers) return State::kRelocalised;
+  if (!was_lost && inliers >= kMinInliers && sees_enough(frame))
     return jumped ? State::kRelocalised : State::kTracking;
-  const auto by_depth = was_lost || context.motion.gap_s() > quality.by_depth_s
+  const auto by_depth = was_lost || context.motion.gap_s() > kByDepthS
                             ? std::nullopt
                             : depth_aligner_.estimate(context.depth, context.motion.camera_from_map());
   if (by_depth && find_near(context, *by_depth, keyframes, frame)) return State::kTracking;
   if (before != State::kWeak) weak_since_ns_ = frame.time_ns;
   const double weak_s = static_cast<double>(frame.time_ns - weak_since_ns_) / kNsPerSecond;
-  const bool weak_is_right = !was_lost && !by_depth && weak_s <= quality.weak_s && !jumped;
-  if (weak_is_right && inliers >= quality.min_inliers_weak) return State::kWeak;
+  const bool weak_is_right = !was_lost && !by_depth && weak_s <= kWeakS && !jumped;
+  if (weak_is_right && inliers >= kMinInliersWeak) return State::kWeak;
   if (relocalize(context, frame)) return State::kRelocalised;
   if (!by_depth) return State::kLost;
   frame.camera_from_map = *by_depth;
@@ -140,8 +139,8 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
 
 bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {
   if (!relocalizer_.localize(context, frame)) return false;
-  features_.refine(context, frame, settings_.matching.lost_window_factor);
-  return frame.static_matches() >= relocalizer_.min_inliers();
+  features_.refine(context, frame, FeatureTracker::kLostWindow);
+  return frame.static_matches() >= Relocalizer::kMinInliers;
 }
 
 /// Looks for the points of the map around the pose by depth. @return true if they give the pose.
@@ -154,12 +153,12 @@ bool Localizer::find_near(const TrackingContext& context, const Pose& by_depth,
   const Keyframe* keyframe = context.map.keyframe(view.keyframe);
   if (keyframe == nullptr) return false;
   Relocalizer::localize_near(context, *keyframe, found);
-  if (found.static_matches() < config_.quality.min_inliers) return false;
+  if (found.static_matches() < kMinInliers) return false;
   const Twist apart = se3_log(found.camera_from_map * by_depth.inverse());
   if (apart.head<3>().norm() > kMaxFromDepthM || apart.tail<3>().norm() > kMaxFromDepthRad) return false;
   frame = std::move(found);
   features_.refine(context, frame, 1);
-  return frame.static_matches() >= config_.quality.min_inliers;
+  return frame.static_matches() >= kMinInliers;
 }
 
 bool Localizer::match_features(const TrackingContext& context, PoseEstimate& estimate) {
@@ -175,12 +174,12 @@ bool Localizer::match_features(const TrackingContext& context, PoseEstimate& est
   features_.refine(context, matched, 1);
   const auto innovation = [&](const TrackedFrame& f) { return context.motion.innovation(f.camera_from_map); };
   if (followed.movable_in_view && innovation(matched) > std::max(1.0, innovation(followed))) {
-    at_followed_pose.pose_is_given = true;  // something that moves has taken the refined pose along
+    at_followed_pose.pose_is_given = true;  // the refined pose follows something that moves
     features_.refine(context, at_followed_pose, 1);
     matched = std::move(at_followed_pose);
     matched.pose_is_given = false;
   }
-  if (matched.static_matches() < config_.quality.min_inliers) return false;
+  if (matched.static_matches() < kMinInliers) return false;
   estimate.frame = std::move(matched);
   return true;
 }
@@ -192,8 +191,7 @@ std::int64_t Localizer::extract(const TrackingContext& context, TrackedFrame& fr
 }
 
 bool Localizer::scene_changed() {
-  return std::min(follower_.found_share().lowest(), features_.found_share().lowest()) <
-         1 - config_.keyframe.changed_share;
+  return std::min(follower_.found_share().lowest(), features_.found_share().lowest()) < 1 - kChangedShare;
 }
 
 void Localizer::begin_interval() {

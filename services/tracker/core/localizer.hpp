@@ -4,12 +4,12 @@
 #include <atomic>
 #include <memory>
 
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/mapping/keyframe_selector.hpp"
 #include "services/tracker/core/pose/depth_aligner.hpp"
 #include "services/tracker/core/pose/feature_tracker.hpp"
 #include "services/tracker/core/pose/point_follower.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
-#include "services/tracker/core/tracker_config.hpp"
 #include "services/tracker/core/tracking_types.hpp"
 
 namespace rds::tracker {
@@ -29,8 +29,7 @@ struct PoseEstimate {
 class Localizer {
  public:
   /// @param poses_are_given  no pose is estimated: context.guess is the pose.
-  Localizer(const TrackerConfig& config, const ParallelFor& parallel_for, Stopwatch now_us,
-            bool poses_are_given);
+  Localizer(const TrackerConfig& config, const Executor& executor, Stopwatch now_us, bool poses_are_given);
 
   [[nodiscard]] const PoseSettings& settings() const { return settings_; }
   /// Makes the image pyramid, and guesses the pose by sparse image alignment or by the motion model.

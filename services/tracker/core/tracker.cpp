@@ -42,19 +42,18 @@ void describe(const TrackedFrame& frame, FrameResult& result) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, ParallelFor parallel_for,
-                 Stopwatch now_us)
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, Executor executor, Stopwatch now_us)
     : config_(config),
-      ports_{std::move(given_poses), std::move(parallel_for), std::move(now_us)},
+      ports_{std::move(given_poses), std::move(executor), std::move(now_us)},
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth.max_depth_m),
-      localizer_(config, ports_.parallel_for, ports_.now_us, ports_.given_poses != nullptr),
-      keyframes_(config.keyframe, config.quality.min_inliers, config.localize_only),
-      mapper_(localizer_.settings(), config.local_mapping, !config.localize_only) {}
+      localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
+      keyframes_(config.keyframe, config.localize_only),
+      mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
 
 void Tracker::reset() {
-  *this = Tracker(config_, std::move(ports_.given_poses), std::move(ports_.parallel_for),
-                  std::move(ports_.now_us));
+  *this =
+      Tracker(config_, std::move(ports_.given_poses), std::move(ports_.executor), std::move(ports_.now_us));
 }
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
@@ -88,7 +87,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   }
   describe(frame, result);
   if (need != KeyframeNeed::kNone)
-    make_keyframe(config_.localize_only ? KeyframeNeed::kLook : need, frame, result);
+    make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
   if (has_pose(state_)) {
     result.map_from_camera = frame.camera_from_map.inverse();
     result.reference_keyframe_id = localizer_.features().reference();
@@ -122,28 +121,28 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     if (const auto map_from_camera = ports_.given_poses(given.stamp_ns))
       context.guess = map_from_camera->inverse();
   run_both(
-      ports_.parallel_for, [&] { localizer_.guess(context, state_); },
+      ports_.executor, [&] { localizer_.guess(context, state_); },
       [&] {
-        removal_.look_at(given);
+        removal_.set_picture(given);
         localizer_.select_local_map(context);
       });
   std::atomic<bool> is_cut = false;
   const auto cut = [&] {
     std::vector<Eigen::Vector3f> stable;
-    if (context.guess) removal_.compare(*context.guess);
+    if (context.guess) removal_.detect_motion(*context.guess);
     if (context.guess && config_.removal.method == "depth")
       stable = stable_points(context.map, context.local.points, *context.guess);
-    context.movable = removal_.cut(regions, stable);
+    context.movable = removal_.segment(regions, stable);
     is_cut = true;
   };
-  run_both(ports_.parallel_for, cut, [&] { localizer_.search_early(context, state_, is_cut); });
+  run_both(ports_.executor, cut, [&] { localizer_.search_early(context, state_, is_cut); });
   context.depth = {&removal_.grid(), removal_.latest().depth_m, removal_.latest_mask()};
   frame.movable_in_view = context.movable.any() || !regions.empty();
   frame.camera_from_map =
       context.alignment.value_or(context.guess.value_or(context.motion.camera_from_map()));
 }
 
-/// @param need  kLook: for those who look at its picture; of it the map keeps the pose at most.
+/// @param need  kDetector: for other services; of it the map keeps the pose at most.
 void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {
   if (need == KeyframeNeed::kMap) {
     result.keyframe =
@@ -165,7 +164,7 @@ void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
   if (!has_pose(state_)) return localizer_.depth_aligner().forget();
   lost_since_ns_.reset();
   const Pose map_from_camera = frame.camera_from_map.inverse();
-  removal_.remember(map_from_camera, !frame.by_depth_only);
+  removal_.set_pose(map_from_camera, !frame.by_depth_only);
   localizer_.depth_aligner().set_previous(context.depth, map_from_camera);
   motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
   if (frame.by_depth_only) return;  // later frames are still matched with the one before
@@ -190,11 +189,11 @@ bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
   const Keyframe* first = mapper_.map().keyframe(0);
   const std::optional<LastFrame>& last = localizer_.features().last();
   const bool is_own =
-      mapper_.map().first_free_keyframe() == 0 && !config_.localize_only && !ports_.given_poses;
+      mapper_.map().records().first_free() == 0 && !config_.localize_only && !ports_.given_poses;
   if (!lost_since_ns_ || !is_own || first == nullptr || !last) return false;
   const double tracked_s = static_cast<double>(last->frame.time_ns - first->time_ns) / kNsPerSecond;
   const double lost_s = static_cast<double>(time_.at(stamp_ns).time_ns - *lost_since_ns_) / kNsPerSecond;
-  return tracked_s < config_.quality.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
+  return tracked_s < config_.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
 }
 
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
@@ -210,16 +209,16 @@ void Tracker::apply(const LocalMappingResult& result) {
   for (const KeyframeId keyframe : *culled) localizer_.relocalizer().remove(keyframe);
 }
 
-void Tracker::apply(const PoseGraphCorrection& correction) {
+void Tracker::correct(std::span<const KeyframePose> corrected) {
   if (ports_.given_poses) return;
-  mapper_.correct(correction.poses);
+  mapper_.correct(corrected);
   removal_.forget();
   localizer_.depth_aligner().forget();
 }
 
 void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
   if (const PictureCells* cells = mapper_.cells_of(keyframe_id))
-    mapper_.retract(keyframe_id, removal_.segment_late(*cells, regions));
+    mapper_.retract(keyframe_id, removal_.segment_keyframe(*cells, regions));
 }
 
 }  // namespace rds::tracker

@@ -30,15 +30,15 @@ using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
 /// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the
-/// map. With config.localize_only nothing enters the map; keyframes are then only looked at by others. Same
+/// map. With config.localize_only nothing enters the map; keyframes are then for other services only. Same
 /// calls, same results, bit by bit.
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
-  /// @param parallel_for    runs what can be done at the same time.
+  /// @param executor     runs what can be done at the same time.
   /// @param now_us       for the times in results, which are 0 without.
   explicit Tracker(
-      const TrackerConfig& config, GivenPoses given_poses = {}, ParallelFor parallel_for = serial_for,
+      const TrackerConfig& config, GivenPoses given_poses = {}, Executor executor = execute_serially,
       Stopwatch now_us = [] { return std::int64_t{0}; });
 
   /// Tracks the next picture.
@@ -49,17 +49,16 @@ class Tracker {
   /// empty, of other sizes or types than promised count as pictures without features.
   FrameResult track(const image::RgbdFrame& given, std::span<const MovableRegion> movable);
 
-  /// Snapshot around the newest keyframe, or around the reference keyframe where a calm frame only was
-  /// looked at; nullopt if there is neither since the last call. Best called when the frame's result is on
-  /// its way: also does what else a keyframe needs and its own frame does not wait for (else the next call
-  /// does).
+  /// Snapshot around the newest keyframe of the map or, after a keyframe for other services only, around its
+  /// reference keyframe; nullopt if neither was made since the last call. Also indexes the newest keyframe
+  /// for relocalisation: best called after the frame's result was sent, which does not wait for that.
   std::optional<LocalMappingJob> take_mapping_job();
   /// Moves keyframes and points; removes, fuses and adds observations. What has changed since the snapshot
   /// is left alone.
   void apply(const LocalMappingResult& result);
-  /// Moves keyframes to corrected poses; keyframes that the correction does not know and all points move
-  /// with the keyframes they hang on. Given poses are not corrected.
-  void apply(const PoseGraphCorrection& correction);
+  /// Moves keyframes to corrected poses; keyframes that the correction does not know move with the next
+  /// older one that it knows, points with the keyframe that made them. Given poses are not corrected.
+  void correct(std::span<const KeyframePose> corrected);
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
@@ -67,9 +66,9 @@ class Tracker {
   void start_from(SavedMap&& saved);
 
   /// What may have changed since the last call, as rows of a checkpoint; all of it the first time, and after
-  /// another map has begun. Best called when the frame's result is on its way.
+  /// another map has begun. Best called after the frame's result was sent.
   std::vector<CheckpointRow> checkpoint();
-  /// Goes on where the rows end that checkpoint() has told: with the same map and what is known of the
+  /// Goes on where the rows of checkpoint() end: with the same map and what is known of the
   /// camera, lost until it has found itself there. Ids that were given since are not given again.
   /// @return or why not; then everything is as before.
   tl::expected<void, std::string> resume(const ReadRows& read);
@@ -103,7 +102,7 @@ class Tracker {
   /// What the tracker is given besides pictures.
   struct Ports {
     GivenPoses given_poses;
-    ParallelFor parallel_for;
+    Executor executor;
     Stopwatch now_us;
   };
 

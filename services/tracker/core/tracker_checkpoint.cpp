@@ -51,9 +51,9 @@ CameraState get_camera_state(ByteReader& reader) {
 
 void Tracker::start_from(SavedMap&& saved) {
   reset();
-  if (saved.map.keyframes() == 0) return mapper_.start_from(std::move(saved.map), false);
+  if (saved.map.keyframes().size() == 0) return mapper_.start_from(std::move(saved.map), false);
   calibration_.begin_with(saved.camera);
-  saved.map.all_keyframes().for_each([&](Keyframe& k) { k.time_ns = time_.go_to(k.stamp_ns).time_ns; });
+  saved.map.keyframes().for_each([&](Keyframe& k) { k.time_ns = time_.go_to(k.stamp_ns).time_ns; });
   mapper_.start_from(std::move(saved.map), false);
   localizer_.relocalizer().index_all(mapper_.map());
   state_ = State::kLost;
@@ -81,14 +81,14 @@ tl::expected<void, std::string> Tracker::resume(const ReadRows& read) {
   });
   if (!done) return tl::unexpected(done.error());
   if (!fault.empty()) return tl::unexpected(fault);
-  auto map = map_from_rows(read, config_.map, localizer_.settings().pyramid);
+  auto map = map_from_rows(read, localizer_.settings().pyramid);
   if (!map) return tl::unexpected(map.error());
   reset();
   mapper_.start_from(std::move(*map), true);
   calibration_.begin_with(camera.given_fx, camera.belief);
   time_ = time::ContinuousTime(camera.clock);
   localizer_.relocalizer().index_all(mapper_.map());
-  if (mapper_.map().keyframes() > 0) state_ = State::kLost;
+  if (mapper_.map().keyframes().size() > 0) state_ = State::kLost;
   return {};
 }
 

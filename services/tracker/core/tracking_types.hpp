@@ -26,6 +26,9 @@ constexpr bool has_pose(State state) {
   return state == State::kTracking || state == State::kWeak || state == State::kRelocalised;
 }
 
+/// Features with depth that the first keyframe needs.
+inline constexpr unsigned kMinFeaturesToStart = 150;
+
 struct StageTimes {
   std::int64_t extract_us = 0;
   std::int64_t track_us = 0;
@@ -50,11 +53,6 @@ struct FrameResult {
   MovableMask movable;                    // whose features were dropped
   std::optional<KeyframeData> keyframe;   // if the frame became one
   std::vector<KeypointVerdict> verdicts;  // one per feature
-};
-
-/// Corrected keyframe poses after a loop was closed.
-struct PoseGraphCorrection {
-  std::vector<KeyframePose> poses;
 };
 
 }  // namespace rds::tracker

@@ -13,8 +13,13 @@ namespace {
 
 constexpr Eigen::Index kImaging = 2;
 constexpr Eigen::Index kPose = 6;
-constexpr double kFreePose = 1e-2;            // information [1/m², 1/rad²] about every pose: next to none
-constexpr double kSignificant = 3;            // σ by which what was given must be off
+constexpr double kFreePose = 1e-2;             // information [1/m², 1/rad²] about every pose: next to none
+constexpr double kReadoutSigmaS = 0.02;        // standard deviation of the given readout time …
+constexpr double kFocalSigma = 0.05;           // … and of the given focal length, as a share of it
+constexpr double kToleratedReadoutS = 0.001;   // errors of the given ones that are left as they are, …
+constexpr double kToleratedFocalError = 0.01;  // … as a share
+constexpr double kMemory = 0.9;     // share of the information that is left when the next keyframe's is added
+constexpr double kSignificant = 3;  // σ by which what was given must be off
 constexpr double kLargestFocalSigma = 0.015;  // of a bundle that is believed
 constexpr double kLargestFocalShare = 1.15;   // it may find, either way; more comes from things that move
 constexpr int kFewestBundles = 5;             // that were believed, before a focal length is called wrong
@@ -103,19 +108,8 @@ ImagingEstimate ImagingEstimator::estimate(const Imaging& at) const {
 
 SelfCalibration::SelfCalibration(const SelfCalibrationConfig& config) : config_(config) {
   belief_.value = Imaging(config.readout_s, 1);
-  belief_.information = Eigen::Vector2d(config.readout_sigma_s, config.focal_sigma)
-                            .array()
-                            .square()
-                            .inverse()
-                            .matrix()
-                            .asDiagonal();
-}
-
-void SelfCalibration::begin_with_focal_scale(double scale) {
-  const bool possible = scale >= 1 / kLargestFocalError && scale <= kLargestFocalError;
-  if (!config_.focal_length || !possible) return;
-  belief_.value(1) = scale;
-  belief_.focal_is_wrong = std::abs(scale - 1) > config_.tolerated_focal_error;
+  belief_.information =
+      Eigen::Vector2d(kReadoutSigmaS, kFocalSigma).array().square().inverse().matrix().asDiagonal();
 }
 
 geometry::CameraModel SelfCalibration::calibrated(const geometry::CameraModel& given) {
@@ -129,7 +123,11 @@ geometry::CameraModel SelfCalibration::calibrated(const geometry::CameraModel& g
 
 void SelfCalibration::begin_with(const KnownCamera& camera) {
   given_fx_ = camera.given_fx;
-  begin_with_focal_scale(camera.focal_scale);
+  const double scale = camera.focal_scale;
+  const bool possible = scale >= 1 / kLargestFocalError && scale <= kLargestFocalError;
+  if (!config_.focal_length || !possible) return;
+  belief_.value(1) = scale;
+  belief_.focal_is_wrong = std::abs(scale - 1) > kToleratedFocalError;
 }
 
 void SelfCalibration::begin_with(double given_fx, const ImagingBelief& belief) {
@@ -149,16 +147,16 @@ void SelfCalibration::update(const ImagingEstimate& estimate) {
   const ImagingEstimate found = believed ? estimate : of_readout_only(estimate);
   auto& [value, information, readout_is_wrong, focal_is_wrong, focal_bundles] = belief_;
   focal_bundles += believed ? 1 : 0;
-  const Eigen::Matrix2d old = config_.memory * information;
+  const Eigen::Matrix2d old = kMemory * information;
   information = old + found.information;
   value = information.llt().solve(old * value + found.information * found.value);
   value(0) = std::clamp(value(0), -kLongestReadout, kLongestReadout);
   value(1) = std::clamp(value(1), 1 / kLargestFocalError, kLargestFocalError);
   const Imaging error = (value - Imaging(config_.readout_s, 1)).cwiseAbs();
-  const Imaging doubt = kSignificant * information.inverse().diagonal().cwiseSqrt();
-  readout_is_wrong |= config_.readout && error(0) > config_.tolerated_readout_error_s + doubt(0);
-  focal_is_wrong |= config_.focal_length && focal_bundles >= kFewestBundles &&
-                    error(1) > config_.tolerated_focal_error + doubt(1);
+  const Imaging margin = kSignificant * information.inverse().diagonal().cwiseSqrt();
+  readout_is_wrong |= config_.readout && error(0) > kToleratedReadoutS + margin(0);
+  focal_is_wrong |=
+      config_.focal_length && focal_bundles >= kFewestBundles && error(1) > kToleratedFocalError + margin(1);
 }
 
 }  // namespace rds::tracker

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/camera_model.hpp"
-#include "services/tracker/core/calibration/self_calibration_config.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 
 namespace rds::tracker {
 
@@ -34,9 +34,8 @@ struct ObservationDerivatives {
 
 /// One Gauss-Newton step of a bundle in which points, poses and imaging are free, for the imaging alone.
 ///
-/// Camera 0 is the gauge; no other is held. That makes the answer independent of what the map was built with,
-/// which keyframes that are held would only repeat. Poses and points are not moved.
-/// Source: Triggs et al. 2000, §6.1 (Schur complement).
+/// Camera 0 is the gauge, all others are free: fixed keyframes would only confirm the imaging that the map
+/// was built with. Poses and points are not moved. Source: Triggs et al. 2000, §6.1 (Schur complement).
 class ImagingEstimator {
  public:
   explicit ImagingEstimator(std::size_t cameras);
@@ -63,7 +62,7 @@ struct ImagingBelief {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   bool readout_is_wrong = false;  // as it was given
   bool focal_is_wrong = false;
-  int focal_bundles = 0;  // that told the focal length
+  int focal_bundles = 0;  // in which the focal length was believed
 };
 
 /// What is known of the camera's imaging: the mean of what bundles found, weighted with how much they could
@@ -84,9 +83,8 @@ class SelfCalibration {
   }
   /// Factor on the given focal length: 1 until that is known to be wrong.
   [[nodiscard]] double focal_scale() const { return belief_.focal_is_wrong ? belief_.value(1) : 1; }
-  /// Goes on from what was known when a map was saved; ignored if no camera can be off by that much.
-  void begin_with_focal_scale(double scale);
-  /// The same, of a camera with this given focal length [px].
+  /// Goes on from what was known when a map was saved; a focal length by which no camera can be off is
+  /// ignored.
   void begin_with(const KnownCamera& camera);
   /// Goes on from what another one believed.
   void begin_with(double given_fx, const ImagingBelief& belief);

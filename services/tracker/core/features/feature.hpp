@@ -20,7 +20,7 @@ struct Feature {
   float depth_m = 0;                                   // 0 without measurement
   std::uint8_t level = 0;                              // of the pyramid
   bool movable = false;                                // on a movable object: never becomes a map point
-  bool matchable = true;                               // false: for show only, without angle and descriptor
+  bool matchable = true;  // false: for pictures only, without angle and descriptor
   Descriptor descriptor{};
 };
 

@@ -5,7 +5,7 @@
 
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/byte_writer.hpp"
-#include "services/tracker/core/features/extraction_config.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/features/feature.hpp"
 
 namespace rds::tracker {

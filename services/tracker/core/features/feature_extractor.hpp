@@ -7,9 +7,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "services/tracker/core/features/extraction_config.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
+#include "services/tracker/core/features/executor.hpp"
 #include "services/tracker/core/features/feature.hpp"
-#include "services/tracker/core/features/parallel_for.hpp"
 
 namespace rds::tracker {
 
@@ -26,16 +26,15 @@ class FeatureExtractor {
 
   /// @param gray       CV_8UC1 of any size; pictures too small for a patch give no feature.
   /// @param is_movable  if given: features there are marked and cost nothing of the budget, so that the
-  /// static rest still gets all of it. They are for show only, without angle and descriptor, unless a level
-  /// shows too few static features: then they may match, for the map they are compared with holds static
-  /// points only (never starve, as SG-SLAM does).
+  /// static rest still gets all of it. They are for pictures only, without angle and descriptor, unless a
+  /// level shows too few static features: then they may match, for the map they are compared with holds
+  /// static points only (never starve, as SG-SLAM does).
   /// @param features   overwritten: px and image_px both as seen in the picture, no depth; level by level.
   virtual void extract(const cv::Mat& gray, const MovableTest& is_movable,
                        std::vector<Feature>& features) = 0;
 };
 
-/// The extractor that the tracker uses. @param parallel_for  runs what is independent.
-std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config,
-                                                         ParallelFor parallel_for);
+/// The extractor that the tracker uses. @param executor  runs what is independent.
+std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config, Executor executor);
 
 }  // namespace rds::tracker

@@ -68,7 +68,7 @@ class FeatureSet {
 /// max_depth_m.
 float depth_at(const image::DepthImage& depth, const Eigen::Vector2f& image_px, double max_depth_m);
 
-/// Undistorts features and gives them depth, but for movable ones that are not matched: nobody asks.
+/// Undistorts features and gives them depth, but for those that are not matchable.
 void complete_features(const geometry::CameraModel& camera, const image::DepthImage& depth,
                        double max_depth_m, std::vector<Feature>& features);
 

@@ -24,9 +24,9 @@ std::vector<int> features_per_level(const ExtractionConfig& config) {
 
 }  // namespace
 
-OrbExtractor::OrbExtractor(const ExtractionConfig& config, ParallelFor parallel_for)
+OrbExtractor::OrbExtractor(const ExtractionConfig& config, Executor executor)
     : config_(config),
-      parallel_for_(std::move(parallel_for)),
+      executor_(std::move(executor)),
       pyramid_(static_cast<std::size_t>(config.levels)),
       features_(static_cast<std::size_t>(config.levels)) {
   for (const int quota : features_per_level(config))
@@ -47,16 +47,14 @@ void OrbExtractor::build_pyramid(const cv::Mat& gray) {
 void OrbExtractor::extract(const cv::Mat& gray, const MovableTest& is_movable,
                            std::vector<Feature>& features) {
   build_pyramid(gray);
-  parallel_for_(levels_.size(), [&](std::size_t l) {
-    levels_[l].extract(pyramid_[l], gray.size(), is_movable, features_[l]);
-  });
+  executor_(levels_.size(),
+            [&](std::size_t l) { levels_[l].extract(pyramid_[l], gray.size(), is_movable, features_[l]); });
   features.clear();
   for (const auto& of_level : features_) features.insert(features.end(), of_level.begin(), of_level.end());
 }
 
-std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config,
-                                                         ParallelFor parallel_for) {
-  return std::make_unique<OrbExtractor>(config, std::move(parallel_for));
+std::unique_ptr<FeatureExtractor> make_feature_extractor(const ExtractionConfig& config, Executor executor) {
+  return std::make_unique<OrbExtractor>(config, std::move(executor));
 }
 
 }  // namespace rds::tracker

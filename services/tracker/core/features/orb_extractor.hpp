@@ -16,8 +16,8 @@ namespace rds::tracker {
 /// 2017, §III.
 class OrbExtractor final : public FeatureExtractor {
  public:
-  /// @param parallel_for  runs the levels.
-  explicit OrbExtractor(const ExtractionConfig& config, ParallelFor parallel_for = serial_for);
+  /// @param executor  runs the levels.
+  explicit OrbExtractor(const ExtractionConfig& config, Executor executor = execute_serially);
 
   void extract(const cv::Mat& gray, const MovableTest& is_movable, std::vector<Feature>& features) override;
 
@@ -25,7 +25,7 @@ class OrbExtractor final : public FeatureExtractor {
   void build_pyramid(const cv::Mat& gray);
 
   ExtractionConfig config_;
-  ParallelFor parallel_for_;
+  Executor executor_;
   std::vector<cv::Mat> pyramid_;
   std::vector<OrbLevel> levels_;
   std::vector<std::vector<Feature>> features_;  // by level

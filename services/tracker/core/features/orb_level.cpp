@@ -12,6 +12,8 @@ constexpr int kPatchRadius = 15;  // of the orientation's round patch
 constexpr int kFastRadius = 3;
 constexpr int kBorder = 19;  // the steered descriptor patch reaches this far
 constexpr int kPatchSize = 31;
+constexpr int kCell = 30;              // px, side of the cells that shall each show a corner
+constexpr double kStarvedShare = 0.3;  // of the quota; with fewer static features movable ones may match
 constexpr float kRadPerDegree = static_cast<float>(CV_PI / 180);
 
 }  // namespace
@@ -56,16 +58,15 @@ void OrbLevel::find_corners(const MovableTest& is_movable) {
   const cv::Rect inner(kBorder, kBorder, image_.cols - 2 * kBorder, image_.rows - 2 * kBorder);
   if (inner.width <= 0 || inner.height <= 0) return;
   detect(inner, config_.fast_threshold, is_movable);
-  const int cell = config_.cell_px;
-  const int columns = (inner.width + cell - 1) / cell;
-  const int rows = (inner.height + cell - 1) / cell;
+  const int columns = (inner.width + kCell - 1) / kCell;
+  const int rows = (inner.height + kCell - 1) / kCell;
   corners_in_cell_.assign(static_cast<std::size_t>(columns * rows), 0);
   for (const Corner& c : corners_)
-    ++corners_in_cell_[static_cast<std::size_t>(static_cast<int>(c.y) / cell * columns +
-                                                static_cast<int>(c.x) / cell)];
+    ++corners_in_cell_[static_cast<std::size_t>(static_cast<int>(c.y) / kCell * columns +
+                                                static_cast<int>(c.x) / kCell)];
   for (int i = 0; i < columns * rows; ++i)
     if (corners_in_cell_[static_cast<std::size_t>(i)] == 0)
-      detect(cv::Rect(inner.x + i % columns * cell, inner.y + i / columns * cell, cell, cell) & inner,
+      detect(cv::Rect(inner.x + i % columns * kCell, inner.y + i / columns * kCell, kCell, kCell) & inner,
              config_.fast_threshold_low, is_movable);
 }
 
@@ -118,9 +119,8 @@ Feature OrbLevel::feature_at(const Corner& corner) const {
 
 void OrbLevel::add_movable(std::vector<Feature>& features) {
   const std::size_t all = corners_.size() + movable_corners_.size();
-  const bool starved =
-      static_cast<double>(corners_.size()) < config_.starved_share * static_cast<double>(quota_);
-  // For show, as many as the budget would give to this share of the corners.
+  const bool starved = static_cast<double>(corners_.size()) < kStarvedShare * static_cast<double>(quota_);
+  // For pictures, as many as the budget would give to this share of the corners.
   const std::size_t wanted = starved ? quota_ - corners_.size() : quota_ * movable_corners_.size() / all;
   const auto chosen = spread_evenly(movable_corners_, static_cast<float>(image_.cols - 2 * kBorder),
                                     static_cast<float>(image_.rows - 2 * kBorder), wanted);

@@ -73,7 +73,7 @@ class IdTable {
 
   /// Visits all objects from an id on, by ascending id. Objects may be erased only by the end of it.
   template <class Visit>
-  void for_each_from(Id first, Visit visit) {
+  void for_each(Visit visit, Id first = 0) {
     for (std::size_t b = first / kBlock; b < blocks_.size(); ++b) {
       if (!blocks_[b]) continue;
       touched_[b] = 1;
@@ -81,17 +81,9 @@ class IdTable {
     }
   }
   template <class Visit>
-  void for_each_from(Id first, Visit visit) const {
+  void for_each(Visit visit, Id first = 0) const {
     const auto look = [&](const T& object) { visit(object); };
     for (std::size_t b = first / kBlock; b < blocks_.size(); ++b) visit_block(b, first, look);
-  }
-  template <class Visit>
-  void for_each(Visit visit) {
-    for_each_from(0, visit);
-  }
-  template <class Visit>
-  void for_each(Visit visit) const {
-    for_each_from(0, visit);
   }
   /// Visits the objects of one block, those with ids from kBlock · block on, by ascending id.
   template <class Visit>

@@ -7,6 +7,8 @@
 namespace rds::tracker {
 namespace {
 
+constexpr std::size_t kLocalKeyframes = 24;
+constexpr std::size_t kLocalPoints = 4000;
 constexpr std::size_t kNeighboursEach = 3;
 constexpr std::size_t kStableObservers = 3;  // keyframes and …
 constexpr std::uint32_t kStableFound = 8;    // frames that found a stable point
@@ -26,12 +28,11 @@ std::vector<CovisibleKeyframe> keyframes_that_share_points(const SlamMap& map,
 
 }  // namespace
 
-LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, const MapConfig& config,
-                          std::uint64_t mark) {
+LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, std::uint64_t mark) {
   LocalMap local;
-  const auto limit = static_cast<std::size_t>(config.local_keyframes);
   const auto add = [&](KeyframeId id) {
-    if (local.keyframes.size() < limit && std::ranges::find(local.keyframes, id) == local.keyframes.end())
+    if (local.keyframes.size() < kLocalKeyframes &&
+        std::ranges::find(local.keyframes, id) == local.keyframes.end())
       local.keyframes.push_back(id);
   };
   for (const CovisibleKeyframe& k : keyframes_that_share_points(map, seen)) add(k.id);
@@ -47,7 +48,7 @@ LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, const Map
     for (const PointId p : map.keyframe(id)->points) {
       MapPoint* point = map.point(p);
       if (point == nullptr || point->mark == mark) continue;
-      if (local.points.size() >= static_cast<std::size_t>(config.max_local_points)) return local;
+      if (local.points.size() >= kLocalPoints) return local;
       point->mark = mark;
       local.points.push_back(p);
     }

@@ -20,8 +20,7 @@ struct LocalMap {
 /// @param seen  map points of the frame; kNoId and unknown ones count for nothing.
 /// @param mark  a number never used before; marks points in the map.
 /// Source: Mur-Artal et al. 2015, §V-D.
-LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, const MapConfig& config,
-                          std::uint64_t mark);
+LocalMap select_local_map(SlamMap& map, std::span<const PointId> seen, std::uint64_t mark);
 
 /// Those of the points, in the camera frame, that many keyframes and frames have found in their place.
 std::vector<Eigen::Vector3f> stable_points(const SlamMap& map, std::span<const PointId> points,

@@ -6,10 +6,11 @@
 
 #include <tl/expected.hpp>
 
+#include "common/map_file/byte_reader.hpp"
 #include "common/map_file/byte_writer.hpp"
 #include "services/tracker/core/calibration/self_calibration.hpp"
-#include "services/tracker/core/features/extraction_config.hpp"
-#include "services/tracker/core/map/slam_map.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
+#include "services/tracker/core/map/map_contents.hpp"
 
 namespace rds::tracker {
 
@@ -19,11 +20,15 @@ struct SavedMap {
   KnownCamera camera;
 };
 
+/// Who sees a map point.
+void put(map_file::ByteWriter& writer, const std::vector<Observation>& observations);
+std::vector<Observation> get_observations(map_file::ByteReader& reader);
+
 /// What of a map cannot be computed again: what is known of the camera, keyframes with their features, map
-/// points and who sees what. Poses are kept apart, as SlamMap::keyframe_poses() gives them.
+/// points and who sees what. Poses are kept apart, as keyframe_poses() gives them.
 map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const ExtractionConfig& extraction);
 
-/// The map that these bytes and poses describe, all its keyframes held. Ids of keyframes stay; those of
+/// The map that these bytes and poses describe, all its keyframes fixed. Ids of keyframes stay; those of
 /// points count anew. Covisibility and what is known of each point's appearance are computed from the
 /// observations.
 ///
@@ -31,7 +36,6 @@ map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const Ex
 /// there.
 tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
                                                    std::span<const KeyframePose> poses,
-                                                   const MapConfig& config,
                                                    const ExtractionConfig& extraction);
 
 }  // namespace rds::tracker

@@ -6,6 +6,7 @@
 #include "common/map_file/checksum.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "services/tracker/core/features/feature_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -52,7 +53,7 @@ void put(ByteWriter& writer, const Keyframe& keyframe) {
 
 std::optional<Bytes> keyframes_of(const SlamMap& map, std::size_t block) {
   ByteWriter writer;
-  map.all_records().for_each_in(block, [&](const KeyframeRecord& record) {
+  map.records().all().for_each_in(block, [&](const KeyframeRecord& record) {
     writer.put(record.id);
     writer.put(record.stamp_ns);
     writer.put(record.anchor);
@@ -69,26 +70,22 @@ void put(ByteWriter& writer, const MapPoint& point) {
   writer.put(point.id);
   map_file::put(writer, point.position);
   writer.put(point.created_by);
-  writer.put_count(point.observations.size());
-  for (const Observation& o : point.observations) {
-    writer.put(o.keyframe);
-    writer.put(o.feature);
-  }
+  put(writer, point.observations);
 }
 
 /// What lasts of the points of a block.
 ByteWriter points_of(const SlamMap& map, std::size_t block) {
   std::size_t count = 0;
-  map.all_points().for_each_in(block, [&](const MapPoint&) { ++count; });
+  map.points().for_each_in(block, [&](const MapPoint&) { ++count; });
   ByteWriter writer;
   writer.put_count(count);
-  map.all_points().for_each_in(block, [&](const MapPoint& point) { put(writer, point); });
+  map.points().for_each_in(block, [&](const MapPoint& point) { put(writer, point); });
   return writer;
 }
 
 /// What changes with every frame.
 void put_counters(ByteWriter& writer, const SlamMap& map, std::size_t block) {
-  map.all_points().for_each_in(block, [&](const MapPoint& point) {
+  map.points().for_each_in(block, [&](const MapPoint& point) {
     writer.put(point.visible);
     writer.put(point.found);
     writer.put(point.last_found_ns);
@@ -97,31 +94,31 @@ void put_counters(ByteWriter& writer, const SlamMap& map, std::size_t block) {
 
 Bytes common_to_all(const SlamMap& map) {
   ByteWriter writer;
-  writer.put(map.first_free_keyframe());
-  writer.put(map.next_keyframe_id() + kReservedKeyframes);
-  writer.put(map.next_point_id() + kReservedPoints);
+  writer.put(map.records().first_free());
+  writer.put(map.records().next_id() + kReservedKeyframes);
+  writer.put(map.points().next_id() + kReservedPoints);
   return writer.take();
 }
 
 }  // namespace
 
-void MapCheckpoint::has_told(SlamMap& map) {
-  map.all_keyframes().take_touched();
-  map.all_records().take_touched();
-  for (const std::size_t block : map.all_points().take_touched())
+void MapCheckpoint::mark_written(SlamMap& map) {
+  map.keyframes().take_touched();
+  map.records().all().take_touched();
+  for (const std::size_t block : map.points().take_touched())
     points_[block] = map_file::checksum_of(points_of(map, block).bytes());
-  std::as_const(map).all_keyframes().for_each([this](const Keyframe& k) { with_features_.insert(k.id); });
+  std::as_const(map).keyframes().for_each([this](const Keyframe& k) { with_features_.insert(k.id); });
 }
 
 void MapCheckpoint::append_features(const SlamMap& map, std::size_t block, std::vector<CheckpointRow>& rows) {
   constexpr std::size_t kBlock = IdTable<Keyframe>::kBlock;
   const auto end = with_features_.lower_bound((block + 1) * kBlock);
-  for (auto told = with_features_.lower_bound(block * kBlock); told != end;) {
-    const bool is_there = map.keyframe(*told) != nullptr;
-    if (!is_there) rows.push_back({kFeatures, *told, std::nullopt});
-    told = is_there ? std::next(told) : with_features_.erase(told);
+  for (auto written = with_features_.lower_bound(block * kBlock); written != end;) {
+    const bool is_there = map.keyframe(*written) != nullptr;
+    if (!is_there) rows.push_back({kFeatures, *written, std::nullopt});
+    written = is_there ? std::next(written) : with_features_.erase(written);
   }
-  map.all_keyframes().for_each_in(block, [&](const Keyframe& keyframe) {
+  map.keyframes().for_each_in(block, [&](const Keyframe& keyframe) {
     if (with_features_.insert(keyframe.id).second)
       rows.push_back({kFeatures, keyframe.id, features_of(keyframe)});
   });
@@ -130,8 +127,8 @@ void MapCheckpoint::append_features(const SlamMap& map, std::size_t block, std::
 void MapCheckpoint::append_points(const SlamMap& map, std::size_t block, std::vector<CheckpointRow>& rows) {
   ByteWriter points = points_of(map, block);
   const std::uint64_t checksum = map_file::checksum_of(points.bytes());
-  const auto [told, is_new] = points_.try_emplace(block, checksum);
-  if (!is_new && std::exchange(told->second, checksum) == checksum) return;
+  const auto [written, is_new] = points_.try_emplace(block, checksum);
+  if (!is_new && std::exchange(written->second, checksum) == checksum) return;
   put_counters(points, map, block);
   rows.push_back({kPoints, block, points.take()});
 }
@@ -139,13 +136,13 @@ void MapCheckpoint::append_points(const SlamMap& map, std::size_t block, std::ve
 void MapCheckpoint::append_changes(SlamMap& map, std::vector<CheckpointRow>& rows) {
   const SlamMap& seen = map;
   std::set<std::size_t> keyframes;
-  for (const std::size_t block : map.all_keyframes().take_touched()) keyframes.insert(block);
-  for (const std::size_t block : map.all_records().take_touched()) keyframes.insert(block);
+  for (const std::size_t block : map.keyframes().take_touched()) keyframes.insert(block);
+  for (const std::size_t block : map.records().all().take_touched()) keyframes.insert(block);
   for (const std::size_t block : keyframes) {
     append_features(seen, block, rows);
     rows.push_back({kKeyframes, block, keyframes_of(seen, block)});
   }
-  for (const std::size_t block : map.all_points().take_touched()) append_points(seen, block, rows);
+  for (const std::size_t block : map.points().take_touched()) append_points(seen, block, rows);
   rows.push_back({kMap, 0, common_to_all(seen)});
 }
 

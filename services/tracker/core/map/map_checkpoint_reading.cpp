@@ -7,6 +7,7 @@
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "services/tracker/core/features/feature_bytes.hpp"
+#include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/map/map_checkpoint.hpp"
 
 namespace rds::tracker {
@@ -14,7 +15,6 @@ namespace {
 
 using map_file::ByteReader;
 
-constexpr std::size_t kObservationBytes = 8 + 4;
 constexpr std::size_t kPointBytes = 8 + 24 + 8 + 8 + 16;
 
 /// What a picture showed, by keyframe.
@@ -65,21 +65,22 @@ bool has_more(const ByteReader& reader) {
   return reader.ok() && !reader.at_end();
 }
 
-void get_keyframes(ByteReader& reader, Pictures& pictures, MapContents& contents) {
+void get_keyframes(ByteReader& reader, Pictures& pictures, MapContents& contents,
+                   IdTable<KeyframeRecord>& records) {
   while (has_more(reader)) {
     KeyframeRecord record;
     record.id = reader.get<KeyframeId>();
     record.stamp_ns = reader.get<std::int64_t>();
     record.anchor = reader.get<KeyframeId>();
     record.pose_only = reader.get<std::uint8_t>() != 0;
-    if (record.id < contents.records.next_id() || record.id >= kMaxKeyframes)
+    if (record.id < records.next_id() || record.id >= kMaxKeyframes)
       return reader.refuse(fmt::format("keyframe {} out of order", record.id));
     if (record.anchor == kNoId)
       get_keyframe(reader, record, pictures, contents);
     else
       record.anchor_from_camera = map_file::get_pose(reader);
-    contents.records.skip_to(record.id);
-    contents.records.emplace(record);
+    records.skip_to(record.id);
+    records.emplace(record);
   }
 }
 
@@ -88,11 +89,7 @@ MapPoint get_point(ByteReader& reader) {
   point.id = reader.get<PointId>();
   point.position = map_file::get_vector(reader);
   point.created_by = reader.get<KeyframeId>();
-  point.observations.resize(reader.get_count(kObservationBytes));
-  for (Observation& o : point.observations) {
-    o.keyframe = reader.get<KeyframeId>();
-    o.feature = reader.get<std::uint32_t>();
-  }
+  point.observations = get_observations(reader);
   return point;
 }
 
@@ -111,22 +108,29 @@ void get_points(ByteReader& reader, MapContents& contents) {
   }
 }
 
-/// @return the map's ids that come next.
-std::pair<KeyframeId, PointId> get_common(ByteReader& reader, MapContents& contents) {
-  contents.held = reader.get<KeyframeId>();
-  const auto keyframe = reader.get<KeyframeId>();
-  const auto point = reader.get<PointId>();
-  if (keyframe >= kMaxKeyframes || point >= kMaxPoints) reader.refuse("more keyframes than can be");
-  return {keyframe, point};
+/// Ids: of the first keyframe that is not fixed, and of those that come next.
+struct MapIds {
+  KeyframeId first_free = 0;
+  KeyframeId next_keyframe = 0;
+  PointId next_point = 0;
+};
+
+MapIds get_ids(ByteReader& reader) {
+  MapIds ids;
+  for (std::uint64_t* id : {&ids.first_free, &ids.next_keyframe, &ids.next_point})
+    *id = reader.get<std::uint64_t>();
+  if (ids.next_keyframe >= kMaxKeyframes || ids.next_point >= kMaxPoints)
+    reader.refuse("more keyframes than can be");
+  return ids;
 }
 
 }  // namespace
 
-tl::expected<SlamMap, std::string> map_from_rows(const ReadRows& read, const MapConfig& config,
-                                                 const ScalePyramid& pyramid) {
+tl::expected<SlamMap, std::string> map_from_rows(const ReadRows& read, const ScalePyramid& pyramid) {
   MapContents contents;
+  IdTable<KeyframeRecord> records;
   Pictures pictures;
-  std::pair<KeyframeId, PointId> next;
+  MapIds ids;
   std::string fault;
   const auto take = [&](const std::string& kind, const auto& get) {
     const auto done = read(kind, [&](std::uint64_t id, std::span<const std::uint8_t> bytes) {
@@ -138,13 +142,15 @@ tl::expected<SlamMap, std::string> map_from_rows(const ReadRows& read, const Map
   };
   take("features",
        [&](std::uint64_t id, ByteReader& reader) { pictures[id] = get_picture(reader, pyramid.levels()); });
-  take("keyframes", [&](std::uint64_t, ByteReader& reader) { get_keyframes(reader, pictures, contents); });
+  take("keyframes",
+       [&](std::uint64_t, ByteReader& reader) { get_keyframes(reader, pictures, contents, records); });
   take("points", [&](std::uint64_t, ByteReader& reader) { get_points(reader, contents); });
-  take("map", [&](std::uint64_t, ByteReader& reader) { next = get_common(reader, contents); });
+  take("map", [&](std::uint64_t, ByteReader& reader) { ids = get_ids(reader); });
   if (!fault.empty()) return tl::unexpected(fault);
-  contents.keyframes.skip_to(next.first);
-  contents.points.skip_to(next.second);
-  return SlamMap::of(std::move(contents), config, pyramid);
+  contents.points.skip_to(ids.next_point);
+  contents.records = KeyframeRecords(std::move(records), ids.first_free);
+  contents.records.skip_ids(ids.next_keyframe);
+  return map_of(std::move(contents), pyramid);
 }
 
 }  // namespace rds::tracker

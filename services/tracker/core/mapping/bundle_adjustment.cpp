@@ -12,7 +12,6 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kMinDepth = 0.05;        // m
 using PoseBlock = std::array<double, 7>;  // camera_from_map: qx qy qz qw x y z
 
 PoseBlock to_block(const Pose& pose) {
@@ -150,8 +149,8 @@ class LocalBundle {
       std::erase_if(point.observations, [&](const MappingScene::SceneObservation& o) {
         const Measurement m = measurement(o);
         const Eigen::Vector3d p = to_pose(poses_[o.keyframe].data()) * point.position;
-        const bool good = p.z() >= kMinDepth && models_[o.keyframe].residual(p, m).squaredNorm() <=
-                                                    ObservationModel::chi2(m, scene_.job().robust);
+        const bool good = p.z() >= kMinDepth &&
+                          models_[o.keyframe].residual(p, m).squaredNorm() <= ObservationModel::chi2(m);
         if (!good) result.removed.push_back({point.id, scene_.job().keyframes[o.keyframe].id, o.feature});
         return !good;
       });
@@ -239,17 +238,17 @@ class LocalBundle {
   std::vector<PoseBlock> poses_;  // per keyframe
   std::vector<ObservationModel> models_;
   PoseManifold manifold_;
-  ceres::HuberLoss huber_2d_{std::sqrt(scene_.job().robust.chi2_2d)};
-  ceres::HuberLoss huber_3d_{std::sqrt(scene_.job().robust.chi2_3d)};
+  ceres::HuberLoss huber_2d_{std::sqrt(kChi2Pixel)};
+  ceres::HuberLoss huber_3d_{std::sqrt(kChi2PixelAndDisparity)};
 };
 
 }  // namespace
 
-void adjust_bundle(MappingScene& scene, const LocalMappingConfig& config, LocalMappingResult& result) {
+void adjust_bundle(MappingScene& scene, int iterations, LocalMappingResult& result) {
   LocalBundle bundle(scene);
-  bundle.optimize(config.iterations, true);
+  bundle.optimize(iterations, true);
   bundle.remove_outliers(result);
-  bundle.optimize(config.iterations, false);
+  bundle.optimize(iterations, false);
   bundle.report(result);
 }
 

@@ -28,10 +28,7 @@ struct KeyframeData {
   Pose map_from_camera = Pose::Identity();
   std::vector<KeyframeFeature> features;
   std::vector<CovisiblePose> covisible;  // most shared points first
-  bool in_map = true;                    // false: its picture only is of use, the map has no such keyframe
+  bool in_map = true;                    // false: it is for other services only
 };
-
-/// A keyframe of the map.
-KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe);
 
 }  // namespace rds::tracker

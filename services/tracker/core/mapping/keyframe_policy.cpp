@@ -6,31 +6,36 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kUrgentShare = 0.4;  // of scarce_inliers
-constexpr double kUsualDepth = 2;     // m, that max_translation_m is meant for
+constexpr double kUsualDepth = 2;         // m, that kMaxTranslationM is meant for
+constexpr double kMinIntervalS = 0.09;    // between keyframes, unless tracking is about to fail
+constexpr int kMinMovableFrames = 3;      // between keyframes while movable objects are there
+constexpr double kReferenceRatio = 0.75;  // fewer inliers than this share of the reference keyframe's points
+constexpr int kMinCloseTracked = 100;     // fewer close points tracked than this …
+constexpr int kMinCloseNew = 70;          // … while more than this could be made
+constexpr int kScarceInliers = 200;       // with fewer among movable objects, the map takes every keyframe
+constexpr double kUrgentShare = 0.4;      // of kScarceInliers: tracking is about to fail
 
 }  // namespace
 
-double view_change(const Pose& from_other_view, double median_depth_m, const KeyframeConfig& config) {
+double view_change(const Pose& from_other_view, double median_depth_m) {
   const double depth_ratio = std::clamp(median_depth_m / kUsualDepth, 0.25, 4.0);
-  return std::max(geometry::rotation_angle_rad(from_other_view.linear()) / config.max_rotation_rad,
-                  from_other_view.translation().norm() / (config.max_translation_m * depth_ratio));
+  return std::max(geometry::rotation_angle_rad(from_other_view.linear()) / kMaxRotationRad,
+                  from_other_view.translation().norm() / (kMaxTranslationM * depth_ratio));
 }
 
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config) {
-  const bool scarce = facts.movable_or_changed && facts.inliers < config.scarce_inliers;
-  const bool urgent = scarce && facts.inliers < kUrgentShare * config.scarce_inliers;
-  if (!facts.has_depth || (facts.since_last_s < config.min_interval_s && !urgent)) return KeyframeNeed::kNone;
-  const bool losing_reference = facts.seen < config.reference_ratio * facts.seen_by_reference;
-  const bool close_points_wanted =
-      facts.close_tracked < config.min_close_tracked && facts.close_new > config.min_close_new;
+  const bool scarce = facts.movable_or_changed && facts.inliers < kScarceInliers;
+  const bool urgent = scarce && facts.inliers < kUrgentShare * kScarceInliers;
+  if (!facts.has_depth || (facts.since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
+  const bool losing_reference = facts.seen < kReferenceRatio * facts.seen_by_reference;
+  const bool close_points_wanted = facts.close_tracked < kMinCloseTracked && facts.close_new > kMinCloseNew;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
   if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
-  const bool looked_just_now = facts.frames_since_last < config.movable_interval_frames;
-  if (facts.since_last_s < longest - kJitter || looked_just_now) return KeyframeNeed::kNone;
-  return scarce ? KeyframeNeed::kMap : KeyframeNeed::kLook;
+  const bool is_soon_after_last = facts.frames_since_last < kMinMovableFrames;
+  if (facts.since_last_s < longest - kJitter || is_soon_after_last) return KeyframeNeed::kNone;
+  return scarce ? KeyframeNeed::kMap : KeyframeNeed::kDetector;
 }
 
 }  // namespace rds::tracker

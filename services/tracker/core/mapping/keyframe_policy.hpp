@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/tracker/core/mapping/mapping_config.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/pose/association.hpp"
 
 namespace rds::tracker {
@@ -20,16 +20,20 @@ struct KeyframeFacts {
   bool movable_or_changed = false;  // movable objects are there, or the picture changes faster than the view
 };
 
+/// Largest change of view that needs no keyframe of its own.
+inline constexpr double kMaxRotationRad = 0.26;   // 15°
+inline constexpr double kMaxTranslationM = 0.15;  // for a scene 2 m away
+
 /// How far a view is from another one: 1 where the scene looks different enough for a keyframe of its own.
 ///
 /// @param median_depth_m  of the scene: the farther it is away, the less a step changes.
-double view_change(const Pose& from_other_view, double median_depth_m, const KeyframeConfig& config);
+double view_change(const Pose& from_other_view, double median_depth_m);
 
 /// What a frame should become.
 enum class KeyframeNeed : std::uint8_t {
   kNone,
-  kLook,  // a keyframe for those who look at its picture; the map has what it shows
-  kMap    // a keyframe of the map
+  kDetector,  // a keyframe for the detector and the mapper; the SLAM map has what it shows
+  kMap        // a keyframe of the map, and for them
 };
 
 /// The map needs a frame whose view no keyframe has, or that sees less of the map than others there did; all

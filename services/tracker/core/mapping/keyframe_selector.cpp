@@ -32,7 +32,7 @@ int covered_cells(const TrackedFrame& frame) {
 }
 
 int well_observed_points(const SlamMap& map, const Keyframe& keyframe) {
-  const std::size_t wanted = map.keyframes() > 2 ? kWellObserved : 1;
+  const std::size_t wanted = map.keyframes().size() > 2 ? kWellObserved : 1;
   return static_cast<int>(std::ranges::count_if(keyframe.points, [&](PointId id) {
     const MapPoint* point = map.point(id);
     return point != nullptr && point->observations.size() >= wanted;
@@ -73,7 +73,7 @@ KeyframeSelector::NearestView KeyframeSelector::nearest_view(const SlamMap& map,
   const double depth = median_depth(*frame.features);
   NearestView nearest;
   const auto compare = [&](KeyframeId id, const Pose& map_from_camera) {
-    const double change = view_change(frame.camera_from_map * map_from_camera, depth, config_);
+    const double change = view_change(frame.camera_from_map * map_from_camera, depth);
     if (change < nearest.change) nearest = {id, change};
   };
   if (localize_only_) {
@@ -108,7 +108,7 @@ KeyframeFacts KeyframeSelector::facts(const Candidate& candidate, double view_ch
 KeyframeNeed KeyframeSelector::need_of_matched(const Candidate& candidate) const {
   const auto& [context, frame, reference, scene_changed] = candidate;
   if (!frame.pose_is_given) {
-    if (frame.static_matches() < min_inliers_) return KeyframeNeed::kNone;
+    if (frame.static_matches() < kMinInliers) return KeyframeNeed::kNone;
     const bool may_follow_a_mover = frame.movable_in_view && frame.matches() < kSureInliers;
     if (may_follow_a_mover && context.motion.innovation(frame.camera_from_map) > kMaxInnovation)
       return KeyframeNeed::kNone;

@@ -26,10 +26,9 @@ class KeyframeSelector {
     bool scene_changed = false;  // faster than the view
   };
 
-  /// @param min_inliers     of a frame that may become a keyframe.
   /// @param localize_only  the map does not grow.
-  KeyframeSelector(const KeyframeConfig& config, int min_inliers, bool localize_only)
-      : config_(config), min_inliers_(min_inliers), localize_only_(localize_only) {}
+  KeyframeSelector(const KeyframeConfig& config, bool localize_only)
+      : config_(config), localize_only_(localize_only) {}
 
   /// The keyframe with the view nearest to the frame's: the newest one, or one of those covisible with the
   /// reference that are older than config.known_after_s. (While a place is new, every turn of the camera
@@ -53,7 +52,6 @@ class KeyframeSelector {
   void note(std::int64_t time_ns);
 
   KeyframeConfig config_;
-  int min_inliers_;
   bool localize_only_;
   KeyframeId newest_in_map_ = kNoId;
   std::optional<KeyframePose> newest_not_in_map_;

@@ -13,17 +13,32 @@ namespace {
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kOutside = 1000;      // keyframes that are remembered where the map does not grow
 
+KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
+  KeyframeData data;
+  data.id = keyframe.id;
+  data.stamp_ns = keyframe.stamp_ns;
+  data.map_from_camera = keyframe.map_from_camera;
+  data.features.reserve(keyframe.points.size());
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i)
+    data.features.push_back(
+        {(*keyframe.features)[i], keyframe.features->point_in_camera(i).cast<float>(),
+         keyframe.points[i] == kNoId ? -1 : static_cast<std::int64_t>(keyframe.points[i])});
+  for (const CovisibleKeyframe& c : keyframe.covisible)
+    data.covisible.push_back({c.id, c.weight, map.pose_of(c.id)});
+  return data;
+}
+
 }  // namespace
 
 KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const ImagePyramid> images,
                                  const PictureCells& cells) {
-  const PointId first_new = map_.next_point_id();
-  Keyframe& keyframe = insert_keyframe(map_, frame, settings_.depth, settings_.map);
+  const PointId first_new = map_.points().next_id();
+  Keyframe& keyframe = insert_keyframe(map_, frame, settings_.depth);
   frame.points = keyframe.points;
   keyframe.images = std::move(images);
   KeyframeData data = keyframe_data(map_, keyframe);
-  for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
-  cull_recent_points(map_, keyframe.id, settings_.map, recent_points_);
+  for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
+  cull_recent_points(map_, keyframe.id, recent_points_);
   job_centre_ = keyframe.id;
   depths_.push_back({keyframe.id, cells});
   if (depths_.size() > kAwaitingBoxes) depths_.pop_front();
@@ -33,17 +48,21 @@ KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const Imag
 KeyframePose LocalMapper::insert_pose_only(const TrackedFrame& frame, KeyframeId anchor) {
   const Pose map_from_camera = frame.camera_from_map.inverse();
   if (!grows_) {
-    outside_.push_back({map_.next_keyframe_id() + outside_count_++, frame.stamp_ns, map_from_camera});
-    if (outside_.size() > kOutside && settings_.map.pose_only_s > 0) outside_.pop_front();
+    outside_.push_back({map_.records().next_id() + outside_count_++, frame.stamp_ns, map_from_camera});
+    if (outside_.size() > kOutside && !keep_all_poses_) outside_.pop_front();
     return outside_.back();
   }
   if (job_centre_ == kNoId) job_centre_ = anchor;  // nothing new: what is there gets better
-  return {map_.add_passing(frame.stamp_ns, map_from_camera, anchor), frame.stamp_ns, map_from_camera};
+  KeyframeRecords& records = map_.records();
+  const KeyframeId id =
+      records.add_pose_only(frame.stamp_ns, anchor, map_.pose_of(anchor).inverse() * map_from_camera);
+  if (!keep_all_poses_) records.forget_pose_only(anchor, frame.stamp_ns);
+  return {id, frame.stamp_ns, map_from_camera};
 }
 
 std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
   if (!grows_) return {outside_.begin(), outside_.end()};
-  return map_.keyframe_poses(map_.first_free_keyframe());
+  return tracker::keyframe_poses(map_, map_.records().first_free());
 }
 
 const PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
@@ -52,30 +71,28 @@ const PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
 }
 
 void LocalMapper::retract(KeyframeId keyframe, const MovableMask& movable) {
-  const PointId first_new = map_.next_point_id();
-  retract_movable(map_, keyframe, movable, settings_.depth, settings_.map);
-  for (PointId id = first_new; id < map_.next_point_id(); ++id) recent_points_.push_back(id);
+  const PointId first_new = map_.points().next_id();
+  retract_movable(map_, keyframe, movable, settings_.depth);
+  for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
 }
 
 std::optional<LocalMappingJob> LocalMapper::take_job(const SelfCalibration& calibration) {
   const KeyframeId centre = std::exchange(job_centre_, kNoId);
   if (map_.keyframe(centre) == nullptr) return std::nullopt;  // none is due, or it was culled
-  LocalMappingJob job = make_mapping_job(map_, centre, config_);
+  LocalMappingJob job = make_mapping_job(map_, centre);
   job.revision = revision_;
   job.readout_s = calibration.readout_s();
   job.focal_scale = calibration.focal_scale();
   job.given_fx = calibration.given_fx();
   job.pyramid = settings_.pyramid;
   job.depth = settings_.depth;
-  job.robust = settings_.optimization;
-  job.fusion_max_distance = settings_.matching.max_distance_strict;
   return job;
 }
 
 std::optional<std::vector<KeyframeId>> LocalMapper::apply(const LocalMappingResult& result) {
   if (result.revision != revision_) return std::nullopt;
   apply_mapping_result(map_, result);
-  return cull_redundant_keyframes(map_, result.keyframe, settings_.depth, settings_.map);
+  return cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
 }
 
 bool LocalMapper::is_mostly_static(KeyframeId id) const {
@@ -91,7 +108,7 @@ void LocalMapper::correct(std::span<const KeyframePose> corrected) {
 
 void LocalMapper::start_from(SlamMap&& map, bool rows_are_known) {
   map_ = std::move(map);
-  if (rows_are_known) checkpoint_.has_told(map_);
+  if (rows_are_known) checkpoint_.mark_written(map_);
 }
 
 }  // namespace rds::tracker

@@ -19,9 +19,10 @@ namespace rds::tracker {
 /// Source: Mur-Artal et al. 2015, §VI.
 class LocalMapper {
  public:
-  /// @param grows  false: nothing enters the map.
-  LocalMapper(const PoseSettings& settings, const LocalMappingConfig& config, bool grows)
-      : settings_(settings), config_(config), grows_(grows), map_(settings.map, settings.pyramid) {}
+  /// @param grows           false: nothing enters the map.
+  /// @param keep_all_poses  of keyframes for other services; else the newer ones.
+  LocalMapper(const PoseSettings& settings, bool grows, bool keep_all_poses)
+      : settings_(settings), grows_(grows), keep_all_poses_(keep_all_poses), map_(settings.pyramid) {}
 
   SlamMap& map() { return map_; }
   [[nodiscard]] const SlamMap& map() const { return map_; }
@@ -61,8 +62,8 @@ class LocalMapper {
   };
 
   PoseSettings settings_;
-  LocalMappingConfig config_;
   bool grows_;
+  bool keep_all_poses_;
   SlamMap map_;
   MapCheckpoint checkpoint_;
   KeyframeId job_centre_ = kNoId;

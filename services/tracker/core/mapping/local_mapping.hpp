@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "services/tracker/core/calibration/self_calibration.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/map/slam_map.hpp"
-#include "services/tracker/core/mapping/mapping_config.hpp"
-#include "services/tracker/core/pose/pose_config.hpp"
 
 namespace rds::tracker {
 
@@ -18,7 +17,7 @@ struct MappingKeyframe {
   std::vector<PointId> points;  // per feature; kNoId
   std::vector<bool> movable;    // per feature
   ShutterMotion motion;         // that px and depth of the features are compensated for
-  double given_fx = 0;          // px, before calibration changed the camera; 0: it is as it is
+  double given_fx = 0;          // px, of the camera before calibration; 0: it is not calibrated
   bool fixed = false;           // holds the points, is not moved
 };
 
@@ -35,8 +34,6 @@ struct LocalMappingJob {
   double given_fx = 0;                     // px, of the camera that these two are about
   ScalePyramid pyramid{1, 1};
   DepthConfig depth;
-  PoseOptimizationConfig robust;  // χ² bounds
-  int fusion_max_distance = 50;   // bits
 };
 
 /// What local mapping found out.
@@ -71,10 +68,13 @@ struct LocalMappingResult {
   std::vector<PointInKeyframe> removed;
 };
 
+/// Iterations of each of the two passes of bundle adjustment. The map is adjusted again with every keyframe.
+inline constexpr int kBundleIterations = 4;
+
 /// Finds more observations of the points, fuses points that are one, and adjusts keyframes and points.
 ///
 /// Pure, single-threaded, deterministic: a fixed number of iterations, never a time limit.
 /// Source: Mur-Artal et al. 2015, §VI; Mur-Artal & Tardós 2017, §III-C (local bundle adjustment).
-LocalMappingResult run_local_mapping(const LocalMappingJob& job, const LocalMappingConfig& config);
+LocalMappingResult run_local_mapping(const LocalMappingJob& job, int iterations = kBundleIterations);
 
 }  // namespace rds::tracker

@@ -3,25 +3,32 @@
 
 #include <algorithm>
 
+#include "services/tracker/core/map/covisibility.hpp"
+
 namespace rds::tracker {
 namespace {
 
-constexpr KeyframeId kKeyframesOn = 2;   // when a point must have been seen again
-constexpr KeyframeId kProbation = 3;     // keyframes after which a point is trusted
-constexpr KeyframeId kKeptNewest = 3;    // keyframes that culling leaves alone
-constexpr std::size_t kConsidered = 20;  // covisible keyframes looked at per culling
+constexpr int kMinNewPoints = 100;        // nearest points made from a keyframe even if not close
+constexpr double kMinFoundRatio = 0.25;   // a point found more rarely where it should show goes
+constexpr KeyframeId kKeyframesOn = 2;    // when a point must have been seen again …
+constexpr std::size_t kMinObservers = 2;  // … by so many keyframes
+constexpr KeyframeId kProbation = 3;      // keyframes after which a point is trusted
+constexpr KeyframeId kKeptNewest = 3;     // keyframes that culling leaves alone
+constexpr double kRedundantShare = 0.9;   // a keyframe goes when this share of its close points …
+constexpr int kRedundantObservers = 3;    // … is seen in so many others
+constexpr std::size_t kConsidered = 20;   // covisible keyframes looked at per culling
 
 void observe_matches(SlamMap& map, const TrackedFrame& frame, Keyframe& keyframe) {
   for (std::uint32_t i = 0; i < frame.points.size(); ++i) {
     if (frame.points[i] == kNoId) continue;
     if (map.observe(frame.points[i], keyframe.id, i)) {
-      map.refresh(*map.point(frame.points[i]));
+      update_from_observations(map, *map.point(frame.points[i]));
       ++keyframe.tracked_points;
     }
   }
 }
 
-void make_points(SlamMap& map, const DepthConfig& depth, const MapConfig& config, const Keyframe& keyframe) {
+void make_points(SlamMap& map, const DepthConfig& depth, const Keyframe& keyframe) {
   const FeatureSet& features = *keyframe.features;
   std::vector<std::pair<float, std::uint32_t>> by_depth;
   for (std::uint32_t i = 0; i < features.size(); ++i)
@@ -29,7 +36,7 @@ void make_points(SlamMap& map, const DepthConfig& depth, const MapConfig& config
   std::ranges::sort(by_depth);
   int nearest = 0;
   for (const auto& [z, i] : by_depth) {
-    if (static_cast<double>(z) > depth.close_depth_m && nearest >= config.min_new_points) break;
+    if (static_cast<double>(z) > depth.close_depth_m && nearest >= kMinNewPoints) break;
     ++nearest;
     if (keyframe.points[i] == kNoId)
       map.add_point(keyframe.map_from_camera * features.point_in_camera(i), keyframe.id, i);
@@ -37,19 +44,18 @@ void make_points(SlamMap& map, const DepthConfig& depth, const MapConfig& config
 }
 
 /// True if enough other keyframes see the point at the same or a finer scale.
-bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& keyframe, int level,
-                    int wanted) {
+bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& keyframe, int level) {
   int others = 0;
   for (const Observation& o : point.observations) {
     if (o.keyframe == keyframe.id) continue;
-    if ((*map.keyframe(o.keyframe)->features)[o.feature].level <= level + 1 && ++others >= wanted)
+    if ((*map.keyframe(o.keyframe)->features)[o.feature].level <= level + 1 &&
+        ++others >= kRedundantObservers)
       return true;
   }
   return false;
 }
 
-bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth,
-                  const MapConfig& config) {
+bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth) {
   int close = 0;
   int redundant = 0;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
@@ -58,36 +64,33 @@ bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfi
     const MapPoint* point = map.point(keyframe.points[i]);
     if (point == nullptr) continue;
     ++close;
-    redundant += seen_by_others(map, *point, keyframe, f.level, config.redundant_observers) ? 1 : 0;
+    redundant += seen_by_others(map, *point, keyframe, f.level) ? 1 : 0;
   }
-  return close > 0 && redundant > config.redundant_share * close;
+  return close > 0 && redundant > kRedundantShare * close;
 }
 
 }  // namespace
 
-Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth,
-                          const MapConfig& config) {
+Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth) {
   Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
   keyframe.time_ns = frame.time_ns;
   keyframe.motion = frame.motion;
   keyframe.given_fx = frame.given_fx;
   keyframe.pose_is_given = frame.pose_is_given;
   observe_matches(map, frame, keyframe);
-  make_points(map, depth, config, keyframe);
-  map.update_covisibility(keyframe.id);
+  make_points(map, depth, keyframe);
+  update_covisibility(map, keyframe.id);
   return keyframe;
 }
 
-void cull_recent_points(SlamMap& map, KeyframeId newest, const MapConfig& config,
-                        std::vector<PointId>& recent) {
+void cull_recent_points(SlamMap& map, KeyframeId newest, std::vector<PointId>& recent) {
   std::vector<PointId> undecided;
   for (const PointId id : recent) {
     const MapPoint* point = map.point(id);
     if (point == nullptr) continue;
     const KeyframeId age = newest - point->created_by;
-    const bool rarely_found = point->found < config.min_found_ratio * point->visible;
-    const bool rarely_observed =
-        age >= kKeyframesOn && point->observations.size() < static_cast<std::size_t>(config.min_observers);
+    const bool rarely_found = point->found < kMinFoundRatio * point->visible;
+    const bool rarely_observed = age >= kKeyframesOn && point->observations.size() < kMinObservers;
     if (rarely_found || rarely_observed)
       map.erase_point(id);
     else if (age < kProbation)
@@ -96,8 +99,7 @@ void cull_recent_points(SlamMap& map, KeyframeId newest, const MapConfig& config
   recent = std::move(undecided);
 }
 
-std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest, const DepthConfig& depth,
-                                                 const MapConfig& config) {
+std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest, const DepthConfig& depth) {
   const Keyframe* centre = map.keyframe(newest);
   std::vector<KeyframeId> culled;
   if (centre == nullptr) return culled;
@@ -105,16 +107,16 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
   if (around.size() > kConsidered) around.resize(kConsidered);
   for (const CovisibleKeyframe& c : around) {
     const Keyframe* keyframe = map.keyframe(c.id);
-    if (keyframe == nullptr || c.id == 0 || map.is_fixed(c.id) || c.id + kKeptNewest > newest) continue;
-    if (!is_redundant(map, *keyframe, depth, config)) continue;
+    if (keyframe == nullptr || c.id == 0 || map.records().is_fixed(c.id) || c.id + kKeptNewest > newest)
+      continue;
+    if (!is_redundant(map, *keyframe, depth)) continue;
     map.cull_keyframe(c.id);
     culled.push_back(c.id);
   }
   return culled;
 }
 
-void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, const DepthConfig& depth,
-                     const MapConfig& config) {
+void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, const DepthConfig& depth) {
   Keyframe* keyframe = map.keyframe(id);
   if (keyframe == nullptr || !movable.any()) return;
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
@@ -129,7 +131,7 @@ void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, co
     else
       map.forget(point_id, id);
   }
-  make_points(map, depth, config, *keyframe);
+  make_points(map, depth, *keyframe);
 }
 
 }  // namespace rds::tracker

@@ -9,8 +9,8 @@
 namespace rds::tracker {
 
 /// Snapshot around a keyframe: it and its best covisible keyframes, which may move, their points, and further
-/// keyframes that see these points, which hold them. The very first keyframe and those held never move.
-LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId keyframe, const LocalMappingConfig& config);
+/// keyframes that see these points, which hold them. The very first keyframe and fixed ones never move.
+LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId keyframe);
 
 /// Brings a result into the map as it is now. Keyframes made since the snapshot, and their points, move
 /// rigidly with the keyframe at the snapshot's centre.
@@ -18,7 +18,7 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result);
 
 /// Sets corrected keyframe poses. A keyframe that is not among them moves as the nearest older corrected one
 /// does (the oldest corrected one if there is none); a point moves with the keyframe that made it. Keyframes
-/// held and their points stay. Unknown ids and poses that are not finite are ignored.
+/// that are fixed and their points stay. Unknown ids and poses that are not finite are ignored.
 void apply_correction(SlamMap& map, std::span<const KeyframePose> corrected);
 
 }  // namespace rds::tracker

@@ -6,6 +6,11 @@
 #include "services/tracker/core/pose/association.hpp"
 
 namespace rds::tracker {
+namespace {
+
+constexpr double kFusionWindowPx = 3;  // around the projection, at level 0
+
+}  // namespace
 
 MappingScene::MappingScene(const LocalMappingJob& job) : job_(job) {
   for (const MapPoint& p : job.points) {
@@ -67,8 +72,7 @@ void MappingScene::fuse(std::size_t a, std::size_t b, LocalMappingResult& result
 
 namespace {
 
-void look_for(MappingScene& scene, std::size_t point, std::size_t keyframe, const LocalMappingConfig& config,
-              LocalMappingResult& result) {
+void search_point(MappingScene& scene, std::size_t point, std::size_t keyframe, LocalMappingResult& result) {
   const LocalMappingJob& job = scene.job();
   const MappingKeyframe& view = job.keyframes[keyframe];
   const ObservationModel model(view.features->camera(), job.depth);
@@ -76,39 +80,38 @@ void look_for(MappingScene& scene, std::size_t point, std::size_t keyframe, cons
   const auto projected = project_point(p, view.map_from_camera.inverse(), view.map_from_camera.translation(),
                                        *view.features, model, job.pyramid);
   if (!projected) return;
-  const auto radius = static_cast<float>(config.fusion_window_px * job.pyramid.scale(projected->level));
+  const auto radius = static_cast<float>(kFusionWindowPx * job.pyramid.scale(projected->level));
   const SearchWindow window{projected->px.cast<float>(), radius, projected->level - 1, projected->level + 1,
                             model.disparity(projected->depth)};
-  const auto found =
-      best_in_window(*view.features, {}, model, p.descriptor, window, job.fusion_max_distance, 1);
+  const auto found = best_in_window(*view.features, {}, model, p.descriptor, window, kMaxDistanceAlone, 1);
   if (found) scene.connect(point, keyframe, *found, result);
 }
 
 }  // namespace
 
-void search_and_fuse(MappingScene& scene, const LocalMappingConfig& config, LocalMappingResult& result) {
+void search_and_fuse(MappingScene& scene, LocalMappingResult& result) {
   const auto centre = scene.keyframe_index(scene.job().keyframe);
   if (!centre) return;
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
     if (!scene.points()[p].alive) continue;
     if (!scene.sees(*centre, p)) {
-      look_for(scene, p, *centre, config, result);
+      search_point(scene, p, *centre, result);
       continue;
     }
     for (std::size_t k = 0; k < scene.job().keyframes.size() && scene.points()[p].alive; ++k)
-      if (k != *centre && !scene.sees(k, p)) look_for(scene, p, k, config, result);
+      if (k != *centre && !scene.sees(k, p)) search_point(scene, p, k, result);
   }
 }
 
-LocalMappingResult run_local_mapping(const LocalMappingJob& job, const LocalMappingConfig& config) {
+LocalMappingResult run_local_mapping(const LocalMappingJob& job, int iterations) {
   LocalMappingResult result;
   result.keyframe = job.keyframe;
   result.next_keyframe = job.next_keyframe;
   result.next_point = job.next_point;
   result.revision = job.revision;
   MappingScene scene(job);
-  search_and_fuse(scene, config, result);
-  adjust_bundle(scene, config, result);
+  search_and_fuse(scene, result);
+  adjust_bundle(scene, iterations, result);
   return result;
 }
 

@@ -45,10 +45,10 @@ class MappingScene {
 
 /// Looks for the centre's points in the other keyframes and for theirs in the centre.
 /// Source: Mur-Artal et al. 2015, §VI-C.
-void search_and_fuse(MappingScene& scene, const LocalMappingConfig& config, LocalMappingResult& result);
+void search_and_fuse(MappingScene& scene, LocalMappingResult& result);
 
 /// Moves free keyframes and points so that the points show where their features are; observations that
 /// disagree are removed.
-void adjust_bundle(MappingScene& scene, const LocalMappingConfig& config, LocalMappingResult& result);
+void adjust_bundle(MappingScene& scene, int iterations, LocalMappingResult& result);
 
 }  // namespace rds::tracker

@@ -11,15 +11,15 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kMinDepth = 0.05;          // m
 constexpr double kMinViewCosine = 0.5;      // 60° from the mean viewing direction
 constexpr double kInLineOfSight = 0.998;    // cosine
 constexpr double kDistanceTolerance = 1.2;  // beyond the range of levels
 constexpr double kStraightWindowPx = 2.5;
 constexpr double kObliqueWindowPx = 4;
-constexpr int kFar = 257;
-constexpr double kSureAfterNs = 0.4e9;  // that a point stands still
-constexpr double kLeastTrust = 0.02;    // in one that may not
+constexpr int kFar = 257;                 // more than descriptors can differ
+constexpr double kMaxRatio = 0.8;         // of the best to the second best distance at one level
+constexpr double kStaticAfterNs = 0.4e9;  // over which a point was found in its place: it is static
+constexpr double kMinWeight = 0.02;       // of a point that may move
 
 /// Removes the matches whose feature turned otherwise than most did.
 void keep_consistent_rotation(std::span<const std::uint32_t> matched, std::span<const float> differences,
@@ -29,18 +29,24 @@ void keep_consistent_rotation(std::span<const std::uint32_t> matched, std::span<
     if (!keep[i]) frame.points[matched[i]] = kNoId;
 }
 
+/// The two features whose descriptors are nearest.
 struct Neighbours {
   std::uint32_t nearest = 0;
   int distance = kFar;
+  int level = -1;
   int second_distance = kFar;
+  int second_level = -1;
 
-  void offer(std::uint32_t candidate, int candidate_distance) {
+  void offer(std::uint32_t candidate, int candidate_distance, int candidate_level) {
     if (candidate_distance < distance) {
       second_distance = distance;
+      second_level = level;
       distance = candidate_distance;
+      level = candidate_level;
       nearest = candidate;
-    } else {
-      second_distance = std::min(second_distance, candidate_distance);
+    } else if (candidate_distance < second_distance) {
+      second_distance = candidate_distance;
+      second_level = candidate_level;
     }
   }
 };
@@ -51,8 +57,6 @@ std::optional<std::uint32_t> best_in_window(const FeatureSet& features, std::spa
                                             const ObservationModel& model, const Descriptor& descriptor,
                                             const SearchWindow& window, int max_distance, double ratio) {
   Neighbours found;
-  int second_level = -1;
-  int level = -1;
   features.for_each_near(
       window.px, window.radius_px, window.min_level, window.max_level, [&](std::uint32_t i) {
         if (!taken.empty() && taken[i] != kNoId) return;
@@ -61,17 +65,11 @@ std::optional<std::uint32_t> best_in_window(const FeatureSet& features, std::spa
             std::abs(model.disparity(static_cast<double>(f.depth_m)) - window.disparity_px) >
                 static_cast<double>(window.radius_px))
           return;
-        const int distance = descriptor_distance(descriptor, f.descriptor);
-        if (distance < found.distance) {
-          second_level = level;
-          level = f.level;
-        } else if (distance < found.second_distance) {
-          second_level = f.level;
-        }
-        found.offer(i, distance);
+        found.offer(i, descriptor_distance(descriptor, f.descriptor), f.level);
       });
   if (found.distance > max_distance) return std::nullopt;
-  if (level == second_level && found.distance > ratio * found.second_distance) return std::nullopt;
+  if (found.level == found.second_level && found.distance > ratio * found.second_distance)
+    return std::nullopt;
   return found.nearest;
 }
 
@@ -121,8 +119,7 @@ std::optional<ProjectedPoint> project_point(const MapPoint& point, const Pose& c
 }
 
 int match_last_frame(const SlamMap& map, const TrackedFrame& last, const ObservationModel& model,
-                     const ScalePyramid& pyramid, const MatchingConfig& config, double window_px,
-                     TrackedFrame& frame) {
+                     const ScalePyramid& pyramid, double window_px, TrackedFrame& frame) {
   frame.clear_matches();
   std::vector<std::uint32_t> matched;
   std::vector<float> differences;
@@ -138,7 +135,7 @@ int match_last_frame(const SlamMap& map, const TrackedFrame& last, const Observa
     const SearchWindow window{px.cast<float>(), static_cast<float>(window_px * pyramid.scale(before.level)),
                               before.level - 1, before.level + 1, model.disparity(p.z())};
     const auto found = best_in_window(*frame.features, frame.points, model, before.descriptor, window,
-                                      config.max_distance_frame, 1);
+                                      kMaxDistanceNearby, 1);
     if (!found) continue;
     frame.points[*found] = point->id;
     matched.push_back(*found);
@@ -148,8 +145,7 @@ int match_last_frame(const SlamMap& map, const TrackedFrame& last, const Observa
   return frame.matches();
 }
 
-int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingConfig& config,
-                   TrackedFrame& frame) {
+int match_keyframe(const SlamMap& map, const Keyframe& keyframe, TrackedFrame& frame) {
   frame.clear_matches();
   const std::size_t n = frame.features->size();
   std::vector<Neighbours> of_feature(n);  // nearest keyframe feature of each frame feature
@@ -161,16 +157,16 @@ int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingC
     for (std::uint32_t i = 0; i < n; ++i) {
       if ((*frame.features)[i].movable) continue;
       const int distance = descriptor_distance(descriptor, (*frame.features)[i].descriptor);
-      found.offer(i, distance);
-      of_feature[i].offer(k, distance);
+      found.offer(i, distance, 0);
+      of_feature[i].offer(k, distance, 0);
     }
     of_point.emplace_back(k, found);
   }
   std::vector<std::uint32_t> matched;
   std::vector<float> differences;
   for (const auto& [k, found] : of_point) {
-    if (found.distance > config.max_distance_strict || of_feature[found.nearest].nearest != k) continue;
-    if (found.distance > config.ratio * found.second_distance) continue;
+    if (found.distance > kMaxDistanceAlone || of_feature[found.nearest].nearest != k) continue;
+    if (found.distance > kMaxRatio * found.second_distance) continue;
     frame.points[found.nearest] = keyframe.points[k];
     matched.push_back(found.nearest);
     differences.push_back((*keyframe.features)[k].angle_rad - (*frame.features)[found.nearest].angle_rad);
@@ -180,8 +176,7 @@ int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingC
 }
 
 PointMatches match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
-                          const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
-                          TrackedFrame& frame) {
+                          const ScalePyramid& pyramid, double window_factor, TrackedFrame& frame) {
   const Eigen::Vector3d camera_in_map = frame.camera_from_map.inverse().translation();
   PointMatches matches;
   for (const PointId id : points) {
@@ -197,7 +192,7 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
                              static_cast<float>(window * window_factor * pyramid.scale(projected->level)),
                              projected->level - 1, projected->level + 1, model.disparity(projected->depth)};
     const auto found = best_in_window(*frame.features, frame.points, model, point->descriptor, where,
-                                      config.max_distance_frame, config.ratio);
+                                      kMaxDistanceNearby, kMaxRatio);
     if (!found) continue;
     frame.points[*found] = id;
     ++matches.found;
@@ -205,16 +200,16 @@ PointMatches match_points(SlamMap& map, std::span<const PointId> points, const O
   return matches;
 }
 
-double trust(const SlamMap& map, const MapPoint& point) {
-  if (point.observations.empty() || 2 * point.found < point.visible) return kLeastTrust;
+double static_weight(const SlamMap& map, const MapPoint& point) {
+  if (point.observations.empty() || 2 * point.found < point.visible) return kMinWeight;
   const std::int64_t first_ns = map.keyframe(point.observations.front().keyframe)->time_ns;
   const std::int64_t last_ns = map.keyframe(point.observations.back().keyframe)->time_ns;
   const auto seen_ns = static_cast<double>(std::max(last_ns, point.last_found_ns) - first_ns);
-  return std::clamp(std::pow(seen_ns / kSureAfterNs, 2), kLeastTrust, 1.0);
+  return std::clamp(std::pow(seen_ns / kStaticAfterNs, 2), kMinWeight, 1.0);
 }
 
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,
-                   const PoseOptimizationConfig& config, TrackedFrame& frame) {
+                   TrackedFrame& frame) {
   std::vector<PointObservation> observations;
   std::vector<std::size_t> feature;
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
@@ -225,12 +220,12 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
       continue;
     }
     observations.push_back({point->position, model.measurement((*frame.features)[i], pyramid),
-                            frame.movable_in_view ? trust(map, *point) : 1});
+                            frame.movable_in_view ? static_weight(map, *point) : 1});
     feature.push_back(i);
   }
   const OptimizedPose optimized = frame.pose_is_given
-                                      ? check_pose(model, observations, frame.camera_from_map, config)
-                                      : optimize_pose(model, observations, frame.camera_from_map, config);
+                                      ? check_pose(model, observations, frame.camera_from_map)
+                                      : optimize_pose(model, observations, frame.camera_from_map);
   frame.camera_from_map = optimized.camera_from_map;
   for (std::size_t i = 0; i < feature.size(); ++i)
     if (!optimized.inlier[i]) frame.points[feature[i]] = kNoId;

@@ -13,6 +13,13 @@
 
 namespace rds::tracker {
 
+/// Bits in which descriptors of one corner differ at most: where it is expected, and where nothing but its
+/// appearance speaks for it. (Two corners that look unlike each other differ in 128 on average.)
+inline constexpr int kMaxDistanceNearby = 100;
+inline constexpr int kMaxDistanceAlone = 50;
+/// Matches by appearance that a pose can be found from.
+inline constexpr int kMinKeyframeMatches = 15;
+
 /// Where and how a feature is searched.
 struct SearchWindow {
   Eigen::Vector2f px = Eigen::Vector2f::Zero();
@@ -34,8 +41,7 @@ std::optional<std::uint32_t> best_in_window(const FeatureSet& features, std::spa
 /// Of matches with these differences of feature angle [rad], those in the three fullest of thirty bins.
 std::vector<bool> consistent_rotation(std::span<const float> differences);
 
-/// Where a map point shows in a view; nullopt if behind, outside the picture, at an unlikely distance or seen
-/// from too different a direction.
+/// Where and how a view shows a map point.
 struct ProjectedPoint {
   Eigen::Vector2d px;
   double distance = 0;     // m
@@ -43,6 +49,8 @@ struct ProjectedPoint {
   double view_cosine = 1;  // between the viewing ray and the point's mean viewing direction
   int level = 0;           // where the feature should be
 };
+/// @return nullopt for a point behind the camera, outside the picture, at a distance from which its feature
+/// has none of the pyramid's levels, or seen from more than 60° off its mean viewing direction.
 std::optional<ProjectedPoint> project_point(const MapPoint& point, const Pose& camera_from_map,
                                             const Eigen::Vector3d& camera_in_map, const FeatureSet& view,
                                             const ObservationModel& model, const ScalePyramid& pyramid);
@@ -50,15 +58,14 @@ std::optional<ProjectedPoint> project_point(const MapPoint& point, const Pose& c
 /// Finds the last frame's map points again around where `frame.camera_from_map` expects them.
 /// @return number of matches; frame.points is overwritten.
 int match_last_frame(const SlamMap& map, const TrackedFrame& last, const ObservationModel& model,
-                     const ScalePyramid& pyramid, const MatchingConfig& config, double window_px,
-                     TrackedFrame& frame);
+                     const ScalePyramid& pyramid, double window_px, TrackedFrame& frame);
 
 /// Matches a keyframe's map points by appearance alone (mutual nearest neighbour, rotation check), with
 /// features that are not on movable objects.
 /// @return number of matches; frame.points is overwritten.
-int match_keyframe(const SlamMap& map, const Keyframe& keyframe, const MatchingConfig& config,
-                   TrackedFrame& frame);
+int match_keyframe(const SlamMap& map, const Keyframe& keyframe, TrackedFrame& frame);
 
+/// What match_points() did.
 struct PointMatches {
   int expected = 0;  // points that should show
   int found = 0;     // new matches
@@ -66,16 +73,15 @@ struct PointMatches {
 /// Adds matches of points that the frame does not see yet; counts `visible` of those that should show.
 /// @param window_factor  times 2.5 px (seen from its usual direction) or 4 px, times the level's scale.
 PointMatches match_points(SlamMap& map, std::span<const PointId> points, const ObservationModel& model,
-                          const ScalePyramid& pyramid, const MatchingConfig& config, double window_factor,
-                          TrackedFrame& frame);
+                          const ScalePyramid& pyramid, double window_factor, TrackedFrame& frame);
 
-/// How sure it is that a point stands still, while something in view does not, from near 0 to 1: by the time
-/// over which frames found it in its place.
-double trust(const SlamMap& map, const MapPoint& point);
+/// Weight of a point while something movable is in view: (t / 0.4 s)² of the time t over which frames found
+/// it in its place, from 0.02 (it may be on what moves) to 1 (it is static).
+double static_weight(const SlamMap& map, const MapPoint& point);
 
 /// Pose from the frame's matches, unless it is given; outliers are removed from frame.points.
 /// @return number of inliers.
 int optimize_frame(const SlamMap& map, const ObservationModel& model, const ScalePyramid& pyramid,
-                   const PoseOptimizationConfig& config, TrackedFrame& frame);
+                   TrackedFrame& frame);
 
 }  // namespace rds::tracker

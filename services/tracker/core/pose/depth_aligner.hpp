@@ -4,9 +4,27 @@
 #include <optional>
 
 #include "common/geometry/pose.hpp"
-#include "services/tracker/core/removal/depth_grid.hpp"
+#include "services/tracker/core/removal/motion_evidence.hpp"
 
 namespace rds::tracker {
+
+/// What an earlier picture showed.
+struct EarlierView {
+  SeenCells fixed;
+  SeenCells movable;  // may have moved since, and counts little; the same pose
+};
+
+/// Where the camera is by depth alone: what an earlier picture saw is laid on the surfaces that this one
+/// shows.
+///
+/// Point to plane, each point with the cell it shows up in (Newcombe et al. 2011, KinectFusion, §3.5), with
+/// Tukey's loss: what has moved disagrees.
+/// @param depth_m  of the new picture, in the cells of `grid`.
+/// @param guess    camera_from_map, to about 0.1 m and 5°.
+/// @return camera_from_map; nullopt where too little of what was seen shows again, or its surfaces leave the
+/// camera free to move in some direction, as a single wall does.
+std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::Mat1f& depth_m,
+                                          const GridGeometry& grid, const geometry::Pose& guess);
 
 /// A depth picture in the cells of a grid. Shared, not copied.
 struct DepthView {
@@ -15,12 +33,10 @@ struct DepthView {
   cv::Mat1b movable;  // not 0 where something movable shows; empty: nowhere
 };
 
-/// Estimates the pose from depth alone, by alignment with the depth of the picture before
-/// (depth_alignment.hpp).
+/// Estimates the pose from depth alone, by alignment with the depth of the picture before.
 class DepthAligner {
  public:
-  /// @param guess  camera_from_map, to about 0.1 m and 5°.
-  /// @return camera_from_map; nullopt where the picture before has no pose or depth does not determine one.
+  /// @return as align_depth(); nullopt, too, where the picture before has no pose.
   [[nodiscard]] std::optional<geometry::Pose> estimate(const DepthView& view,
                                                        const geometry::Pose& guess) const;
   /// The picture before the next one, and its pose.
@@ -35,6 +51,7 @@ class DepthAligner {
     geometry::CameraModel camera;
     geometry::Pose map_from_camera;
   };
+
   std::optional<Previous> previous_;
 };
 

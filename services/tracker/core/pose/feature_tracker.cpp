@@ -11,13 +11,9 @@ namespace {
 constexpr double kMaxBridgedGap = 2;    // s; beyond, the last frame says nothing about where the camera is
 constexpr int kEnoughMatches = 20;      // of a frame, before optimisation
 constexpr int kEnoughInliers = 10;      // after it
+constexpr double kMotionWindowPx = 15;  // around where the motion model expects a feature, at level 0
 constexpr double kWideWindow = 4;       // times the motion window, when velocity failed
 constexpr double kAdoptedWindowPx = 2;  // between a followed point and the corner that is taken for it
-
-int optimize(const TrackingContext& context, TrackedFrame& frame) {
-  const PoseSettings& settings = context.settings;
-  return optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
-}
 
 }  // namespace
 
@@ -32,15 +28,14 @@ void FeatureTracker::extract(const TrackingContext& context, TrackedFrame& frame
 }
 
 int FeatureTracker::track(const TrackingContext& context, TrackedFrame& frame) {
-  const MatchingConfig& matching = context.settings.matching;
   if (context.motion.gap_s() > kMaxBridgedGap) return 0;
   int inliers = 0;
-  if (estimate_from_last_frame(context, frame)) inliers = refine(context, frame, matching.map_window_factor);
+  if (estimate_from_last_frame(context, frame)) inliers = refine(context, frame, kUsualWindow);
   if (inliers >= kSureInliers) return inliers;
   TrackedFrame second = frame;
   const KeyframeId reference = reference_;
   if (estimate_from_keyframe(context, second)) {
-    const int again = refine(context, second, matching.lost_window_factor);
+    const int again = refine(context, second, kLostWindow);
     if (again > inliers) {
       frame = std::move(second);
       return again;
@@ -51,18 +46,16 @@ int FeatureTracker::track(const TrackingContext& context, TrackedFrame& frame) {
 }
 
 bool FeatureTracker::estimate_from_last_frame(const TrackingContext& context, TrackedFrame& frame) const {
-  const auto& [pyramid, depth, matching, optimization, map] = context.settings;
   const Pose aligned = frame.camera_from_map;
   const Pose& predicted = context.motion.camera_from_map();
   const Pose still = context.motion.last_map_from_camera().inverse();
-  const double window = matching.motion_window_px;
-  for (const auto& [guess, window_px] : {std::pair{predicted, window},
-                                         {aligned, window},
-                                         {predicted, 2 * window},
-                                         {still, kWideWindow * window}}) {
+  for (const auto& [guess, window_px] : {std::pair{predicted, kMotionWindowPx},
+                                         {aligned, kMotionWindowPx},
+                                         {predicted, 2 * kMotionWindowPx},
+                                         {still, kWideWindow * kMotionWindowPx}}) {
     frame.camera_from_map = guess;
-    if (match_last_frame(context.map, last_->frame, context.model, pyramid, matching, window_px, frame) <
-        kEnoughMatches)
+    if (match_last_frame(context.map, last_->frame, context.model, context.settings.pyramid, window_px,
+                         frame) < kEnoughMatches)
       continue;
     if (optimize(context, frame) >= kEnoughInliers) return true;
   }
@@ -74,22 +67,20 @@ bool FeatureTracker::estimate_from_keyframe(const TrackingContext& context, Trac
     const Keyframe* keyframe = context.map.keyframe(id);
     if (keyframe == nullptr) continue;
     frame.camera_from_map = context.motion.last_map_from_camera().inverse();
-    if (match_keyframe(context.map, *keyframe, context.settings.matching, frame) < min_keyframe_matches_)
-      continue;
+    if (match_keyframe(context.map, *keyframe, frame) < kMinKeyframeMatches) continue;
     if (optimize(context, frame) >= kEnoughInliers) return true;
   }
   return false;
 }
 
 int FeatureTracker::refine(const TrackingContext& context, TrackedFrame& frame, double window_factor) {
-  const PoseSettings& settings = context.settings;
-  const LocalMap local = select_local_map(context.map, frame.points, settings.map, ++mark_);
+  const LocalMap local = select_local_map(context.map, frame.points, ++mark_);
   if (local.reference == kNoId) return 0;
   for (const PointId id : frame.points)
     if (MapPoint* point = context.map.point(id)) ++point->visible;
   const int seen = frame.matches();
-  const PointMatches more = match_points(context.map, local.points, context.model, settings.pyramid,
-                                         settings.matching, window_factor, frame);
+  const PointMatches more =
+      match_points(context.map, local.points, context.model, context.settings.pyramid, window_factor, frame);
   const int inliers = optimize(context, frame);
   count_found_points(context.map, frame);
   frame.found_share = found_share_.update(seen + more.expected, inliers);
@@ -98,21 +89,20 @@ int FeatureTracker::refine(const TrackingContext& context, TrackedFrame& frame, 
 }
 
 void FeatureTracker::associate(const TrackingContext& context, TrackedFrame& frame) {
-  const auto& [pyramid, depth, matching, optimization, map] = context.settings;
   const Keyframe* reference = context.map.keyframe(reference_);
   if (last_)
-    match_last_frame(context.map, last_->frame, context.model, pyramid, matching, matching.motion_window_px,
+    match_last_frame(context.map, last_->frame, context.model, context.settings.pyramid, kMotionWindowPx,
                      frame);
   else if (reference != nullptr)
-    match_keyframe(context.map, *reference, matching, frame);
+    match_keyframe(context.map, *reference, frame);
   optimize(context, frame);
-  refine(context, frame, matching.map_window_factor);
+  refine(context, frame, kUsualWindow);
 }
 
 LocalMap FeatureTracker::local_map_of_last(const TrackingContext& context) {
   if (!last_) return {};
   const std::vector<PointId>& seen = last_->frame.points;
-  LocalMap around = select_local_map(context.map, seen, context.settings.map, ++mark_);
+  LocalMap around = select_local_map(context.map, seen, ++mark_);
   LocalMap all{std::move(around.keyframes), {}, around.reference};
   std::ranges::copy_if(seen, std::back_inserter(all.points),
                        [&](PointId id) { return context.map.point(id) != nullptr; });
@@ -122,15 +112,15 @@ LocalMap FeatureTracker::local_map_of_last(const TrackingContext& context) {
 
 void adopt_followed_points(const TrackingContext& context, const TrackedFrame& followed,
                            TrackedFrame& frame) {
-  const auto& [pyramid, depth, matching, optimization, map] = context.settings;
   std::vector<Feature> features = frame.features->all();
   for (std::size_t i = 0; i < followed.points.size(); ++i) {
     if (followed.points[i] == kNoId) continue;
     const Feature& f = (*followed.features)[i];
-    const SearchWindow window{f.px, static_cast<float>(kAdoptedWindowPx * pyramid.scale(f.level)),
+    const SearchWindow window{f.px,
+                              static_cast<float>(kAdoptedWindowPx * context.settings.pyramid.scale(f.level)),
                               f.level - 1, f.level + 1, 0};
     const auto corner = best_in_window(*frame.features, frame.points, context.model, f.descriptor, window,
-                                       matching.max_distance_frame, 1);
+                                       kMaxDistanceNearby, 1);
     if (!corner) continue;
     frame.points[*corner] = followed.points[i];
     features[*corner].px = f.px;

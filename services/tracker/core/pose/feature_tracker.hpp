@@ -16,8 +16,11 @@ namespace rds::tracker {
 /// Source: Mur-Artal et al. 2015, §V.
 class FeatureTracker {
  public:
-  FeatureTracker(std::unique_ptr<FeatureExtractor> extractor, int min_keyframe_matches)
-      : extractor_(std::move(extractor)), min_keyframe_matches_(min_keyframe_matches) {}
+  /// Window factors of refine(): after a good prediction, and after a weak one.
+  static constexpr double kUsualWindow = 3;
+  static constexpr double kLostWindow = 6;
+
+  explicit FeatureTracker(std::unique_ptr<FeatureExtractor> extractor) : extractor_(std::move(extractor)) {}
 
   /// The picture's features, without matches.
   void extract(const TrackingContext& context, TrackedFrame& frame);

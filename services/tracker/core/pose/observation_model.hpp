@@ -4,11 +4,18 @@
 #include <Eigen/Core>
 
 #include "common/geometry/camera_model.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/features/feature.hpp"
 #include "services/tracker/core/features/scale_pyramid.hpp"
-#include "services/tracker/core/pose/pose_config.hpp"
 
 namespace rds::tracker {
+
+/// 95 % of χ² with two and with three degrees of freedom: bounds of a squared residual, and squared bounds of
+/// Huber's loss, without and with depth.
+inline constexpr double kChi2Pixel = 5.991;
+inline constexpr double kChi2PixelAndDisparity = 7.815;
+/// Points nearer to a camera, or behind it, say nothing about its pose [m].
+inline constexpr double kMinDepth = 0.05;
 
 /// What a feature says about the point it sees, in units of its standard deviation once weighted.
 struct Measurement {
@@ -18,7 +25,8 @@ struct Measurement {
   double disparity_weight = 0;                   // 1/σ; 0 without depth
 };
 
-/// The virtual stereo camera of an RGB-D camera: a point (x, y, z) shows at a pixel with a disparity.
+/// The virtual stereo camera of an RGB-D camera: a point (x, y, z) shows at a pixel with a disparity fx·b /
+/// z.
 ///
 /// Comparing disparities instead of depths gives depth noise that grows with z² a constant size.
 /// Source: Mur-Artal & Tardós 2017, §III-A. Deviation: the disparity has a standard deviation of its own,
@@ -30,7 +38,7 @@ class ObservationModel {
         fy_(camera.fy),
         cx_(camera.cx),
         cy_(camera.cy),
-        fx_baseline_(camera.fx * depth.virtual_baseline_m),
+        fx_baseline_(camera.fx * kBaselineM),
         disparity_weight_(1 / depth.disparity_sigma_px) {}
 
   [[nodiscard]] double disparity(double depth_m) const { return fx_baseline_ / depth_m; }
@@ -76,11 +84,13 @@ class ObservationModel {
   }
 
   /// 95 % bound of the squared residual.
-  [[nodiscard]] static double chi2(const Measurement& m, const PoseOptimizationConfig& config) {
-    return m.disparity_weight > 0 ? config.chi2_3d : config.chi2_2d;
+  [[nodiscard]] static double chi2(const Measurement& m) {
+    return m.disparity_weight > 0 ? kChi2PixelAndDisparity : kChi2Pixel;
   }
 
  private:
+  static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
+
   double fx_, fy_, cx_, cy_;
   double fx_baseline_;
   double disparity_weight_;

@@ -9,9 +9,10 @@
 namespace rds::tracker {
 namespace {
 
-constexpr double kMinDepth = 0.05;          // m
 constexpr std::size_t kEnoughToAlign = 40;  // points of the last frame
-constexpr int kSurePoints = 3;              // times min_points: support that no moving thing has
+constexpr int kMinFollowed = 50;            // points that must agree on a pose; else features are matched
+constexpr double kMinInlierShare = 0.5;     // of the points found, that must agree
+constexpr int kSurePoints = 3;              // times kMinFollowed: support that no moving thing has
 
 }  // namespace
 
@@ -29,7 +30,7 @@ Pose PointFollower::align(const TrackingContext& context, const LastFrame& last)
   const Pose& predicted = context.motion.camera_from_map();
   if (seen.size() < kEnoughToAlign) return predicted;
   return align_sparsely(*last.frame.images, seen, *context.frame.images, context.picture.camera,
-                        predicted * last_map_from_camera, config_) *
+                        predicted * last_map_from_camera) *
          last_camera_from_map;
 }
 
@@ -39,7 +40,7 @@ PointSearch PointFollower::search(const TrackingContext& context, const Pose& ca
           {context.picture, *context.frame.images, camera_from_map, context.frame.motion},
           context.model,
           context.settings.pyramid,
-          config_};
+          points_};
 }
 
 std::optional<FollowedFrame> PointFollower::follow(const TrackingContext& context, PointSearch& search,
@@ -47,15 +48,13 @@ std::optional<FollowedFrame> PointFollower::follow(const TrackingContext& contex
   FollowedFrame result{context.frame, {}};
   TrackedFrame& frame = result.frame;
   frame.camera_from_map = guess;
-  FollowedPoints followed = search.find(context.movable, parallel_for_);
+  FollowedPoints followed = search.find(context.movable, executor_);
   frame.features = complete_feature_set(context, std::move(followed.features));
   frame.points = std::move(followed.points);
   result.expected = std::move(followed.looked_for);
   const int found = frame.matches();
-  const PoseSettings& settings = context.settings;
-  const int inliers =
-      optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
-  if (inliers < config_.min_points || inliers < config_.min_inlier_share * found) return std::nullopt;
+  const int inliers = optimize(context, frame);
+  if (inliers < kMinFollowed || inliers < kMinInlierShare * found) return std::nullopt;
   return result;
 }
 
@@ -78,7 +77,7 @@ void PointFollower::count_found(SlamMap& map, const std::vector<PointId>& expect
 }
 
 bool PointFollower::is_sure(double support) const {
-  return support >= kSurePoints * config_.min_points;
+  return support >= kSurePoints * kMinFollowed;
 }
 
 }  // namespace rds::tracker

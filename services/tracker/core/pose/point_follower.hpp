@@ -19,11 +19,9 @@ struct FollowedFrame {
 /// Source: Forster, Pizzoli & Scaramuzza 2014 (SVO), §IV.
 class PointFollower {
  public:
-  PointFollower(const FollowingConfig& config, ParallelFor parallel_for)
-      : config_(config), parallel_for_(std::move(parallel_for)) {}
+  /// @param points  to follow.
+  PointFollower(int points, Executor executor) : points_(points), executor_(std::move(executor)) {}
 
-  /// Levels that an ImagePyramid needs.
-  [[nodiscard]] int pyramid_levels() const { return config_.coarsest_level + 1; }
   /// camera_from_map by sparse image alignment with the last frame; the prediction where it shows too few
   /// points.
   [[nodiscard]] Pose align(const TrackingContext& context, const LastFrame& last) const;
@@ -42,8 +40,8 @@ class PointFollower {
   [[nodiscard]] std::optional<FollowedFrame> follow(const TrackingContext& context, PointSearch& search,
                                                     const Pose& guess) const;
 
-  FollowingConfig config_;
-  ParallelFor parallel_for_;
+  int points_;
+  Executor executor_;
   FoundShare found_share_;
 };
 

@@ -13,6 +13,8 @@ constexpr float kBorder = 8;        // px of the picture that a patch needs arou
 constexpr double kPatchRadius = 4;  // px, at the feature's level
 constexpr float kCell = 32;         // px, side of the parts of the picture that points are spread over
 constexpr std::size_t kPointsPerPart = 32;
+constexpr double kMinCorrelation = 0.8;  // of a point's patches
+constexpr double kMaxShiftPx = 3;        // between expected and found place, in pixels of the patch
 
 std::size_t parts_of(std::size_t points) {
   return (points + kPointsPerPart - 1) / kPointsPerPart;
@@ -75,12 +77,11 @@ Feature hidden_feature(const Eigen::Vector2f& image_px) {
 }  // namespace
 
 PointSearch::PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-                         const ObservationModel& model, const ScalePyramid& pyramid,
-                         const FollowingConfig& config)
+                         const ObservationModel& model, const ScalePyramid& pyramid, int wanted)
     : map_(map),
       view_(view),
       pyramid_(pyramid),
-      config_(config),
+      wanted_(static_cast<std::size_t>(wanted)),
       camera_in_map_(view.camera_from_map.inverse().translation()) {
   expect(points, model);
   spread();
@@ -132,7 +133,7 @@ void PointSearch::spread() {
 void PointSearch::hide(const MovableMask& movable) {
   if (!movable.any()) return;
   for (Expected& e : expected_)
-    e.hidden = is_hidden(movable, e.image_px, pyramid_.scale(e.level)) && trust(map_, *e.point) < 1;
+    e.hidden = is_hidden(movable, e.image_px, pyramid_.scale(e.level)) && static_weight(map_, *e.point) < 1;
 }
 
 /// No more than are wanted at least have to be looked for.
@@ -147,8 +148,8 @@ std::optional<Feature> PointSearch::align(const Expected& expected) const {
   const Keyframe& keyframe = *map_.keyframe(seen->keyframe);
   const Feature& known = (*keyframe.features)[seen->feature];
   const auto aligned = align_feature(warp_of(keyframe, known, point, view_, pyramid_), view_.images,
-                                     expected.image_px, config_.max_shift_px);
-  if (!aligned || static_cast<double>(aligned->correlation) < config_.min_correlation) return std::nullopt;
+                                     expected.image_px, kMaxShiftPx);
+  if (!aligned || static_cast<double>(aligned->correlation) < kMinCorrelation) return std::nullopt;
   Feature feature;
   feature.px = feature.image_px = aligned->image_px;
   feature.angle_rad = known.angle_rad;
@@ -164,18 +165,17 @@ void PointSearch::align_once(Expected& expected) const {
 }
 
 void PointSearch::prefetch(const std::atomic<bool>& enough) {
-  const auto wanted = static_cast<std::size_t>(config_.points);
-  const std::size_t likely = batch_end(batch_end(0, wanted), wanted);  // also in place of those not found
+  const std::size_t likely = batch_end(batch_end(0, wanted_), wanted_);  // also in place of those not found
   for (std::size_t i = 0; i < likely && !enough; ++i) align_once(expected_[i]);
 }
 
-FollowedPoints PointSearch::find(const MovableMask& movable, const ParallelFor& parallel_for) {
+FollowedPoints PointSearch::find(const MovableMask& movable, const Executor& executor) {
   hide(movable);
   FollowedPoints followed;
-  auto wanted = static_cast<std::size_t>(config_.points);
+  std::size_t wanted = wanted_;
   for (std::size_t i = 0; i < expected_.size() && wanted > 0;) {
     const std::size_t end = batch_end(i, wanted);
-    parallel_for(parts_of(end - i), [&](std::size_t part) {
+    executor(parts_of(end - i), [&](std::size_t part) {
       const std::size_t first = i + part * kPointsPerPart;
       for (std::size_t k = first; k < std::min(end, first + kPointsPerPart); ++k) align_once(expected_[k]);
     });

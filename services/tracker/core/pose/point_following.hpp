@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
+#include "services/tracker/core/features/executor.hpp"
 #include "services/tracker/core/features/image_pyramid.hpp"
-#include "services/tracker/core/features/parallel_for.hpp"
 #include "services/tracker/core/pose/association.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 
@@ -31,20 +31,21 @@ struct FollowedPoints {
 
 /// Finds map points in a picture by the patch around the feature of the keyframe that saw them from nearest.
 ///
-/// The most observed points of every part of the picture come first, until config.points are found. A point
+/// The most observed points of every part of the picture come first, until enough are found. A point
 /// whose patch looks otherwise there is hidden or gone and is left out. What it is made of has to outlive it,
 /// unchanged.
 class PointSearch {
  public:
+  /// @param wanted  points to find.
   PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
-              const ObservationModel& model, const ScalePyramid& pyramid, const FollowingConfig& config);
+              const ObservationModel& model, const ScalePyramid& pyramid, int wanted);
 
   /// Looks for the points that come first, before it is known what is movable. What find() says does not
   /// depend on it.
   /// @param enough  set, by another thread, when the result is waited for.
   void prefetch(const std::atomic<bool>& enough);
   /// @param movable  where static points are hidden.
-  FollowedPoints find(const MovableMask& movable, const ParallelFor& parallel_for = serial_for);
+  FollowedPoints find(const MovableMask& movable, const Executor& executor = execute_serially);
 
  private:
   struct Expected {  // a map point that the picture should show
@@ -66,7 +67,7 @@ class PointSearch {
   const SlamMap& map_;
   FollowingView view_;
   const ScalePyramid& pyramid_;
-  const FollowingConfig& config_;
+  std::size_t wanted_;
   Eigen::Vector3d camera_in_map_;
   std::vector<Expected> expected_;  // in the order in which they are looked for
 };

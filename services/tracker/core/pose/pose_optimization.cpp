@@ -13,7 +13,8 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kMinDepth = 0.05;       // m; points nearer or behind say nothing
+constexpr int kRounds = 4;               // each ends with a new classification into inliers and outliers
+constexpr int kIterations = 10;          // per round, at most
 constexpr double kConvergedStep = 1e-7;  // m and rad
 constexpr double kFirstDamping = 1e-5;
 constexpr double kMaxDamping = 1e3;
@@ -40,22 +41,8 @@ Loss loss(double squared, double bound, bool robust) {
 
 class PoseProblem {
  public:
-  PoseProblem(const ObservationModel& model, std::span<const PointObservation> observations,
-              const PoseOptimizationConfig& config)
-      : model_(model), observations_(observations), config_(config), inlier_(observations.size(), true) {}
-
-  [[nodiscard]] double cost(const geometry::Pose& pose, bool robust) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < observations_.size(); ++i) {
-      if (!inlier_[i]) continue;
-      const Measurement& m = observations_[i].measurement;
-      const Eigen::Vector3d p = pose * observations_[i].point_in_map;
-      const double bound = ObservationModel::chi2(m, config_);
-      sum += observations_[i].weight *
-             (p.z() < kMinDepth ? bound : loss(model_.residual(p, m).squaredNorm(), bound, robust).cost);
-    }
-    return sum;
-  }
+  PoseProblem(const ObservationModel& model, std::span<const PointObservation> observations)
+      : model_(model), observations_(observations), inlier_(observations.size(), true) {}
 
   [[nodiscard]] NormalEquations linearize(const geometry::Pose& pose, bool robust) const {
     NormalEquations sum;
@@ -63,7 +50,7 @@ class PoseProblem {
       if (!inlier_[i]) continue;
       const Measurement& m = observations_[i].measurement;
       const Eigen::Vector3d p = pose * observations_[i].point_in_map;
-      const double bound = ObservationModel::chi2(m, config_);
+      const double bound = ObservationModel::chi2(m);
       if (p.z() < kMinDepth) {
         sum.cost += observations_[i].weight * bound;
         continue;
@@ -85,18 +72,19 @@ class PoseProblem {
   void optimize(geometry::Pose& pose, bool robust) const {
     double damping = kFirstDamping;
     NormalEquations equations = linearize(pose, robust);
-    for (int i = 0; i < config_.iterations; ++i) {
+    for (int i = 0; i < kIterations; ++i) {
       Matrix6 damped = equations.hessian;
       damped.diagonal() *= 1 + damping;
       damped.diagonal().array() += 1e-9;
       const Twist step = damped.ldlt().solve(-equations.gradient);
       if (!step.allFinite()) return;
       const geometry::Pose moved = se3_exp(step) * pose;
-      if (cost(moved, robust) < equations.cost) {
+      const NormalEquations there = linearize(moved, robust);
+      if (there.cost < equations.cost) {
         pose = moved;
         if (step.norm() < kConvergedStep) return;
         damping = std::max(damping * 0.1, 1e-9);
-        equations = linearize(pose, robust);
+        equations = there;
       } else {
         damping *= 10;
         if (damping > kMaxDamping || step.norm() < kConvergedStep) return;
@@ -109,8 +97,7 @@ class PoseProblem {
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Measurement& m = observations_[i].measurement;
       const Eigen::Vector3d p = pose * observations_[i].point_in_map;
-      inlier_[i] =
-          p.z() > kMinDepth && model_.residual(p, m).squaredNorm() <= ObservationModel::chi2(m, config_);
+      inlier_[i] = p.z() > kMinDepth && model_.residual(p, m).squaredNorm() <= ObservationModel::chi2(m);
       inliers += inlier_[i] ? 1 : 0;
     }
     return inliers;
@@ -121,21 +108,20 @@ class PoseProblem {
  private:
   const ObservationModel& model_;
   std::span<const PointObservation> observations_;
-  const PoseOptimizationConfig& config_;
   std::vector<bool> inlier_;
 };
 
 }  // namespace
 
 OptimizedPose optimize_pose(const ObservationModel& model, std::span<const PointObservation> observations,
-                            const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config) {
+                            const geometry::Pose& camera_from_map) {
   OptimizedPose result;
   result.camera_from_map = camera_from_map;
   result.inlier.assign(observations.size(), false);
   if (observations.size() < kMinObservations) return result;
-  PoseProblem problem(model, observations, config);
-  for (int round = 0; round < config.rounds; ++round) {
-    problem.optimize(result.camera_from_map, 2 * round < config.rounds);
+  PoseProblem problem(model, observations);
+  for (int round = 0; round < kRounds; ++round) {
+    problem.optimize(result.camera_from_map, 2 * round < kRounds);
     result.inliers = problem.classify(result.camera_from_map);
     if (result.inliers < kMinObservations) break;
   }
@@ -147,8 +133,8 @@ OptimizedPose optimize_pose(const ObservationModel& model, std::span<const Point
 }
 
 OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
-                         const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config) {
-  PoseProblem problem(model, observations, config);
+                         const geometry::Pose& camera_from_map) {
+  PoseProblem problem(model, observations);
   OptimizedPose result;
   result.camera_from_map = camera_from_map;
   result.inliers = problem.classify(camera_from_map);

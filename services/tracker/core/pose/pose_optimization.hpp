@@ -13,7 +13,7 @@ namespace rds::tracker {
 struct PointObservation {
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
   Measurement measurement;
-  double weight = 1;  // how sure it is that the point stands still
+  double weight = 1;  // static_weight() of the point
 };
 
 struct OptimizedPose {
@@ -29,10 +29,10 @@ struct OptimizedPose {
 /// without Huber's loss. Fewer than three observations leave the pose as it is, with no inliers. Source:
 /// Mur-Artal & Tardós 2017, §III-C.
 OptimizedPose optimize_pose(const ObservationModel& model, std::span<const PointObservation> observations,
-                            const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config);
+                            const geometry::Pose& camera_from_map);
 
 /// Which observations agree with a pose (χ² bound); the pose stays.
 OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
-                         const geometry::Pose& camera_from_map, const PoseOptimizationConfig& config);
+                         const geometry::Pose& camera_from_map);
 
 }  // namespace rds::tracker

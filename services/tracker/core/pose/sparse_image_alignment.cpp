@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "services/tracker/core/motion/se3.hpp"
+#include "services/tracker/core/pose/observation_model.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -22,7 +23,8 @@ constexpr int kArea = kSide * kSide;
 constexpr int kMinPatches = 20;
 constexpr float kHuber = 12;         // grey levels
 constexpr double kConverged = 2e-5;  // m and rad
-constexpr double kMinDepth = 0.05;   // m
+constexpr int kFinestLevel = 2;      // the last; from there on points are found one by one
+constexpr int kIterations = 10;      // per level, at most
 
 using Square = Eigen::Array<float, kSide, kSide, Eigen::RowMajor>;
 
@@ -98,10 +100,10 @@ class LevelAlignment {
       : patches_(patches), picture_(picture), level_(level), camera_(camera) {}
 
   /// Improves pose and brightness offset while that lowers the cost.
-  void run(int iterations, geometry::Pose& pose, float& offset) const {
+  void run(geometry::Pose& pose, float& offset) const {
     geometry::Pose best = pose;
     float least = std::numeric_limits<float>::max();
-    for (int i = 0; i < iterations; ++i) {
+    for (int i = 0; i < kIterations; ++i) {
       const Equations sum = linearize(pose, offset);
       if (sum.pixels < kMinPatches * kArea || sum.mean_cost() > least) break;
       least = sum.mean_cost();
@@ -138,17 +140,17 @@ class LevelAlignment {
 
 geometry::Pose align_sparsely(const ImagePyramid& reference, std::span<const SeenPoint> points,
                               const ImagePyramid& picture, const geometry::CameraModel& camera,
-                              const geometry::Pose& camera_from_reference, const FollowingConfig& config) {
+                              const geometry::Pose& camera_from_reference) {
   geometry::Pose pose = camera_from_reference;
   float offset = 0;
   std::vector<ReferencePatch> patches;
   patches.reserve(points.size());
-  const int coarsest = std::min({config.coarsest_level, reference.levels() - 1, picture.levels() - 1});
-  for (int level = coarsest; level >= config.finest_level; --level) {
+  const int coarsest = std::min({kAlignmentLevels - 1, reference.levels() - 1, picture.levels() - 1});
+  for (int level = coarsest; level >= kFinestLevel; --level) {
     patches.clear();
     for (const SeenPoint& seen : points)
       if (ReferencePatch patch; cut(reference, seen, level, camera, patch)) patches.push_back(patch);
-    LevelAlignment(patches, picture, level, camera).run(config.iterations, pose, offset);
+    LevelAlignment(patches, picture, level, camera).run(pose, offset);
   }
   return pose;
 }

@@ -6,9 +6,11 @@
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/features/image_pyramid.hpp"
-#include "services/tracker/core/pose/pose_config.hpp"
 
 namespace rds::tracker {
+
+/// Levels that the pictures' pyramids need, the coarsest of which is aligned first.
+inline constexpr int kAlignmentLevels = 5;
 
 /// A point and where the reference picture shows it.
 struct SeenPoint {
@@ -26,6 +28,6 @@ struct SeenPoint {
 /// @return camera_from_reference; the start where too few points can be compared.
 geometry::Pose align_sparsely(const ImagePyramid& reference, std::span<const SeenPoint> points,
                               const ImagePyramid& picture, const geometry::CameraModel& camera,
-                              const geometry::Pose& camera_from_reference, const FollowingConfig& config);
+                              const geometry::Pose& camera_from_reference);
 
 }  // namespace rds::tracker

@@ -12,6 +12,8 @@
 
 namespace rds::tracker {
 
+/// With fewer inliers a pose is weak, and its frame no keyframe.
+inline constexpr int kMinInliers = 30;
 /// With fewer inliers a pose may be wrong, and another way to it may find more.
 inline constexpr int kSureInliers = 80;
 
@@ -24,7 +26,7 @@ struct TrackedFrame {
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();
   ShutterMotion motion;          // that px and depth of the features are compensated for
-  double given_fx = 0;           // px, before calibration changed the camera; 0: it is as it is
+  double given_fx = 0;           // px, of the camera before calibration; 0: it is not calibrated
   bool pose_is_given = false;    // and not to be estimated
   bool movable_in_view = false;  // something that can move: points that are new may be its
   bool by_depth_only = false;    // the pose comes from depth alone

@@ -11,6 +11,10 @@ std::shared_ptr<const FeatureSet> complete_feature_set(const TrackingContext& co
   return std::make_shared<const FeatureSet>(picture.camera, std::move(features));
 }
 
+int optimize(const TrackingContext& context, TrackedFrame& frame) {
+  return optimize_frame(context.map, context.model, context.settings.pyramid, frame);
+}
+
 void count_found_points(SlamMap& map, const TrackedFrame& frame) {
   for (const PointId id : frame.points) {
     MapPoint* point = map.point(id);

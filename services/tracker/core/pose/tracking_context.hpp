@@ -21,9 +21,6 @@ using Stopwatch = std::function<std::int64_t()>;
 struct PoseSettings {
   ScalePyramid pyramid{1, 1};
   DepthConfig depth;
-  MatchingConfig matching;
-  PoseOptimizationConfig optimization;
-  MapConfig map;
 };
 
 /// What is known of a picture when its pose is looked for. Lives as long as the picture is tracked.
@@ -50,6 +47,9 @@ inline double support(const TrackedFrame& frame, const MotionPrediction& motion)
 /// The features with what camera model, depth picture and rolling shutter say of them.
 std::shared_ptr<const FeatureSet> complete_feature_set(const TrackingContext& context,
                                                        std::vector<Feature>&& features);
+
+/// Pose from the frame's matches, as optimize_frame(). @return number of inliers.
+int optimize(const TrackingContext& context, TrackedFrame& frame);
 
 /// Counts in the map's points that the frame found them.
 void count_found_points(SlamMap& map, const TrackedFrame& frame);

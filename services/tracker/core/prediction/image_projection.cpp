@@ -19,21 +19,16 @@ geometry::Box2 with_reach(const geometry::Box2& box, double share, const geometr
 }
 
 std::optional<PredictedBox> to_image(const geometry::OrientedBox& box, const geometry::Pose& camera_from_map,
-                                     const geometry::CameraModel& camera, const RegionConfig& config) {
+                                     const geometry::CameraModel& camera) {
   const auto visible = image_box(box, camera_from_map, camera);
   if (!visible) return std::nullopt;
-  const double m = config.margin_px;
+  const double m = kRegionMarginPx;
   const geometry::Box2 wide{visible->x0 - m, visible->y0 - m, visible->x1 + m, visible->y1 + m};
   const double depth = (camera_from_map * box.center()).z();
-  const double reach = box.size.z() / 2 + config.margin_depth_m;
+  const double reach = box.size.z() / 2 + kRegionMarginM;
   return PredictedBox{*visible,
                       {wide.clipped(camera.width, camera.height),
                        static_cast<float>(std::max(0.0, depth - reach)), static_cast<float>(depth + reach)}};
-}
-
-std::optional<PredictedBox> to_image(const PredictedObject& object, const geometry::Pose& camera_from_map,
-                                     const geometry::CameraModel& camera, const RegionConfig& config) {
-  return to_image(object.box, camera_from_map, camera, config);
 }
 
 }  // namespace rds::tracker::prediction

@@ -3,20 +3,25 @@
 
 #include <algorithm>
 
-#include "services/tracker/core/prediction/sort/assignment.hpp"
 #include "services/tracker/core/prediction/observation_filter.hpp"
+#include "services/tracker/core/prediction/sort/assignment.hpp"
 #include "services/tracker/core/prediction/visibility.hpp"
 
 namespace rds::tracker::prediction {
 namespace {
 
-constexpr double kForbidden = 1e3;  // more than any sum of real costs can save
+constexpr double kForbidden = 1e3;     // more than any sum of real costs can save
+constexpr double kMaxDistanceM = 0.6;  // an observation farther from the prediction starts a new object, …
+constexpr double kGateSigma = 3.5;     // … and so does one that is more improbable
+constexpr int kMaxMisses = 2;          // keyframes that should have shown an object, then it is forgotten …
+constexpr double kMaxAgeS = 1.5;       // … and so is one that has not been seen for longer
+constexpr double kGrowthSigma = 0.3;   // standard deviations of the centre that a box grows per side
 
 /// The box with its sides moved outwards by a share of the centre's standard deviation.
-geometry::OrientedBox grown(const ObjectFilter& filter, const Kalman3dConfig& config) {
+geometry::OrientedBox grown(const ObjectFilter& filter) {
   geometry::OrientedBox box = filter.box();
   const Eigen::Array3d growth =
-      (config.growth_sigma * filter.center_sigma_in_box().array()).min(config.max_growth_m);
+      (kGrowthSigma * filter.center_sigma_in_box().array()).min(KalmanTracking::kMaxGrowthM);
   box.size.array() += 2 * growth;
   return box;
 }
@@ -31,11 +36,11 @@ void KalmanTracking::update(std::int64_t stamp_ns, std::span<const ObjectObserva
     const ObjectObservation& observation = observations[i];
     if (track_of[i] < 0) {
       tracks_.push_back({++last_id_, observation.label, observation.score, stamp_ns, 0,
-                         ObjectFilter(observation.box, observation.cut, config_)});
+                         ObjectFilter(observation.box, observation.cut)});
       continue;
     }
     Track& track = tracks_[static_cast<std::size_t>(track_of[i])];
-    track.filter.correct(observation.box, observation.cut, config_);
+    track.filter.correct(observation.box, observation.cut);
     track.score = observation.score;
     track.seen_ns = stamp_ns;
     track.misses = 0;
@@ -49,7 +54,7 @@ void KalmanTracking::count_misses(std::span<const ObjectObservation> observation
                         (view == nullptr || should_be_detected(track.filter.box(), observations, *view));
     if (missed) ++track.misses;
   }
-  std::erase_if(tracks_, [&](const Track& track) { return track.misses > config_.max_misses; });
+  std::erase_if(tracks_, [](const Track& track) { return track.misses > kMaxMisses; });
 }
 
 void KalmanTracking::move_map(const geometry::Pose& new_from_old) {
@@ -57,10 +62,9 @@ void KalmanTracking::move_map(const geometry::Pose& new_from_old) {
 }
 
 void KalmanTracking::move_to(std::int64_t stamp_ns) {
-  std::erase_if(tracks_, [&](const Track& track) {
-    return seconds_between(track.seen_ns, stamp_ns) > config_.max_age_s;
-  });
-  for (Track& track : tracks_) track.filter.predict(seconds_between(state_ns_, stamp_ns), config_);
+  std::erase_if(tracks_,
+                [&](const Track& track) { return seconds_between(track.seen_ns, stamp_ns) > kMaxAgeS; });
+  for (Track& track : tracks_) track.filter.predict(seconds_between(state_ns_, stamp_ns));
   state_ns_ = stamp_ns;
 }
 
@@ -78,31 +82,29 @@ std::vector<std::ptrdiff_t> KalmanTracking::match(std::span<const ObjectObservat
   return track_of;
 }
 
-std::optional<double> KalmanTracking::cost(const Track& track, const ObjectObservation& observation) const {
+std::optional<double> KalmanTracking::cost(const Track& track, const ObjectObservation& observation) {
   if (track.label != observation.label) return std::nullopt;
   const double distance = (track.filter.center() - observation.box.center()).norm();
-  if (distance > config_.max_distance_m) return std::nullopt;
-  if (track.filter.surprise(observation.box, observation.cut, config_) > config_.gate_sigma)
-    return std::nullopt;
-  return distance / config_.max_distance_m + 1 - overlap_of_smaller(observation.box, track.filter.box());
+  if (distance > kMaxDistanceM) return std::nullopt;
+  if (track.filter.mahalanobis(observation.box, observation.cut) > kGateSigma) return std::nullopt;
+  return distance / kMaxDistanceM + 1 - overlap_of_smaller(observation.box, track.filter.box());
 }
 
 std::vector<PredictedObject> KalmanTracking::predict(std::int64_t stamp_ns) const {
   std::vector<PredictedObject> objects;
   for (const Track& track : tracks_)
-    if (seconds_between(track.seen_ns, stamp_ns) <= config_.max_age_s)
-      objects.push_back(describe(track, stamp_ns));
+    if (seconds_between(track.seen_ns, stamp_ns) <= kMaxAgeS) objects.push_back(describe(track, stamp_ns));
   return objects;
 }
 
 PredictedObject KalmanTracking::describe(const Track& track, std::int64_t stamp_ns) const {
   ObjectFilter filter = track.filter;
-  filter.predict(seconds_between(state_ns_, stamp_ns), config_);
+  filter.predict(seconds_between(state_ns_, stamp_ns));
   PredictedObject object;
   object.id = track.id;
   object.label = track.label;
   object.score = track.score;
-  object.box = grown(filter, config_);
+  object.box = grown(filter);
   object.velocity = filter.velocity();
   object.covariance_trace = filter.center_covariance().trace();
   object.age_s = seconds_between(track.seen_ns, stamp_ns);

@@ -9,7 +9,6 @@
 
 #include "services/tracker/core/prediction/object_filter.hpp"
 #include "services/tracker/core/prediction/object_tracking.hpp"
-#include "services/tracker/core/prediction/prediction_config.hpp"
 
 namespace rds::tracker::prediction {
 
@@ -20,7 +19,8 @@ namespace rds::tracker::prediction {
 /// forgotten.
 class KalmanTracking : public ObjectTracking {
  public:
-  explicit KalmanTracking(const Kalman3dConfig& config) : config_(config) {}
+  /// The most that a box grows by its uncertainty, per side [m].
+  static constexpr double kMaxGrowthM = 0.2;
 
   void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
               const KeyframeView* view) override;
@@ -43,10 +43,9 @@ class KalmanTracking : public ObjectTracking {
   /// For each observation the index of its track, -1 if it has none.
   [[nodiscard]] std::vector<std::ptrdiff_t> match(std::span<const ObjectObservation> observations) const;
   /// From 0 (same place) to 2; nothing if the observation cannot be of this track.
-  [[nodiscard]] std::optional<double> cost(const Track& track, const ObjectObservation& observation) const;
+  [[nodiscard]] static std::optional<double> cost(const Track& track, const ObjectObservation& observation);
   [[nodiscard]] PredictedObject describe(const Track& track, std::int64_t stamp_ns) const;
 
-  Kalman3dConfig config_;
   std::vector<Track> tracks_;  // oldest first
   std::int64_t state_ns_ = 0;  // time of all filters
   std::uint64_t last_id_ = 0;

@@ -11,9 +11,9 @@ std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns,
                                                   const geometry::CameraModel& camera) const {
   std::vector<ImageObject> objects;
   for (prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
-    const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region);
+    const auto box = prediction::to_image(object.box, camera_from_map, camera);
     if (!box) continue;
-    const double reach = object.movable ? predictor_.config().reach_share : 0;
+    const double reach = object.movable ? prediction::kReachShare : 0;
     objects.push_back({std::move(object), prediction::with_reach(box->box, reach, camera)});
   }
   return objects;
@@ -25,7 +25,7 @@ std::vector<MovableRegion> MovableObjects::regions(std::int64_t stamp_ns,
   std::vector<MovableRegion> regions;
   for (const prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
     if (!object.movable) continue;
-    if (const auto box = prediction::to_image(object, camera_from_map, camera, predictor_.config().region))
+    if (const auto box = prediction::to_image(object.box, camera_from_map, camera))
       regions.push_back(box->region);
   }
   return regions;
@@ -36,12 +36,11 @@ std::vector<MovableRegion> MovableObjects::regions_of(Observations observations,
                                                       const geometry::CameraModel& camera) const {
   std::vector<MovableRegion> regions;
   for (const prediction::ObjectObservation& observation : observations) {
-    if (!prediction::is_movable(predictor_.config(), observation.label) ||
+    if (!predictor_.config().labels[observation.label].movable ||
         !prediction::is_usable(observation, predictor_.config().min_score) ||
-        prediction::is_doubtful(observation, {camera_from_map.inverse(), camera}, predictor_.config()))
+        prediction::is_implausible(observation, {camera_from_map.inverse(), camera}))
       continue;
-    if (const auto box =
-            prediction::to_image(observation.box, camera_from_map, camera, predictor_.config().region))
+    if (const auto box = prediction::to_image(observation.box, camera_from_map, camera))
       regions.push_back(box->region);
   }
   return regions;

@@ -29,7 +29,10 @@ class MovableObjects {
   void observe(std::int64_t stamp_ns, Observations observations,
                const std::optional<prediction::KeyframeView>& view) {
     predictor_.update(stamp_ns, observations, view);
+    ++observed_;
   }
+  /// Keyframes whose boxes were observed.
+  [[nodiscard]] std::uint64_t observed() const { return observed_; }
   void move_map(const geometry::Pose& new_from_old) { predictor_.move_map(new_from_old); }
   void reset() { predictor_.reset(); }
 
@@ -50,6 +53,7 @@ class MovableObjects {
 
  private:
   prediction::ObjectPredictor predictor_;
+  std::uint64_t observed_ = 0;
 };
 
 }  // namespace rds::tracker

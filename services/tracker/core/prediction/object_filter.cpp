@@ -12,6 +12,17 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
+// Process noise: people start, stop and turn, along the ground.
+constexpr double kAcceleration = 1.5;   // m/s²/√Hz
+constexpr double kInitialSpeed = 1.2;   // m/s, standard deviation before motion has been seen
+constexpr double kVerticalShare = 0.3;  // of both, along the picture's y axis
+constexpr double kSizeDrift = 0.5;      // m/√s, how fast sizes wander (people turn, arms move)
+// Measurement noise: standard deviations of a detected centre across the viewing direction, along the
+// picture's y axis and along the viewing direction, and of a detected width or height.
+constexpr double kLateralNoiseM = 0.08;
+constexpr double kVerticalNoiseM = 0.15;
+constexpr double kDepthNoiseM = 0.15;
+constexpr double kSizeNoiseM = 0.06;
 constexpr double kUnknownSigmaM = 100;
 
 double square(double x) {
@@ -56,9 +67,7 @@ Eigen::Matrix3d in_map(const Eigen::Vector3d& sigma_in_box, const Eigen::Matrix3
 }
 
 /// Objects move along the ground: across and along the viewing direction of a camera that is held upright.
-Eigen::Vector3d upright(const Kalman3dConfig& config) {
-  return {1, config.vertical_share, 1};
-}
+const Eigen::Vector3d kUpright(1, kVerticalShare, 1);
 
 }  // namespace
 
@@ -69,56 +78,51 @@ struct ObjectFilter::Innovation {
   Eigen::Matrix3d noise;
 };
 
-ObjectFilter::ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut,
-                           const Kalman3dConfig& config)
+ObjectFilter::ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut)
     : size_(box.size),
-      size_variance_(Eigen::Vector3d::Constant(square(config.size_noise_m))),
+      size_variance_(Eigen::Vector3d::Constant(square(kSizeNoiseM))),
       map_from_box_(box.map_from_box.linear()) {
   state_.head<3>() = box.center();
-  const Innovation first = compare(box, cut, config);
+  const Innovation first = compare(box, cut);
   state_.head<3>() += first.jump;
   size_ = first.size;
-  covariance_.topLeftCorner<3, 3>() =
-      in_map({config.lateral_noise_m, config.vertical_noise_m, config.depth_noise_m}, map_from_box_);
-  covariance_.bottomRightCorner<3, 3>() = in_map(config.initial_speed * upright(config), map_from_box_);
+  covariance_.topLeftCorner<3, 3>() = in_map({kLateralNoiseM, kVerticalNoiseM, kDepthNoiseM}, map_from_box_);
+  covariance_.bottomRightCorner<3, 3>() = in_map(kInitialSpeed * kUpright, map_from_box_);
 }
 
-void ObjectFilter::predict(double seconds, const Kalman3dConfig& config) {
+void ObjectFilter::predict(double seconds) {
   Matrix6 transition = Matrix6::Identity();
   transition.topRightCorner<3, 3>().diagonal().setConstant(seconds);
   state_ = transition * state_;
   covariance_ = transition * covariance_ * transition.transpose();
-  const Eigen::Matrix3d q = in_map(config.acceleration * upright(config), map_from_box_);
+  const Eigen::Matrix3d q = in_map(kAcceleration * kUpright, map_from_box_);
   covariance_.topLeftCorner<3, 3>() += q * (seconds * seconds * seconds / 3);  // ∫ F G q Gᵀ Fᵀ dt
   covariance_.topRightCorner<3, 3>() += q * (seconds * seconds / 2);
   covariance_.bottomLeftCorner<3, 3>() += q * (seconds * seconds / 2);
   covariance_.bottomRightCorner<3, 3>() += q * seconds;
-  size_variance_.array() += square(config.size_drift) * seconds;
+  size_variance_.array() += square(kSizeDrift) * seconds;
 }
 
-ObjectFilter::Innovation ObjectFilter::compare(const geometry::OrientedBox& box, const CutSides& cut,
-                                               const Kalman3dConfig& config) const {
+ObjectFilter::Innovation ObjectFilter::compare(const geometry::OrientedBox& box, const CutSides& cut) const {
   const Eigen::Matrix3d map_from_box = box.map_from_box.linear();
   const Eigen::Vector3d offset = map_from_box.transpose() * (box.center() - center());
   const Eigen::Vector3d half = box.size / 2;
   const Extent across = compare_extent(offset.x() - half.x(), offset.x() + half.x(), size_.x(), cut.left,
-                                       cut.right, config.min_width_m);
+                                       cut.right, kMinWidthM);
   const Extent down =
       compare_extent(offset.y() - half.y(), offset.y() + half.y(), size_.y(), cut.top, cut.bottom, 0);
   const Eigen::Vector3d motion(across.motion, down.motion, offset.z());
   const Eigen::Vector3d whole(across.center_offset, down.center_offset, offset.z());
-  const Eigen::Vector3d sigma(across.motion_known ? config.lateral_noise_m : kUnknownSigmaM,
-                              down.motion_known ? config.vertical_noise_m : kUnknownSigmaM,
-                              config.depth_noise_m);
+  const Eigen::Vector3d sigma(across.motion_known ? kLateralNoiseM : kUnknownSigmaM,
+                              down.motion_known ? kVerticalNoiseM : kUnknownSigmaM, kDepthNoiseM);
   return {map_from_box * motion,
           map_from_box * (whole - motion),
           {across.size, down.size, box.size.z()},
           in_map(sigma, map_from_box)};
 }
 
-void ObjectFilter::correct(const geometry::OrientedBox& box, const CutSides& cut,
-                           const Kalman3dConfig& config) {
-  const Innovation innovation = compare(box, cut, config);
+void ObjectFilter::correct(const geometry::OrientedBox& box, const CutSides& cut) {
+  const Innovation innovation = compare(box, cut);
   map_from_box_ = box.map_from_box.linear();
   const Eigen::Matrix3d covariance = center_covariance() + innovation.noise;
   const Matrix63 gain = covariance_.leftCols<3>() * covariance.inverse();
@@ -128,15 +132,13 @@ void ObjectFilter::correct(const geometry::OrientedBox& box, const CutSides& cut
   covariance_ =
       keep * covariance_ * keep.transpose() + gain * innovation.noise * gain.transpose();  // Joseph's form
   state_.head<3>() += innovation.jump;
-  const Eigen::Array3d size_gain =
-      size_variance_.array() / (size_variance_.array() + square(config.size_noise_m));
+  const Eigen::Array3d size_gain = size_variance_.array() / (size_variance_.array() + square(kSizeNoiseM));
   size_.array() += size_gain * (innovation.size - size_).array();
   size_variance_.array() *= 1 - size_gain;
 }
 
-double ObjectFilter::surprise(const geometry::OrientedBox& box, const CutSides& cut,
-                              const Kalman3dConfig& config) const {
-  const Innovation innovation = compare(box, cut, config);
+double ObjectFilter::mahalanobis(const geometry::OrientedBox& box, const CutSides& cut) const {
+  const Innovation innovation = compare(box, cut);
   const Eigen::Matrix3d covariance = center_covariance() + innovation.noise;
   return std::sqrt(std::max(0.0, innovation.motion.dot(covariance.inverse() * innovation.motion)));
 }

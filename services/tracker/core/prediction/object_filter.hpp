@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include "common/geometry/oriented_box.hpp"
-#include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/prediction/tracked_object.hpp"
 
 namespace rds::tracker::prediction {
@@ -16,14 +15,17 @@ namespace rds::tracker::prediction {
 /// Each edge length has a scalar random-walk filter of its own. The orientation is the latest detection's.
 class ObjectFilter {
  public:
-  ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut, const Kalman3dConfig& config);
+  /// An object that the picture's side cuts off is at least this wide [m].
+  static constexpr double kMinWidthM = 0.5;
+
+  ObjectFilter(const geometry::OrientedBox& box, const CutSides& cut);
 
   /// Moves the state forward. @param seconds  ≥ 0.
-  void predict(double seconds, const Kalman3dConfig& config);
-  void correct(const geometry::OrientedBox& box, const CutSides& cut, const Kalman3dConfig& config);
-  /// Mahalanobis distance of a detection's centre; what the picture's edge cuts off counts as unknown.
-  [[nodiscard]] double surprise(const geometry::OrientedBox& box, const CutSides& cut,
-                                const Kalman3dConfig& config) const;
+  void predict(double seconds);
+  void correct(const geometry::OrientedBox& box, const CutSides& cut);
+  /// Distance of a detection's centre in standard deviations; what the picture's edge cuts off counts as
+  /// unknown.
+  [[nodiscard]] double mahalanobis(const geometry::OrientedBox& box, const CutSides& cut) const;
 
   /// Changes the map's coordinates: new_from_old * point_in_old_map = point_in_map.
   void move_map(const geometry::Pose& new_from_old);
@@ -37,8 +39,7 @@ class ObjectFilter {
 
  private:
   struct Innovation;
-  [[nodiscard]] Innovation compare(const geometry::OrientedBox& box, const CutSides& cut,
-                                   const Kalman3dConfig& config) const;
+  [[nodiscard]] Innovation compare(const geometry::OrientedBox& box, const CutSides& cut) const;
 
   Eigen::Matrix<double, 6, 1> state_ = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();

@@ -9,6 +9,11 @@ namespace rds::tracker::prediction {
 namespace {
 
 constexpr std::size_t kPlanes = 3;
+constexpr double kMinIou = 0.3;  // SORT's, in each plane
+constexpr double kMaxAgeS = 1;   // a track without a match is forgotten
+// SORT's noise is published in pixels and frames of videos: what these are in metres and seconds.
+constexpr double kUnitsPerMetre = 200;
+constexpr double kFramesPerSecond = 30;
 
 std::size_t after(std::size_t plane, std::size_t steps) {
   return (plane + steps) % kPlanes;
@@ -21,6 +26,16 @@ Eigen::Index axis(std::size_t i) {
 /// Box in the plane (first, second) from intervals of a hull.
 geometry::Box2 face(const geometry::Box3& hull, std::size_t first, std::size_t second) {
   return {hull.min[axis(first)], hull.min[axis(second)], hull.max[axis(first)], hull.max[axis(second)]};
+}
+
+geometry::Box2 to_plane(const geometry::Box3& hull, std::size_t plane) {
+  const geometry::Box2 box = face(hull, plane, plane + 1);
+  constexpr double kScale = kUnitsPerMetre;
+  return {box.x0 * kScale, box.y0 * kScale, box.x1 * kScale, box.y1 * kScale};
+}
+
+Sort make_sort() {
+  return Sort({kMinIou, 1, kMaxAgeS * kFramesPerSecond});
 }
 
 /// The latest detection's box, moved and stretched as its hull: P_w1 and P_w2 become P_wp1 and P_wp2.
@@ -42,26 +57,16 @@ geometry::OrientedBox follow(const geometry::OrientedBox& box, const geometry::B
 
 }  // namespace
 
-PlaneTracking::PlaneTracking(const PlaneSortConfig& config)
-    : config_(config), planes_{Plane{make_sort(), {}}, Plane{make_sort(), {}}, Plane{make_sort(), {}}} {}
-
-Sort PlaneTracking::make_sort() const {
-  return Sort({config_.min_iou, 1, config_.max_age_s * config_.frames_per_second});
-}
+PlaneTracking::PlaneTracking()
+    : planes_{Plane{make_sort(), {}}, Plane{make_sort(), {}}, Plane{make_sort(), {}}} {}
 
 void PlaneTracking::reset() {
   for (Plane& plane : planes_) plane = {make_sort(), {}};
 }
 
-geometry::Box2 PlaneTracking::to_plane(const geometry::Box3& hull, std::size_t plane) const {
-  const geometry::Box2 box = face(hull, plane, plane + 1);
-  const double scale = config_.units_per_metre;
-  return {box.x0 * scale, box.y0 * scale, box.x1 * scale, box.y1 * scale};
-}
-
 void PlaneTracking::update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
                            const KeyframeView* /*view*/) {
-  const double frames = seconds_between(state_ns_, stamp_ns) * config_.frames_per_second;
+  const double frames = seconds_between(state_ns_, stamp_ns) * kFramesPerSecond;
   state_ns_ = stamp_ns;
   std::array<std::vector<std::uint64_t>, kPlanes> track_of;
   for (std::size_t p = 0; p < kPlanes; ++p) {  // lines 1 and 3
@@ -93,15 +98,15 @@ std::uint64_t PlaneTracking::object_of(const std::array<std::uint64_t, 3>& track
 }
 
 std::vector<PlaneTracking::Prediction> PlaneTracking::predict_plane(std::size_t plane, double frames) const {
-  const double scale = config_.units_per_metre;
+  const double scale = kUnitsPerMetre;
   std::vector<Prediction> predictions;
   for (const Sort::Track& track : planes_[plane].sort.tracks()) {
     BoxFilter filter = track.filter;
     if (frames > 0) filter.predict(frames);  // line 5
-    if (!filter.is_finite() || track.age + frames > config_.max_age_s * config_.frames_per_second) continue;
+    if (!filter.is_finite() || track.age + frames > kMaxAgeS * kFramesPerSecond) continue;
     const geometry::Box2 box = filter.box();
     predictions.push_back({{box.x0 / scale, box.y0 / scale, box.x1 / scale, box.y1 / scale},
-                           filter.velocity() * (config_.frames_per_second / scale),
+                           filter.velocity() * (kFramesPerSecond / scale),
                            filter.center_variance() / (scale * scale),
                            &planes_[plane].latest.at(track.id)});
   }
@@ -109,7 +114,7 @@ std::vector<PlaneTracking::Prediction> PlaneTracking::predict_plane(std::size_t 
 }
 
 std::vector<PredictedObject> PlaneTracking::predict(std::int64_t stamp_ns) const {
-  const double frames = seconds_between(state_ns_, stamp_ns) * config_.frames_per_second;
+  const double frames = seconds_between(state_ns_, stamp_ns) * kFramesPerSecond;
   std::array<std::vector<Prediction>, kPlanes> predicted;
   for (std::size_t p = 0; p < kPlanes; ++p) predicted[p] = predict_plane(p, frames);
   std::size_t largest = 0;  // line 7

@@ -10,7 +10,6 @@
 
 #include "common/geometry/box.hpp"
 #include "services/tracker/core/prediction/object_tracking.hpp"
-#include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/prediction/sort/sort.hpp"
 
 namespace rds::tracker::prediction {
@@ -18,7 +17,7 @@ namespace rds::tracker::prediction {
 /// The paper's Algorithm 1: SORT in the coordinate planes xOy, yOz and zOx of the map, recombined by IoU.
 ///
 /// Plane p has the axes (p, p + 1) modulo 3, so that the planes (m, m + 1, m + 2) are (ab, bc, ca) whichever
-/// plane m is the largest. Boxes are scaled so that SORT's pixel noise fits (PlaneSortConfig).
+/// plane m is the largest. Boxes are scaled so that SORT's pixel noise fits.
 /// Deviations, where the paper is silent:
 /// - line 1: what is mapped is the hull of the box with its thickness; the two corner points alone have no
 ///   extent in a plane that the viewing direction lies in. The corners follow their hull (see predict()).
@@ -30,7 +29,7 @@ namespace rds::tracker::prediction {
 /// - SORT's own time step is one frame; here it is the real one.
 class PlaneTracking : public ObjectTracking {
  public:
-  explicit PlaneTracking(const PlaneSortConfig& config);
+  PlaneTracking();
 
   void update(std::int64_t stamp_ns, std::span<const ObjectObservation> observations,
               const KeyframeView* view) override;
@@ -67,15 +66,12 @@ class PlaneTracking : public ObjectTracking {
     double variance = 0;
   };
 
-  [[nodiscard]] Sort make_sort() const;
-  [[nodiscard]] geometry::Box2 to_plane(const geometry::Box3& hull, std::size_t plane) const;
   /// The object that an observation continues, known from its tracks in the planes; a new id if none.
   std::uint64_t object_of(const std::array<std::uint64_t, 3>& tracks, std::span<const std::uint64_t> taken);
   [[nodiscard]] std::vector<Prediction> predict_plane(std::size_t plane, double frames) const;
   static Depth third_axis(const Prediction& ab, std::size_t largest, const Predictions& predicted);
   static PredictedObject recombine(const Prediction& ab, std::size_t largest, const Predictions& predicted);
 
-  PlaneSortConfig config_;
   std::array<Plane, 3> planes_;
   std::int64_t state_ns_ = 0;
   std::uint64_t last_object_id_ = 0;

@@ -9,6 +9,8 @@ namespace rds::tracker::prediction {
 namespace {
 
 constexpr double kVisibleShare = 0.5;
+constexpr double kWholePicture = 0.9;  // a box of more of the picture than this …
+constexpr double kMinScore = 0.6;      // … has to have this score
 
 double shared_area(const geometry::Box2& a, const geometry::Box2& b) {
   return geometry::Box2{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1),
@@ -33,11 +35,10 @@ bool should_be_detected(const geometry::OrientedBox& box, std::span<const Object
   });
 }
 
-bool is_doubtful(const ObjectObservation& observation, const KeyframeView& view,
-                 const PredictionConfig& config) {
-  if (static_cast<double>(observation.score) >= config.doubtful_score) return false;
+bool is_implausible(const ObjectObservation& observation, const KeyframeView& view) {
+  if (static_cast<double>(observation.score) >= kMinScore) return false;
   const auto box = image_box(observation.box, view.map_from_camera.inverse(), view.camera);
-  return box && box->area() > config.doubtful_share * view.camera.width * view.camera.height;
+  return box && box->area() > kWholePicture * view.camera.width * view.camera.height;
 }
 
 }  // namespace rds::tracker::prediction

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/core/prediction/tracked_object.hpp"
 
 namespace rds::tracker::prediction {
@@ -14,8 +13,7 @@ bool should_be_detected(const geometry::OrientedBox& box, std::span<const Object
                         const KeyframeView& view);
 
 /// True for a box of nearly the whole picture with a low score: networks find such where there is nothing,
-/// and taken for true it would hide all there is to track.
-bool is_doubtful(const ObjectObservation& observation, const KeyframeView& view,
-                 const PredictionConfig& config);
+/// and with it all features would be dropped.
+bool is_implausible(const ObjectObservation& observation, const KeyframeView& view);
 
 }  // namespace rds::tracker::prediction

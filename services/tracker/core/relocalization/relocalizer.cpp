@@ -11,6 +11,8 @@
 namespace rds::tracker {
 namespace {
 
+constexpr std::size_t kCandidates = 4;  // keyframes tried per frame
+constexpr int kRansacIterations = 200;
 constexpr float kRansacErrorPx = 6;
 constexpr double kRansacConfidence = 0.995;
 constexpr int kMinRefined = 10;
@@ -19,7 +21,7 @@ constexpr double kNarrowWindow = 3;
 constexpr std::size_t kNeighbours = 8;
 
 /// Pose from the frame's matches; matches that disagree are removed.
-bool solve_pnp(const SlamMap& map, const RelocalizationConfig& config, TrackedFrame& frame) {
+bool solve_pnp(const SlamMap& map, TrackedFrame& frame) {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> pixels;
   std::vector<std::size_t> feature;
@@ -30,15 +32,14 @@ bool solve_pnp(const SlamMap& map, const RelocalizationConfig& config, TrackedFr
     pixels.emplace_back((*frame.features)[i].px.x(), (*frame.features)[i].px.y());
     feature.push_back(i);
   }
-  if (static_cast<int>(points.size()) < config.min_matches) return false;
+  if (static_cast<int>(points.size()) < kMinKeyframeMatches) return false;
   const geometry::CameraModel& c = frame.features->camera();
   const cv::Matx33d K(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
   cv::Mat rotation_vector;
   cv::Mat translation;
   std::vector<int> inliers;
   if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), rotation_vector, translation, false,
-                          config.ransac_iterations, kRansacErrorPx, kRansacConfidence, inliers,
-                          cv::SOLVEPNP_EPNP))
+                          kRansacIterations, kRansacErrorPx, kRansacConfidence, inliers, cv::SOLVEPNP_EPNP))
     return false;
   if (static_cast<int>(inliers.size()) < kMinRefined) return false;
   cv::Matx33d rotation;
@@ -78,39 +79,31 @@ std::vector<PointId> not_seen(std::vector<PointId> points, const TrackedFrame& f
   return points;
 }
 
-int optimize(const TrackingContext& context, TrackedFrame& frame) {
-  const PoseSettings& settings = context.settings;
-  return optimize_frame(context.map, context.model, settings.pyramid, settings.optimization, frame);
-}
-
 }  // namespace
 
 bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) const {
-  const auto candidates =
-      places_.query(static_descriptors(*frame.features), static_cast<std::size_t>(config_.candidates));
+  const auto candidates = places_.query(static_descriptors(*frame.features), kCandidates);
   return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
     return localize_against(context, candidate.id, frame);
   });
 }
 
-bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) const {
+bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) {
   const Keyframe* keyframe = context.map.keyframe(id);
   if (keyframe == nullptr) return false;
-  if (match_keyframe(context.map, *keyframe, context.settings.matching, frame) < config_.min_matches)
-    return false;
-  if (!solve_pnp(context.map, config_, frame)) return false;
+  if (match_keyframe(context.map, *keyframe, frame) < kMinKeyframeMatches) return false;
+  if (!solve_pnp(context.map, frame)) return false;
   if (optimize(context, frame) < kMinRefined) return false;
   localize_near(context, *keyframe, frame);
-  return frame.static_matches() >= config_.min_inliers;
+  return frame.static_matches() >= kMinInliers;
 }
 
 void Relocalizer::localize_near(const TrackingContext& context, const Keyframe& keyframe,
                                 TrackedFrame& frame) {
-  const PoseSettings& settings = context.settings;
   const auto points = points_around(context.map, keyframe);
   for (const double window : {kWideWindow, kNarrowWindow}) {
-    match_points(context.map, not_seen(points, frame), context.model, settings.pyramid, settings.matching,
-                 window, frame);
+    match_points(context.map, not_seen(points, frame), context.model, context.settings.pyramid, window,
+                 frame);
     optimize(context, frame);
   }
 }
@@ -121,8 +114,7 @@ void Relocalizer::index_pending(const SlamMap& map) {
 }
 
 void Relocalizer::index_all(const SlamMap& map) {
-  map.all_keyframes().for_each(
-      [this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
+  map.keyframes().for_each([this](const Keyframe& k) { places_.add(k.id, static_descriptors(*k.features)); });
 }
 
 cv::Mat static_descriptors(const FeatureSet& features) {

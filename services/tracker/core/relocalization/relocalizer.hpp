@@ -3,7 +3,6 @@
 
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
-#include "services/tracker/core/relocalization/relocalization_config.hpp"
 
 namespace rds::tracker {
 
@@ -12,10 +11,11 @@ namespace rds::tracker {
 /// Source: Mur-Artal et al. 2015, §V-C.
 class Relocalizer {
  public:
-  explicit Relocalizer(const RelocalizationConfig& config) : config_(config) {}
+  /// Inliers that a pose found without a prediction needs.
+  static constexpr int kMinInliers = 50;
 
   /// Tries the keyframes that look most like the frame.
-  /// @return true if at least config.min_inliers map points agree; then frame.points and camera_from_map hold
+  /// @return true if at least kMinInliers map points agree; then frame.points and camera_from_map hold
   /// the result.
   bool localize(const TrackingContext& context, TrackedFrame& frame) const;
   /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
@@ -28,12 +28,10 @@ class Relocalizer {
   void index_all(const SlamMap& map);
   void remove(KeyframeId keyframe) { places_.remove(keyframe); }
   [[nodiscard]] std::size_t places() const { return places_.size() + (pending_ != kNoId ? 1 : 0); }
-  [[nodiscard]] int min_inliers() const { return config_.min_inliers; }
 
  private:
-  bool localize_against(const TrackingContext& context, KeyframeId keyframe, TrackedFrame& frame) const;
+  static bool localize_against(const TrackingContext& context, KeyframeId keyframe, TrackedFrame& frame);
 
-  RelocalizationConfig config_;
   vision::PlaceIndex places_;
   KeyframeId pending_ = kNoId;
 };

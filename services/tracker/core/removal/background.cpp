@@ -10,16 +10,16 @@ constexpr int kStride = 2;  // cells, between those that are asked for planes
 
 }  // namespace
 
-Background::Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& suspect)
-    : picture_(picture), surfaces_{picture.depth_m, grid}, planes_(fit_planes(samples_outside(suspect))) {}
+Background::Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& unknown)
+    : picture_(picture), surfaces_{picture.depth_m, grid}, planes_(fit_planes(samples_outside(unknown))) {}
 
-std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& suspect) const {
+std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& unknown) const {
   const cv::Mat1f& depth_m = picture_.depth_m;
   std::vector<SurfaceSample> samples;
   samples.reserve(depth_m.total() / (kStride * kStride));
   for (int r = 0; r < depth_m.rows; r += kStride)
     for (int c = 0; c < depth_m.cols; c += kStride)
-      if (depth_m(r, c) > 0 && (suspect(r, c) == 0 || picture_.stable(r, c) != 0))
+      if (depth_m(r, c) > 0 && (unknown(r, c) == 0 || picture_.stable(r, c) != 0))
         samples.push_back({surfaces_.point(c, r), surfaces_.normal(c, r)});
   return samples;
 }

@@ -4,17 +4,18 @@
 #include <vector>
 
 #include "services/tracker/core/removal/plane_fitting.hpp"
-#include "services/tracker/core/removal/surface_cells.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 namespace rds::tracker {
 
 /// What of a picture is no movable thing: what has stood still for long, and planes that go on outside all
-/// suspect parts: a table, a wall, the floor. Cells are asked one by one, as few of them matter. Picture and
+/// unknown parts: a table, a wall, the floor. Cells are asked one by one, as few of them matter. Picture and
 /// grid must outlive it.
 class Background {
  public:
-  /// @param suspect  not 0 where something movable may show; what stands still tells of planes nevertheless.
-  Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& suspect);
+  /// @param unknown  not 0 where something movable may show: in boxes, and where something has moved. Planes
+  /// are fitted to the other cells, and to stable ones.
+  Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& unknown);
 
   [[nodiscard]] bool shows(const cv::Point& cell) const { return shows(cell, false); }
   /// The same without planes that are no wider than a person.
@@ -22,7 +23,7 @@ class Background {
 
  private:
   [[nodiscard]] bool shows(const cv::Point& cell, bool wide) const;
-  [[nodiscard]] std::vector<SurfaceSample> samples_outside(const cv::Mat1b& suspect) const;
+  [[nodiscard]] std::vector<SurfaceSample> samples_outside(const cv::Mat1b& unknown) const;
 
   const PictureCells& picture_;
   SurfaceCells surfaces_;

@@ -6,12 +6,14 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/surface_growth.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 namespace rds::tracker {
 namespace {
 
 constexpr double kHardlyMeasured = 0.3;  // share of a box's cells that have a depth
+constexpr double kReachM = 0.15;         // how far beyond its predicted box an object is looked for
+constexpr double kMinComponent = 0.35;   // of the largest surface in a box; smaller ones are not the object's
 constexpr double kThicknessM = 0.25;     // in front of and behind what has moved
 constexpr int kHoleRadius = 3;           // cells around a cell without depth that are asked
 
@@ -26,24 +28,22 @@ cv::Rect cells_of(const geometry::Box2& box, const GridGeometry& grid, double ma
 
 /// Where the depths of a thing in these cells can be, that far around them.
 GrowthLimits around(const geometry::Box2& box, const GridGeometry& grid, double margin_m,
-                    const MovableRegion& region, const RemovalConfig& config) {
+                    const MovableRegion& region) {
   const double middle_m = std::max(0.3, (region.min_depth_m + region.max_depth_m) / 2.0);
-  return {cells_of(box, grid, grid.camera().fx * margin_m / middle_m), region.min_depth_m, region.max_depth_m,
-          config.step_m};
+  return {cells_of(box, grid, grid.camera().fx * margin_m / middle_m), region.min_depth_m,
+          region.max_depth_m};
 }
 
-void cut_box(Foreground& picture, const GridGeometry& grid, const MovableRegion& region,
-             const RemovalConfig& config, cv::Mat1b& mask) {
+void mark_box(Foreground& picture, const GridGeometry& grid, const MovableRegion& region, cv::Mat1b& mask) {
   const cv::Rect box = cells_of(region.box_px, grid, 0);
   if (box.empty()) return;
   const cv::Mat1f in_box = picture.depth_m()(box);
   if (cv::countNonZero(in_box) < kHardlyMeasured * box.area()) mask(box).setTo(255, in_box == 0);
-  const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
+  const GrowthLimits reach = around(region.box_px, grid, kReachM, region);
   const cv::Mat1f& in_front_m = picture.in_front_m(reach.cells);
-  const auto surfaces = surfaces_within(in_front_m, around(region.box_px, grid, 0, region, config));
+  const auto surfaces = surfaces_within(in_front_m, around(region.box_px, grid, 0, region));
   for (const auto& surface : surfaces) {
-    if (static_cast<double>(surface.size()) < config.min_component * static_cast<double>(surfaces[0].size()))
-      break;
+    if (static_cast<double>(surface.size()) < kMinComponent * static_cast<double>(surfaces[0].size())) break;
     for (const cv::Point& cell : surface) mask(cell) = 255;
     grow_surface(in_front_m, reach, surface, mask);
   }
@@ -61,13 +61,13 @@ const cv::Mat1f& Foreground::in_front_m(const cv::Rect& cells) {
   return in_front_m_;
 }
 
-void cut_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
-               const RemovalConfig& config, cv::Mat1b& mask) {
-  for (const MovableRegion& region : regions) cut_box(picture, grid, region, config, mask);
+void mark_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+                cv::Mat1b& mask) {
+  for (const MovableRegion& region : regions) mark_box(picture, grid, region, mask);
 }
 
-void cut_around(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
-                const RemovalConfig& config, cv::Mat1b& mask) {
+void mark_moved(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+                cv::Mat1b& mask) {
   std::vector<float> depths;
   depths.reserve(cells.size());
   for (const cv::Point& cell : cells) depths.push_back(picture.depth_m()(cell));
@@ -80,7 +80,7 @@ void cut_around(Foreground& picture, const GridGeometry& grid, const std::vector
                              static_cast<float>(*middle - kThicknessM),
                              static_cast<float>(*middle + kThicknessM)};
   for (const cv::Point& cell : cells) mask(cell) = 255;
-  const GrowthLimits reach = around(region.box_px, grid, config.reach_m, region, config);
+  const GrowthLimits reach = around(region.box_px, grid, kReachM, region);
   grow_surface(picture.in_front_m(reach.cells), reach, cells, mask);
 }
 

@@ -6,11 +6,10 @@
 
 #include "services/tracker/core/removal/background.hpp"
 #include "services/tracker/core/removal/movable_region.hpp"
-#include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
 
-/// What of a picture can be an object's: found out only where it is asked for.
+/// The depth of a picture without its background, computed for the cells that are asked for only.
 class Foreground {
  public:
   /// Both must outlive it.
@@ -30,16 +29,15 @@ class Foreground {
   cv::Mat1f in_front_m_;
 };
 
-/// Marks (255) in `mask` the objects in boxes, cut out by depth: of each box the surfaces in the foreground
-/// within its depth interval, and what they are connected with up to reach_m beyond the box.
-///
-/// Where nothing was measured a cell is the object's if its box is hardly measured at all.
-void cut_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
-               const RemovalConfig& config, cv::Mat1b& mask);
+/// Marks (255) in `mask` the objects in boxes: of each box the foreground surfaces within its depth interval,
+/// and what they are connected with up to 0.15 m beyond the box. Cells without depth are marked if less than
+/// 30 % of the box has depth.
+void mark_boxes(Foreground& picture, const GridGeometry& grid, std::span<const MovableRegion> regions,
+                cv::Mat1b& mask);
 
-/// Marks cells that belong to something movable, and what they are connected with up to reach_m around them.
-void cut_around(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
-                const RemovalConfig& config, cv::Mat1b& mask);
+/// Marks the cells of something that has moved, and what they are connected with up to 0.15 m around them.
+void mark_moved(Foreground& picture, const GridGeometry& grid, const std::vector<cv::Point>& cells,
+                cv::Mat1b& mask);
 
 /// Marks whole boxes, whatever their depth.
 void fill_boxes(const GridGeometry& grid, std::span<const MovableRegion> regions, cv::Mat1b& mask);

@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/surface_growth.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -15,7 +15,10 @@ constexpr float kNothing = std::numeric_limits<float>::max();
 constexpr Eigen::Index kBatch = GridGeometry::Numbers::MaxRowsAtCompileTime;
 constexpr int kThinnest = 5;        // cells across, of a thing
 constexpr int kWitnesses = 2;       // earlier pictures
-constexpr float kSameShare = 0.4F;  // of motion_step_m: so near is the same surface
+constexpr float kStepM = 0.1F;      // nearer than what stood there before, 1 m away; grows with depth squared
+constexpr float kSameShare = 0.4F;  // of kStepM: so near is the same surface
+constexpr double kMinShare = 0.004;  // of the picture, of a moving thing
+constexpr double kMaxShare = 0.4;    // of what can be judged; more is an error of the pose
 
 /// Depth [m] of what an earlier picture saw, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
@@ -39,26 +42,24 @@ cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
 }
 
 /// Adds what one earlier picture says. @param before  of it, seen_from_here().
-void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, const RemovalConfig& config,
-           MotionEvidence& evidence) {
+void judge(const cv::Mat1f& depth_m, const cv::Mat1f& before, MotionEvidence& evidence) {
   cv::Mat1f nearest;
   cv::erode(before, nearest, cv::Mat());
   cv::Mat1f farthest = before.clone();
   farthest.setTo(0, before == kNothing);
   cv::dilate(farthest, farthest, cv::Mat());
-  const auto step_m = static_cast<float>(config.motion_step_m);
   for (int i = 0; i < depth_m.rows * depth_m.cols; ++i) {
     const float z = depth_m.ptr<float>()[i];
     const float far = farthest.ptr<float>()[i];
     if (z <= 0 || far <= 0) continue;
     const float near = nearest.ptr<float>()[i];
-    const float step = step_m * std::max(1.0F, z * z);
+    const float step = kStepM * std::max(1.0F, z * z);
     const float same = kSameShare * step;
-    if (std::uint8_t& arrived = evidence.arrived.data[i];
+    if (std::uint8_t& appeared = evidence.appeared.data[i];
         z < near - step && before.ptr<float>()[i] != kNothing)
-      arrived = static_cast<std::uint8_t>(std::min(255, arrived + 1));
+      appeared = static_cast<std::uint8_t>(std::min(255, appeared + 1));
     else if (z > near - same && z < far + same)
-      evidence.standing.data[i] = 255;
+      evidence.unchanged.data[i] = 255;
   }
 }
 
@@ -76,30 +77,27 @@ SeenCells::SeenCells(const cv::Mat1f& depth_m, const cv::Mat1b& mask, const Grid
 }
 
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                                 const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
-                                 const RemovalConfig& config) {
+                                 const geometry::Pose& camera_from_map, std::span<const SeenCells> past) {
   MotionEvidence evidence{cv::Mat1b(grid.size(), std::uint8_t{0}), cv::Mat1b(grid.size(), std::uint8_t{0})};
-  for (const SeenCells& seen : past)
-    judge(depth_m, seen_from_here(seen, grid, camera_from_map), config, evidence);
+  for (const SeenCells& seen : past) judge(depth_m, seen_from_here(seen, grid, camera_from_map), evidence);
   // One earlier picture alone may be wrong: where others saw the place too, they have to agree.
-  cv::threshold(evidence.arrived, evidence.arrived,
+  cv::threshold(evidence.appeared, evidence.appeared,
                 std::min<double>(kWitnesses, static_cast<double>(past.size())) - 0.5, 255, cv::THRESH_BINARY);
-  evidence.standing.setTo(0, evidence.arrived);
+  evidence.unchanged.setTo(0, evidence.appeared);
   return evidence;
 }
 
-std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
-                                                   const RemovalConfig& config) {
-  cv::Mat1b arrived;
-  cv::morphologyEx(evidence.arrived, arrived, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
-  const int moved = cv::countNonZero(arrived);
-  const double least = config.min_motion_share * static_cast<double>(depth_m.total());
+std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence) {
+  cv::Mat1b appeared;
+  cv::morphologyEx(evidence.appeared, appeared, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
+  const int moved = cv::countNonZero(appeared);
+  const double least = kMinShare * static_cast<double>(depth_m.total());
   if (moved < least) return {};
-  const int judged = moved + cv::countNonZero(evidence.standing);
-  if (moved > config.max_motion_share * judged) return {};
+  const int judged = moved + cv::countNonZero(evidence.unchanged);
+  if (moved > kMaxShare * judged) return {};
   cv::Mat1f candidates = depth_m.clone();
-  candidates.setTo(0, ~arrived);
-  const GrowthLimits whole{cv::Rect({0, 0}, depth_m.size()), 0, kNothing, config.step_m};
+  candidates.setTo(0, ~appeared);
+  const GrowthLimits whole{cv::Rect({0, 0}, depth_m.size()), 0, kNothing};
   auto things = surfaces_within(candidates, whole);
   std::erase_if(things, [&](const auto& cells) { return static_cast<double>(cells.size()) < least; });
   return things;

@@ -6,14 +6,13 @@
 
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"
-#include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
 
 /// What an earlier picture saw.
 struct SeenCells {
   /// @param pose  map_from_camera.
-  /// @param mask  not 0 where something movable showed, its rim included: says nothing. May be empty.
+  /// @param mask  not 0 in cells to leave out: something movable showed there. May be empty.
   SeenCells(const cv::Mat1f& depth_m, const cv::Mat1b& mask, const GridGeometry& grid,
             const geometry::Pose& pose);
 
@@ -23,21 +22,19 @@ struct SeenCells {
 
 /// What earlier pictures say of the cells of a new one. Both have the new picture's size.
 struct MotionEvidence {
-  cv::Mat1b arrived;   // 255 where something stands nearer than what stood there before
-  cv::Mat1b standing;  // 255 where stands what stood there before, and had nothing to do with what moves
+  cv::Mat1b appeared;   // 255 where something stands nearer than what stood there before
+  cv::Mat1b unchanged;  // 255 where the same surface shows as before
 };
 
-/// Compares depths: what an earlier picture saw is moved to where the camera is now and shows up there.
+/// Compares depths: what an earlier picture saw is projected into the camera where it is now.
 ///
-/// A cell is judged by all that comes to lie in its 3×3 neighbourhood, so that a pose that is wrong by a cell
-/// changes nothing. Parts that the earlier picture knew as movable say nothing.
+/// A cell is compared with all that projects into its 3×3 neighbourhood, so that a pose that is wrong by a
+/// cell changes nothing. At least two earlier pictures have to agree that something has appeared.
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                                 const geometry::Pose& camera_from_map, std::span<const SeenCells> past,
-                                 const RemovalConfig& config);
+                                 const geometry::Pose& camera_from_map, std::span<const SeenCells> past);
 
-/// The things that have arrived, as far as they were seen to arrive. What is small is noise; where too much
-/// of what can be judged has arrived the pose is wrong, and there is nothing.
-std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence,
-                                                   const RemovalConfig& config);
+/// The connected surfaces among the cells that have appeared, but for small ones (noise). None if more than
+/// 40 % of the cells that can be compared have appeared: then the pose is wrong.
+std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence);
 
 }  // namespace rds::tracker

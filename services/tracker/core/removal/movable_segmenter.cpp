@@ -7,18 +7,21 @@
 #include <opencv2/imgproc.hpp>
 
 #include "services/tracker/core/removal/box_cut.hpp"
-#include "services/tracker/core/removal/surface_growth.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 namespace rds::tracker {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-constexpr int kStableCells = 2;  // around a stable point
+constexpr float kCarryS = 0.5F;         // how long a part stays cut that neither box nor motion supports
+constexpr double kReferenceS = 0.25;    // between the earlier pictures that a new one is compared with
+constexpr std::size_t kReferences = 2;  // earlier pictures
+constexpr int kStableCells = 2;         // around a stable point
 constexpr double kStableStepM = 0.03;
 
 }  // namespace
 
-void MovableSegmenter::look_at(const image::RgbdFrame& picture) {
+void MovableSegmenter::set_picture(const image::RgbdFrame& picture) {
   if (picture.camera != grid_.camera()) {
     forget();
     grid_ = GridGeometry(picture.camera);
@@ -28,17 +31,16 @@ void MovableSegmenter::look_at(const image::RgbdFrame& picture) {
   now_.cells.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
 }
 
-void MovableSegmenter::compare(const geometry::Pose& camera_from_map) {
+void MovableSegmenter::detect_motion(const geometry::Pose& camera_from_map) {
   if (config_.method != "depth" || !last_.sure) return;
   now_.camera_from_map = camera_from_map;
   if (!config_.motion) return;
   const cv::Mat1f& depth_m = now_.cells.depth_m;
-  now_.moved =
-      moving_objects(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_, config_), config_);
+  now_.moved = moving_objects(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_));
 }
 
-MovableMask MovableSegmenter::cut(std::span<const MovableRegion> regions,
-                                  std::span<const Eigen::Vector3f> stable) {
+MovableMask MovableSegmenter::segment(std::span<const MovableRegion> regions,
+                                      std::span<const Eigen::Vector3f> stable) {
   if (config_.method == "off") return {};
   if (config_.method == "box") return whole_boxes(regions);
   now_.mask = cv::Mat1b(grid_.size(), std::uint8_t{0});
@@ -50,13 +52,13 @@ MovableMask MovableSegmenter::cut(std::span<const MovableRegion> regions,
 }
 
 void MovableSegmenter::mark(std::span<const MovableRegion> regions) {
-  cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
-  fill_boxes(grid_, regions, suspect);
-  for (const auto& cells : now_.moved) suspect(cv::boundingRect(cells)).setTo(255);
-  const Background background(now_.cells, grid_, suspect);
+  cv::Mat1b unknown(grid_.size(), std::uint8_t{0});
+  fill_boxes(grid_, regions, unknown);
+  for (const auto& cells : now_.moved) unknown(cv::boundingRect(cells)).setTo(255);
+  const Background background(now_.cells, grid_, unknown);
   Foreground foreground(now_.cells, background);
-  cut_boxes(foreground, grid_, regions, config_, now_.mask);
-  for (const auto& cells : now_.moved) cut_around(foreground, grid_, cells, config_, now_.mask);
+  mark_boxes(foreground, grid_, regions, now_.mask);
+  for (const auto& cells : now_.moved) mark_moved(foreground, grid_, cells, now_.mask);
   if (now_.camera_from_map && last_.map_from_camera && last_.widened.any()) carry(background);
 }
 
@@ -87,39 +89,39 @@ void MovableSegmenter::carry(const Background& background) {
       if (last_.mask(r, c) == 0) continue;
       const float age_s = last_.unsupported_s(r, c) + passed_s;
       const float z = last_.cells.depth_m(r, c);
-      if (!(z > 0) || age_s > static_cast<float>(config_.carry_s)) continue;
+      if (!(z > 0) || age_s > kCarryS) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
       if (cell.x < 0 || (now_.mask(cell) != 0 && now_.unsupported_s(cell) == 0)) continue;
       const float here = now_.cells.depth_m(cell);
-      if (!(here > 0) || !one_surface(here, p.z(), config_.step_m) || background.shows_wide(cell)) continue;
+      if (!(here > 0) || !one_surface(here, p.z(), kSurfaceStepM) || background.shows_wide(cell)) continue;
       float& unsupported = now_.unsupported_s(cell);
       unsupported = now_.mask(cell) == 0 ? age_s : std::min(unsupported, age_s);
       now_.mask(cell) = 255;
     }
 }
 
-void MovableSegmenter::remember(const geometry::Pose& map_from_camera, bool sure) {
+void MovableSegmenter::set_pose(const geometry::Pose& map_from_camera, bool sure) {
   now_.map_from_camera = map_from_camera;
   now_.sure = sure;
   if (!sure || now_.cells.depth_m.empty() || config_.method != "depth") return;
-  const auto step_ns = static_cast<std::int64_t>(config_.reference_s * kNsPerSecond);
+  const auto step_ns = static_cast<std::int64_t>(kReferenceS * kNsPerSecond);
   if (!past_.empty() && now_.stamp_ns - newest_past_ns_ < step_ns) return;
-  if (past_.size() == static_cast<std::size_t>(config_.references)) past_.erase(past_.begin());
+  if (past_.size() == kReferences) past_.erase(past_.begin());
   past_.emplace_back(now_.cells.depth_m, now_.widened.cells(), grid_, map_from_camera);
   newest_past_ns_ = now_.stamp_ns;
 }
 
-MovableMask MovableSegmenter::segment_late(const PictureCells& picture,
-                                           std::span<const MovableRegion> regions) const {
+MovableMask MovableSegmenter::segment_keyframe(const PictureCells& picture,
+                                               std::span<const MovableRegion> regions) const {
   if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
   if (config_.method == "box") return whole_boxes(regions);
-  cv::Mat1b suspect(grid_.size(), std::uint8_t{0});
-  fill_boxes(grid_, regions, suspect);
-  const Background background(picture, grid_, suspect);
+  cv::Mat1b unknown(grid_.size(), std::uint8_t{0});
+  fill_boxes(grid_, regions, unknown);
+  const Background background(picture, grid_, unknown);
   Foreground foreground(picture, background);
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  cut_boxes(foreground, grid_, regions, config_, mask);
+  mark_boxes(foreground, grid_, regions, mask);
   return widened(picture.depth_m, mask);
 }
 

@@ -7,44 +7,42 @@
 #include <vector>
 
 #include "common/geometry/pose.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/removal/background.hpp"
 #include "services/tracker/core/removal/motion_evidence.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 #include "services/tracker/core/removal/movable_region.hpp"
-#include "services/tracker/core/removal/removal_config.hpp"
 
 namespace rds::tracker {
 
-/// Says from picture to picture which cells show something movable.
+/// Segments each picture into cells that show something movable, and others.
 ///
-/// Three sources: the objects in predicted boxes, cut out by depth; what stands where nothing stood before
-/// (a mover that no network knows, an arm out of its box); and what was cut from the last picture, carried to
-/// this one, for as long as carry_s without support by the others. For one thread at a time.
+/// Movable are: the surfaces in predicted boxes, chosen by depth; what stands where nothing stood before (an
+/// object that no network knows, an arm outside its box); and what was movable in the last picture and has
+/// not moved since, for half a second without either. For one thread at a time.
 class MovableSegmenter {
  public:
   MovableSegmenter(const RemovalConfig& config, double max_depth_m)
       : config_(config), max_depth_m_(max_depth_m) {}
 
-  /// First: takes in a picture's depth.
-  void look_at(const image::RgbdFrame& picture);
-  /// Then, where the picture's pose is known, near to the truth: what has changed since earlier pictures?
-  /// Without, and after a picture whose pose was not sure (the guess comes from it), cut() knows of boxes
-  /// only.
-  void compare(const geometry::Pose& camera_from_map);
+  /// First: the next picture; its depth is used.
+  void set_picture(const image::RgbdFrame& picture);
+  /// Then, where the picture's pose is known to a few centimetres: compares it with earlier pictures.
+  /// Without, and after a picture whose pose was not sure (the guess rests on it), segment() uses boxes only.
+  void detect_motion(const geometry::Pose& camera_from_map);
   /// @param regions  predicted boxes with their depth intervals.
-  /// @param stable  points, in the camera frame, that have stood still for long: what shows them is static.
-  MovableMask cut(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> stable);
-  /// The pose of the picture that was cut last. Later ones are compared with pictures whose pose is sure
-  /// only.
-  void remember(const geometry::Pose& map_from_camera, bool sure);
-  /// What segment_late() needs of the picture that was cut last, when its boxes come.
+  /// @param stable   stable map points in the camera frame: surfaces that show them are static.
+  MovableMask segment(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> stable);
+  /// Last: the picture's pose. Later pictures are compared only with those whose pose is sure.
+  void set_pose(const geometry::Pose& map_from_camera, bool sure);
+  /// The picture in cells, as segment_keyframe() needs it when late boxes come.
   [[nodiscard]] const PictureCells& latest() const { return now_.cells; }
-  /// Cells of the same picture, not 0 where something movable shows; empty if there is nothing.
+  /// Cells of the picture, not 0 where something movable shows; empty if there is nothing.
   [[nodiscard]] const cv::Mat1b& latest_mask() const { return now_.widened.cells(); }
   [[nodiscard]] const GridGeometry& grid() const { return grid_; }
-  /// The objects in late boxes of an earlier picture.
-  [[nodiscard]] MovableMask segment_late(const PictureCells& picture,
-                                         std::span<const MovableRegion> regions) const;
+  /// Movable cells of an earlier picture, by its late boxes.
+  [[nodiscard]] MovableMask segment_keyframe(const PictureCells& picture,
+                                             std::span<const MovableRegion> regions) const;
   /// The map has moved: earlier pictures say nothing any more.
   void forget();
 
@@ -55,7 +53,7 @@ class MovableSegmenter {
     std::int64_t stamp_ns = 0;
     PictureCells cells;
     std::optional<geometry::Pose> camera_from_map;  // as it was guessed
-    Objects moved;
+    Objects moved;                                  // what detect_motion() found
     cv::Mat1b mask;                                 // without rim
     cv::Mat1f unsupported_s;                        // for how long, where the mask is set
     MovableMask widened;                            // with rim; empty where nothing is set

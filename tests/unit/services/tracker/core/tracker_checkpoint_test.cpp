@@ -35,9 +35,9 @@ struct Rows {
 
 /// Every row of a map, at once.
 Rows all_rows(SlamMap& map) {
-  map.all_keyframes().for_each([](Keyframe&) {});
-  map.all_records().for_each([](KeyframeRecord&) {});
-  map.all_points().for_each([](MapPoint&) {});
+  map.keyframes().for_each([](Keyframe&) {});
+  map.records().all().for_each([](KeyframeRecord&) {});
+  map.points().for_each([](MapPoint&) {});
   std::vector<CheckpointRow> told;
   MapCheckpoint().append_changes(map, told);
   Rows rows;
@@ -48,7 +48,7 @@ Rows all_rows(SlamMap& map) {
 
 void map_locally(Tracker& tracker) {
   if (const auto job = tracker.take_mapping_job())
-    tracker.apply(run_local_mapping(*job, small_config().local_mapping));
+    tracker.apply(run_local_mapping(*job));
 }
 
 /// A tracker that has made a map, and told it every third frame.
@@ -58,15 +58,15 @@ class CheckpointedTracker : public ::testing::Test {
     for (int i = 0; i < 24; ++i) {
       step(tracker, i);
       map_locally(tracker);
-      if (i == 15) tracker.apply(correction());
+      if (i == 15) tracker.correct(correction());
       if (i % 3 == 2) rows.take(tracker.checkpoint());
     }
   }
 
-  [[nodiscard]] PoseGraphCorrection correction() const {
-    PoseGraphCorrection moved;
+  [[nodiscard]] std::vector<KeyframePose> correction() const {
+    std::vector<KeyframePose> moved;
     for (const KeyframePose& k : tracker.keyframe_poses())
-      moved.poses.push_back({k.id, k.stamp_ns, test::pose(0, 0, 0.001) * k.map_from_camera});
+      moved.push_back({k.id, k.stamp_ns, test::pose(0, 0, 0.001) * k.map_from_camera});
     return moved;
   }
 
@@ -77,9 +77,9 @@ class CheckpointedTracker : public ::testing::Test {
 TEST_F(CheckpointedTracker, TheSameMapComesOutOfTheChanges) {
   Tracker resumed(small_config());
   ASSERT_TRUE(resumed.resume(rows.reader()));
-  EXPECT_GE(resumed.map().keyframes(), 3U);
-  EXPECT_GT(resumed.map().points(), 200U);
-  SlamMap again = *map_from_rows(rows.reader(), small_config().map, ScalePyramid(4, 1.2));
+  EXPECT_GE(resumed.map().keyframes().size(), 3U);
+  EXPECT_GT(resumed.map().points().size(), 200U);
+  SlamMap again = *map_from_rows(rows.reader(), ScalePyramid(4, 1.2));
   EXPECT_EQ(all_rows(again).by_kind, [&] {
     auto told = rows.by_kind;
     told.erase("map");
@@ -91,7 +91,7 @@ TEST_F(CheckpointedTracker, TheSameMapComesOutOfTheChanges) {
   ASSERT_EQ(poses_again.size(), poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
     EXPECT_EQ(poses_again[i].map_from_camera.matrix(), poses[i].map_from_camera.matrix());
-  tracker.map().all_points().for_each([&](const MapPoint& point) {
+  tracker.map().points().for_each([&](const MapPoint& point) {
     const MapPoint* other = resumed.map().point(point.id);
     ASSERT_NE(other, nullptr);
     EXPECT_EQ(other->position, point.position);
@@ -123,8 +123,8 @@ TEST_F(CheckpointedTracker, ACameraThatStandsStillCostsNothing) {
 TEST_F(CheckpointedTracker, FindsItselfAndUsesNoIdTwice) {
   FrameResult last;
   for (int i = 24; i < 60; ++i) last = step(tracker, i);  // nobody knows of these any more
-  const KeyframeId given = tracker.map().next_keyframe_id();
-  const PointId points_given = tracker.map().next_point_id();
+  const KeyframeId given = tracker.map().records().next_id();
+  const PointId points_given = tracker.map().points().next_id();
   Tracker resumed(small_config());
   ASSERT_TRUE(resumed.resume(rows.reader()));
   EXPECT_EQ(resumed.track(test::dark_picture(61 * kFrameNs), {}).state, State::kLost);
@@ -139,8 +139,8 @@ TEST_F(CheckpointedTracker, FindsItselfAndUsesNoIdTwice) {
     }
     map_locally(resumed);
   }
-  EXPECT_GT(resumed.map().next_keyframe_id(), given);
-  EXPECT_GT(resumed.map().next_point_id(), points_given);
+  EXPECT_GT(resumed.map().records().next_id(), given);
+  EXPECT_GT(resumed.map().points().next_id(), points_given);
   const auto poses = resumed.keyframe_poses();
   EXPECT_LT(poses.size(), 100U) << "ids that were left out have no pose";
 }
@@ -155,14 +155,14 @@ TEST_F(CheckpointedTracker, GoesOnAfterASecondRestart) {
   rows.take(second.checkpoint());
   Tracker third(small_config());
   ASSERT_TRUE(third.resume(rows.reader()));
-  EXPECT_EQ(third.map().keyframes(), second.map().keyframes());
-  EXPECT_EQ(third.map().points(), second.map().points());
+  EXPECT_EQ(third.map().keyframes().size(), second.map().keyframes().size());
+  EXPECT_EQ(third.map().points().size(), second.map().points().size());
 }
 
 TEST_F(CheckpointedTracker, CulledKeyframesLeaveTheirPoseOnly) {
-  SlamMap map = *map_from_rows(rows.reader(), small_config().map, ScalePyramid(4, 1.2));
+  SlamMap map = *map_from_rows(rows.reader(), ScalePyramid(4, 1.2));
   MapCheckpoint checkpoint;
-  checkpoint.has_told(map);
+  checkpoint.mark_written(map);
   const KeyframeId culled = 2;
   ASSERT_NE(map.keyframe(culled), nullptr);
   const Pose pose = map.pose_of(culled);
@@ -171,7 +171,7 @@ TEST_F(CheckpointedTracker, CulledKeyframesLeaveTheirPoseOnly) {
   checkpoint.append_changes(map, told);
   rows.take(std::move(told));
   EXPECT_FALSE(rows.by_kind["features"].contains(culled));
-  const auto again = map_from_rows(rows.reader(), small_config().map, ScalePyramid(4, 1.2));
+  const auto again = map_from_rows(rows.reader(), ScalePyramid(4, 1.2));
   ASSERT_TRUE(again) << again.error();
   EXPECT_EQ(again->keyframe(culled), nullptr);
   EXPECT_TRUE(again->pose_of(culled).isApprox(pose, 1e-12));
@@ -202,10 +202,12 @@ TEST_F(CheckpointedTracker, AnotherPyramidIsRefused) {
 
 TEST(MapContents, PosesThatHangOnNothingAreRefused) {
   for (const auto& anchors : {std::vector<KeyframeId>{1, 0}, {7, kNoId}, {0, kNoId}}) {
-    MapContents contents;
+    IdTable<KeyframeRecord> records;
     for (KeyframeId id = 0; id < anchors.size(); ++id)
-      contents.records.emplace({id, 0, anchors[id], Pose::Identity()});
-    EXPECT_FALSE(SlamMap::of(std::move(contents), MapConfig{}, ScalePyramid(8, 1.2)));
+      records.emplace({id, 0, anchors[id], Pose::Identity()});
+    MapContents contents;
+    contents.records = KeyframeRecords(std::move(records), 0);
+    EXPECT_FALSE(map_of(std::move(contents), ScalePyramid(8, 1.2)));
   }
 }
 

@@ -68,7 +68,7 @@ TEST(TrackerLost, GivesUpAYoungMapAfterASecondOrAsLongAsItWasTracked) {
   EXPECT_TRUE(gives_up(paused, 4 * second + second / 2, second));
 
   TrackerConfig patient = small_config();
-  patient.quality.young_map_s = 0;
+  patient.young_map_s = 0;
   Tracker never(patient);
   for (int i = 0; i < 6; ++i) step(never, i);
   EXPECT_FALSE(gives_up(never, 6, 3 * second));

@@ -20,7 +20,7 @@ TEST(Tracker, FollowsAMovingCamera) {
     EXPECT_TRUE(error_m(result, i) < 0.015) << i << ": " << error_m(result, i);
     EXPECT_EQ(result.verdicts.size(), result.features);
   }
-  EXPECT_GT(tracker.map().keyframes(), 1U);
+  EXPECT_GT(tracker.map().keyframes().size(), 1U);
 }
 
 /// A camera like the first Kinect's, whatever its size; depth comes in mm.
@@ -79,7 +79,7 @@ void expect_tracking_without_depth(bool following) {
     EXPECT_TRUE(error_m(result, i) < 0.02) << i << ": " << error_m(result, i);
     EXPECT_TRUE(has_depth || !result.keyframe) << i;
   }
-  EXPECT_GT(tracker.map().keyframes(), 1U);
+  EXPECT_GT(tracker.map().keyframes().size(), 1U);
 }
 
 TEST(Tracker, FollowsPointsThroughFramesWithoutDepth) {

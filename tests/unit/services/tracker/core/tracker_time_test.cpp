@@ -73,26 +73,26 @@ TEST(TrackerTime, ARecordingThatBeginsAgainIsTrackedInEachLap) {
 TEST(TrackerTime, WhatHasBeenInViewForLongIsKnownAfterStampsWentBack) {
   Tracker tracker(small_config());
   keyframes_standing_at(tracker, 0, kStart, 25, kSlowNs);
-  const std::size_t known = tracker.map().keyframes();
+  const std::size_t known = tracker.map().keyframes().size();
   int keyframes = 0;
   for (int i = 0; i < 20; ++i)
     keyframes += step_at(tracker, std::min(i, 20 - i), kFrameNs * i).keyframe ? 1 : 0;
   EXPECT_GE(keyframes, 1);
-  EXPECT_LE(tracker.map().keyframes(), known + 1);
+  EXPECT_LE(tracker.map().keyframes().size(), known + 1);
 }
 
 TEST(TrackerTime, AMapOfTheFutureIsGoneOnIn) {
   Tracker first(small_config());
   for (int i = 0; i < 30; ++i) step_at(first, i, kStart + i * kFrameNs);
   SlamMap saved = first.map();
-  saved.fix_keyframes();
+  saved.records().fix_all();
   Tracker second(small_config());
   second.start_from({std::move(saved), first.calibration().known_camera()});
-  const std::size_t known = second.map().keyframes();
+  const std::size_t known = second.map().keyframes().size();
   EXPECT_EQ(step_at(second, 5, 5 * kSecond).state, State::kRelocalised);
   keyframes_standing_at(second, 5, 5 * kSecond + kFrameNs, 20, kSlowNs);
   for (int i = 6; i < 30; ++i) step_at(second, i, 12 * kSecond + i * kFrameNs);
-  EXPECT_LE(second.map().keyframes(), known + 1);
+  EXPECT_LE(second.map().keyframes().size(), known + 1);
 }
 
 }  // namespace

@@ -96,21 +96,21 @@ class MovingKeyframes {
         else
           map_.observe(p, keyframe.id, f);
       }
-      map_.update_covisibility(keyframe.id);
+      update_covisibility(map_, keyframe.id);
     }
   }
 
   [[nodiscard]] ImagingEstimate estimate() const {
-    LocalMappingJob job = make_mapping_job(map_, 7, LocalMappingConfig{});
+    LocalMappingJob job = make_mapping_job(map_, 7);
     job.pyramid = ScalePyramid(8, 1.2);
     job.given_fx = map_.keyframe(0)->features->camera().fx;
-    return run_local_mapping(job, LocalMappingConfig{}).imaging;
+    return run_local_mapping(job).imaging;
   }
 
  private:
   std::mt19937 random_{5};
   std::vector<Eigen::Vector3d> points_ = test::random_points(400, random_);
-  SlamMap map_{MapConfig{}, ScalePyramid(8, 1.2)};
+  SlamMap map_{ScalePyramid(8, 1.2)};
 };
 
 TEST(ImagingInLocalMapping, ReadoutIsFound) {
@@ -172,16 +172,16 @@ TEST(SelfCalibrationTest, WhatIsSwitchedOffStaysAsGiven) {
   config.readout_s = 0.01;
   SelfCalibration calibration(config);
   for (int i = 0; i < 50; ++i) calibration.update(measured(0.03, 0.8, 0.001));
-  calibration.begin_with_focal_scale(0.9);
+  calibration.begin_with({500, 0.9});
   EXPECT_EQ(calibration.readout_s(), 0.01);
   EXPECT_EQ(calibration.focal_scale(), 1);
 }
 
 TEST(SelfCalibrationTest, GoesOnFromASavedMapUnlessItIsAnotherCameras) {
   SelfCalibration calibration(SelfCalibrationConfig{});
-  calibration.begin_with_focal_scale(0.5);
+  calibration.begin_with({500, 0.5});
   EXPECT_EQ(calibration.focal_scale(), 1);
-  calibration.begin_with_focal_scale(0.95);
+  calibration.begin_with({500, 0.95});
   EXPECT_EQ(calibration.focal_scale(), 0.95);
 }
 

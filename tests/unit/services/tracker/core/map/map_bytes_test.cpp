@@ -30,7 +30,7 @@ class SavedTracker : public ::testing::Test {
     Tracker tracker(small_config());
     for (int i = 0; i < 12; ++i) step(tracker, i, 1'000'000'000'000 + i * kFrameNs);
     bytes = bytes_of(tracker.map());
-    poses = tracker.map().keyframe_poses();
+    poses = keyframe_poses(tracker.map());
   }
 
   static map_file::Bytes bytes_of(const SlamMap& map) {
@@ -38,7 +38,7 @@ class SavedTracker : public ::testing::Test {
   }
 
   static SavedMap load() {
-    auto map = map_from_bytes(bytes, poses, small_config().map, small_config().extraction);
+    auto map = map_from_bytes(bytes, poses, small_config().extraction);
     if (!map) throw std::runtime_error(map.error());
     return std::move(*map);
   }
@@ -55,8 +55,8 @@ class SavedTracker : public ::testing::Test {
 
 TEST_F(SavedTracker, TheSameBytesComeOutOfALoadedMap) {
   const SlamMap map = load().map;
-  EXPECT_GT(map.keyframes(), 1U);
-  EXPECT_GT(map.points(), 200U);
+  EXPECT_GT(map.keyframes().size(), 1U);
+  EXPECT_GT(map.points().size(), 200U);
   EXPECT_EQ(bytes_of(map), bytes);
   for (const KeyframePose& k : poses) EXPECT_EQ(map.pose_of(k.id).matrix(), k.map_from_camera.matrix());
   EXPECT_FALSE(map.keyframe(0)->covisible.empty());
@@ -64,15 +64,15 @@ TEST_F(SavedTracker, TheSameBytesComeOutOfALoadedMap) {
 
 TEST_F(SavedTracker, CulledKeyframesKeepIdAndPose) {
   SlamMap map = load().map;
-  const KeyframeId culled = map.next_keyframe_id() - 1;
+  const KeyframeId culled = map.records().next_id() - 1;
   const Pose pose = map.pose_of(culled);
   map.cull_keyframe(culled);
   const auto again =
-      map_from_bytes(bytes_of(map), map.keyframe_poses(), small_config().map, small_config().extraction);
+      map_from_bytes(bytes_of(map), keyframe_poses(map), small_config().extraction);
   ASSERT_TRUE(again) << again.error();
   EXPECT_EQ(again->map.keyframe(culled), nullptr);
   EXPECT_TRUE(again->map.pose_of(culled).isApprox(pose, 1e-12));
-  EXPECT_EQ(again->map.next_keyframe_id(), culled + 1);
+  EXPECT_EQ(again->map.records().next_id(), culled + 1);
 }
 
 TEST_F(SavedTracker, IsLostUntilItFindsItselfAndCountsOn) {
@@ -96,14 +96,14 @@ TEST_F(SavedTracker, TheLoadedMapIsTheGauge) {
     step(tracker, i, i * kFrameNs);
     if (const auto job = tracker.take_mapping_job()) {
       for (const MappingKeyframe& k : job->keyframes) EXPECT_TRUE(k.fixed || k.id >= poses.size()) << k.id;
-      tracker.apply(run_local_mapping(*job, LocalMappingConfig{}));
+      tracker.apply(run_local_mapping(*job));
     }
   }
-  PoseGraphCorrection correction;
-  for (const KeyframePose& k : tracker.map().keyframe_poses())
-    correction.poses.push_back({k.id, k.stamp_ns, test::pose(0, 0, 0.1) * k.map_from_camera});
+  std::vector<KeyframePose> correction;
+  for (const KeyframePose& k : keyframe_poses(tracker.map()))
+    correction.push_back({k.id, k.stamp_ns, test::pose(0, 0, 0.1) * k.map_from_camera});
   const Pose last = tracker.keyframe_poses().back().map_from_camera;
-  tracker.apply(correction);
+  tracker.correct(correction);
   EXPECT_FALSE(tracker.keyframe_poses().back().map_from_camera.isApprox(last, 1e-3))
       << "new keyframes do move";
   for (const KeyframePose& k : poses)
@@ -131,12 +131,12 @@ TEST_F(SavedTracker, LocalizeOnlyLeavesTheMapAndStillChoosesKeyframes) {
 TEST_F(SavedTracker, LocalizeOnlyWithoutAMapInventsNone) {
   Tracker tracker(small_config(true));
   EXPECT_EQ(step(tracker, 0, 0).state, State::kNotInitialized);
-  EXPECT_EQ(tracker.map().keyframes(), 0U);
+  EXPECT_EQ(tracker.map().keyframes().size(), 0U);
 }
 
 TEST_F(SavedTracker, AnEmptyMapStartsAtTheOrigin) {
   const Tracker nothing(small_config());
-  auto map = map_from_bytes(bytes_of(nothing.map()), {}, small_config().map, small_config().extraction);
+  auto map = map_from_bytes(bytes_of(nothing.map()), {}, small_config().extraction);
   ASSERT_TRUE(map) << map.error();
   Tracker tracker(small_config());
   tracker.start_from(std::move(*map));
@@ -146,7 +146,7 @@ TEST_F(SavedTracker, AnEmptyMapStartsAtTheOrigin) {
 TEST_F(SavedTracker, TornBytesAreRefused) {
   for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 40)
     EXPECT_FALSE(
-        map_from_bytes(std::span(bytes).first(size), poses, small_config().map, small_config().extraction))
+        map_from_bytes(std::span(bytes).first(size), poses, small_config().extraction))
         << size;
 }
 
@@ -154,7 +154,7 @@ TEST_F(SavedTracker, AlteredBytesDoNoHarm) {
   for (std::size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 15) {
     map_file::Bytes altered = bytes;
     altered[at] = static_cast<std::uint8_t>(~altered[at]);
-    if (auto map = map_from_bytes(altered, poses, small_config().map, small_config().extraction)) {
+    if (auto map = map_from_bytes(altered, poses, small_config().extraction)) {
       Tracker tracker(small_config());
       tracker.start_from(std::move(*map));
       step(tracker, 6, 0);
@@ -165,7 +165,7 @@ TEST_F(SavedTracker, AlteredBytesDoNoHarm) {
 TEST_F(SavedTracker, WhatIsKnownOfTheCameraIsKnownAgainUnlessItIsAnother) {
   const KnownCamera camera{test::small_camera().fx, 0.97};
   auto saved = map_from_bytes(to_bytes(load().map, camera, small_config().extraction), poses,
-                              small_config().map, small_config().extraction);
+                              small_config().extraction);
   ASSERT_TRUE(saved) << saved.error();
   Tracker tracker(small_config());
   tracker.start_from(std::move(*saved));
@@ -190,10 +190,10 @@ TEST_F(SavedTracker, KeyframesOfAnotherCameraKeepTheirs) {
 TEST_F(SavedTracker, SaysWhatDoesNotFit) {
   TrackerConfig other = small_config();
   other.extraction.levels = 8;
-  EXPECT_THAT(map_from_bytes(bytes, poses, other.map, other.extraction).error(),
+  EXPECT_THAT(map_from_bytes(bytes, poses, other.extraction).error(),
               HasSubstr("features of 4 levels with factor 1.2, expected 8"));
   const auto some = std::span(poses).first(poses.size() - 1);
-  EXPECT_THAT(map_from_bytes(bytes, some, small_config().map, small_config().extraction).error(),
+  EXPECT_THAT(map_from_bytes(bytes, some, small_config().extraction).error(),
               HasSubstr("keyframe"));
 }
 

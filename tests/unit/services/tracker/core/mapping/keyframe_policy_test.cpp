@@ -30,14 +30,14 @@ TEST(KeyframePolicy, LeavesACalmSceneAlone) {
 TEST(KeyframePolicy, LooksAgainNowAndThenInACalmScene) {
   KeyframeFacts facts = calm();
   facts.since_last_s = 1;
-  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
+  EXPECT_EQ(need(facts), KeyframeNeed::kDetector);
 }
 
 TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   KeyframeFacts facts = calm();
   facts.movable_or_changed = true;
   facts.since_last_s = 0.1;
-  EXPECT_EQ(need(facts), KeyframeNeed::kLook);
+  EXPECT_EQ(need(facts), KeyframeNeed::kDetector);
   facts.since_last_s = 0.07;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);
 }
@@ -90,10 +90,9 @@ TEST(KeyframePolicy, WaitsTheShortestInterval) {
 }
 
 TEST(ViewChange, CountsTurnsAndStepsByHowFarTheSceneIs) {
-  const KeyframeConfig config;
-  EXPECT_NEAR(view_change(test::pose(0, 0, 0, config.max_rotation_rad), 2, config), 1, 1e-9);
-  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 2, config), 1, 1e-9);
-  EXPECT_NEAR(view_change(test::pose(0, config.max_translation_m, 0), 4, config), 0.5, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, 0, 0, kMaxRotationRad), 2), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, kMaxTranslationM, 0), 2), 1, 1e-9);
+  EXPECT_NEAR(view_change(test::pose(0, kMaxTranslationM, 0), 4), 0.5, 1e-9);
 }
 
 TEST(FoundShare, TellsADropFromItsRunningMean) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/tracker/core/map/covisibility.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
 #include "services/tracker/core/motion/se3.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
@@ -33,14 +34,14 @@ class Arc {
           map.observe(p, id, f);
         }
       }
-      map.update_covisibility(id);
+      update_covisibility(map, id);
     }
   }
 
   static Pose truth(int k) { return test::pose(0.08 * k, 0.01 * k, 0, -0.03 * k); }
 
   LocalMappingJob job() const {
-    LocalMappingJob made = make_mapping_job(map, kKeyframes - 1, LocalMappingConfig{});
+    LocalMappingJob made = make_mapping_job(map, kKeyframes - 1);
     made.pyramid = ScalePyramid(8, 1.2);
     return made;
   }
@@ -66,7 +67,7 @@ class Arc {
   std::mt19937 random{6};
   std::vector<Eigen::Vector3d> points = test::random_points(500, random);
   std::vector<PointId> ids = std::vector<PointId>(500, kNoId);
-  SlamMap map{MapConfig{}, ScalePyramid(8, 1.2)};
+  SlamMap map{ScalePyramid(8, 1.2)};
 };
 
 class LocalMapping : public ::testing::Test, protected Arc {
@@ -78,12 +79,11 @@ class LocalMapping : public ::testing::Test, protected Arc {
 /// it in depth. Where that is says an adjustment that starts at the truth and runs until nothing moves.
 TEST_F(LocalMapping, BundleAdjustmentReachesTheOptimum) {
   Arc optimum(0);
-  LocalMappingConfig until_convergence;
-  until_convergence.iterations = 100;
-  apply_mapping_result(optimum.map, run_local_mapping(optimum.job(), until_convergence));
+  constexpr int kUntilConvergence = 100;
+  apply_mapping_result(optimum.map, run_local_mapping(optimum.job(), kUntilConvergence));
   const double poses_before = pose_error();
   const double points_before = point_error();
-  apply_mapping_result(map, run_local_mapping(job(), LocalMappingConfig{}));
+  apply_mapping_result(map, run_local_mapping(job()));
   EXPECT_NEAR(pose_error(), optimum.pose_error(), 0.03 * optimum.pose_error());
   EXPECT_NEAR(point_error(), optimum.point_error(), 0.005 * optimum.point_error());
   EXPECT_LT(pose_error(), 0.12 * poses_before);
@@ -91,7 +91,7 @@ TEST_F(LocalMapping, BundleAdjustmentReachesTheOptimum) {
 }
 
 TEST_F(LocalMapping, HoldsTheFirstKeyframe) {
-  apply_mapping_result(map, run_local_mapping(job(), LocalMappingConfig{}));
+  apply_mapping_result(map, run_local_mapping(job()));
   EXPECT_TRUE(map.pose_of(0).isApprox(truth(0)));
 }
 
@@ -102,14 +102,14 @@ TEST_F(LocalMapping, RemovesAnObservationThatDisagrees) {
     for (Observation& o : map.point(k.points[f])->observations)
       if (o.keyframe == 2) o.feature = f;
   const PointId wrong = k.points[0];
-  const auto result = run_local_mapping(job(), LocalMappingConfig{});
+  const auto result = run_local_mapping(job());
   EXPECT_TRUE(std::ranges::any_of(result.removed,
                                   [&](const auto& r) { return r.point == wrong && r.keyframe == 2; }));
 }
 
 TEST_F(LocalMapping, GivesTheSameResultTwice) {
-  const auto a = run_local_mapping(job(), LocalMappingConfig{});
-  const auto b = run_local_mapping(job(), LocalMappingConfig{});
+  const auto a = run_local_mapping(job());
+  const auto b = run_local_mapping(job());
   ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
   for (std::size_t i = 0; i < a.keyframes.size(); ++i)
     EXPECT_EQ(a.keyframes[i].map_from_camera.matrix(), b.keyframes[i].map_from_camera.matrix());
@@ -118,7 +118,7 @@ TEST_F(LocalMapping, GivesTheSameResultTwice) {
 }
 
 TEST_F(LocalMapping, AppliesToAMapThatHasChangedMeanwhile) {
-  const auto result = run_local_mapping(job(), LocalMappingConfig{});
+  const auto result = run_local_mapping(job());
   map.cull_keyframe(3);
   map.erase_point(ids[10]);
   const auto view = test::view_of(points, truth(kKeyframes), 0, random);
@@ -132,7 +132,7 @@ TEST_F(LocalMapping, AppliesToAMapThatHasChangedMeanwhile) {
 }
 
 TEST(LocalMappingJobTest, AnEmptyJobGivesAnEmptyResult) {
-  const auto result = run_local_mapping(LocalMappingJob{}, LocalMappingConfig{});
+  const auto result = run_local_mapping(LocalMappingJob{});
   EXPECT_TRUE(result.keyframes.empty());
   EXPECT_TRUE(result.points.empty());
 }

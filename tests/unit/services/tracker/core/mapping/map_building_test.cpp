@@ -23,7 +23,7 @@ class MapBuilding : public ::testing::Test {
   Keyframe& add(const Pose& map_from_camera) {
     TrackedFrame frame = frame_at(map_from_camera);
     for (std::size_t f = 0; f < view.point.size(); ++f) frame.points[f] = known[view.point[f]];
-    Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{}, MapConfig{});
+    Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{});
     for (std::size_t f = 0; f < view.point.size(); ++f) known[view.point[f]] = keyframe.points[f];
     return keyframe;
   }
@@ -32,12 +32,12 @@ class MapBuilding : public ::testing::Test {
   std::vector<Eigen::Vector3d> points = test::random_points(600, random);
   std::vector<PointId> known = std::vector<PointId>(600, kNoId);
   test::SyntheticView view;
-  SlamMap map{MapConfig{}, ScalePyramid(8, 1.2)};
+  SlamMap map{ScalePyramid(8, 1.2)};
 };
 
 TEST_F(MapBuilding, AKeyframeMakesPointsOfItsCloseDepth) {
   const Keyframe& keyframe = add(Pose::Identity());
-  EXPECT_EQ(map.points(), view.point.size());
+  EXPECT_EQ(map.points().size(), view.point.size());
   for (std::size_t f = 0; f < view.point.size(); ++f)
     EXPECT_TRUE((map.point(keyframe.points[f])->position - points[view.point[f]]).norm() < 1e-3);
 }
@@ -51,9 +51,9 @@ TEST_F(MapBuilding, PointsSeenOnceAreCulledTwoKeyframesOn) {
   for (int k = 1; k <= 2; ++k) {
     TrackedFrame frame = frame_at(test::pose(0.01 * k, 0, 0));
     frame.points[0] = seen_again;
-    insert_keyframe(map, frame, DepthConfig{}, MapConfig{});
+    insert_keyframe(map, frame, DepthConfig{});
   }
-  cull_recent_points(map, 2, MapConfig{}, recent);
+  cull_recent_points(map, 2, recent);
   EXPECT_NE(map.point(seen_again), nullptr);
   EXPECT_EQ(map.point(seen_once), nullptr);
   EXPECT_EQ(recent, std::vector<PointId>{seen_again});
@@ -61,7 +61,7 @@ TEST_F(MapBuilding, PointsSeenOnceAreCulledTwoKeyframesOn) {
 
 TEST_F(MapBuilding, RedundantKeyframesGoTheFirstAndTheNewestStay) {
   for (int k = 0; k < 9; ++k) add(test::pose(0.005 * k, 0, 0));
-  const auto culled = cull_redundant_keyframes(map, 8, DepthConfig{}, MapConfig{});
+  const auto culled = cull_redundant_keyframes(map, 8, DepthConfig{});
   EXPECT_FALSE(culled.empty());
   for (const KeyframeId kept : {0U, 6U, 7U, 8U}) EXPECT_NE(map.keyframe(kept), nullptr) << kept;
   for (const KeyframeId k : culled)
@@ -82,14 +82,14 @@ TEST_F(MapBuilding, LateBoxesTakeBackWhatTheKeyframeMadeInThem) {
   }
   ASSERT_FALSE(older.empty());
   ASSERT_FALSE(outside.empty());
-  retract_movable(map, second.id, movable, DepthConfig{}, MapConfig{});
+  retract_movable(map, second.id, movable, DepthConfig{});
   for (const PointId p : made) EXPECT_EQ(map.point(p), nullptr);
   for (const PointId p : older) {
     ASSERT_NE(map.point(p), nullptr);
     EXPECT_EQ(map.point(p)->observations.size(), 1U);
   }
   for (const PointId p : outside) EXPECT_NE(map.point(p), nullptr);
-  retract_movable(map, 99, movable, DepthConfig{}, MapConfig{});  // unknown: ignored
+  retract_movable(map, 99, movable, DepthConfig{});  // unknown: ignored
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class FramePose : public testing::Test {
   void add(std::int64_t stamp_ns, std::size_t count) {
     TrackedFrame frame = frame_of({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)});
     frame.stamp_ns = frame.time_ns = stamp_ns;
-    const Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{}, MapConfig{});
+    const Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{});
     for (std::size_t f = 0; f < view.point.size(); ++f) known[view.point[f]] = keyframe.points[f];
   }
 
@@ -44,7 +44,7 @@ class FramePose : public testing::Test {
     TrackedFrame frame = frame_of(seen);
     frame.movable_in_view = movable_in_view;
     const ObservationModel model(frame.features->camera(), DepthConfig{});
-    optimize_frame(map, model, pyramid, PoseOptimizationConfig{}, frame);
+    optimize_frame(map, model, pyramid, frame);
     return frame.camera_from_map.translation().norm();
   }
 
@@ -53,7 +53,7 @@ class FramePose : public testing::Test {
   std::vector<PointId> known = std::vector<PointId>(kPoints, kNoId);
   test::SyntheticView view;
   ScalePyramid pyramid{8, 1.2};
-  SlamMap map{MapConfig{}, pyramid};
+  SlamMap map{pyramid};
 };
 
 TEST_F(FramePose, WhileSomethingMovableIsInViewPointsKnownForLongDecide) {

@@ -43,12 +43,12 @@ class PointFollowing : public ::testing::Test {
     TrackedFrame frame;
     frame.features = std::make_shared<const FeatureSet>(wall.camera, std::move(features));
     frame.clear_matches();
-    insert_keyframe(map, frame, DepthConfig{}, MapConfig{}).images = seen;
-    map.all_points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
+    insert_keyframe(map, frame, DepthConfig{}).images = seen;
+    map.points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
   }
 
-  FollowedPoints follow(const MovableMask& movable = {}, const ParallelFor& parallel_for = serial_for) {
-    return search().find(movable, parallel_for);
+  FollowedPoints follow(const MovableMask& movable = {}, const Executor& executor = execute_serially) {
+    return search().find(movable, executor);
   }
 
   PointSearch search() {
@@ -57,7 +57,7 @@ class PointFollowing : public ::testing::Test {
             {picture, images, camera.inverse(), {}},
             ObservationModel(picture.camera, DepthConfig{}),
             pyramid,
-            config};
+            wanted};
   }
 
   double offset_px(const FollowedPoints& followed, std::size_t i) {
@@ -67,8 +67,8 @@ class PointFollowing : public ::testing::Test {
 
   ExtractionConfig extraction{.features = 400, .levels = 4};
   ScalePyramid pyramid{4, 1.2};
-  FollowingConfig config;
-  SlamMap map{MapConfig{}, pyramid};
+  int wanted = 400;
+  SlamMap map{pyramid};
   std::vector<PointId> all;
   Pose camera = test::pose(0.1, -0.05, 0.1, 0.05);
   image::RgbdFrame picture = test::picture_of_wall(camera, 1);
@@ -101,7 +101,7 @@ TEST_F(PointFollowing, FindsTheSameWithAHelper) {
   const auto with_helper = [&](std::size_t count, const auto& part) { helper.run(count, part); };
   const MovableMask movable = test::mask_of({50, 60, 80, 140});
   for (const int points : {0, 30, 130, 400}) {
-    config.points = points;
+    wanted = points;
     const FollowedPoints alone = follow(movable);
     expect_same(alone, follow(movable, with_helper));
     PointSearch ahead = search();
@@ -114,7 +114,7 @@ TEST_F(PointFollowing, FindsTheSameWithAHelper) {
 }
 
 TEST_F(PointFollowing, StopsAtTheBudgetAndSpreadsIt) {
-  config.points = 60;
+  wanted = 60;
   const FollowedPoints followed = follow();
   ASSERT_EQ(followed.points.size(), 60U);
   std::set<std::pair<int, int>> parts;

@@ -40,7 +40,7 @@ TEST(PoseOptimization, RecoversPoseWithThirtyPercentOutliers) {
   const Problem problem = make_problem(0.3, 0.5);
   const Pose start =
       se3_exp((Twist() << 0.03, 0.02, -0.03, 0.02, 0.02, -0.02).finished()) * problem.camera_from_map;
-  const auto result = optimize_pose(kModel, problem.observations, start, PoseOptimizationConfig{});
+  const auto result = optimize_pose(kModel, problem.observations, start);
   const Twist error = se3_log(result.camera_from_map * problem.camera_from_map.inverse());
   EXPECT_TRUE(error.head<3>().norm() < 0.003) << error.transpose();
   EXPECT_TRUE(error.tail<3>().norm() < 0.002) << error.transpose();
@@ -54,7 +54,7 @@ TEST(PoseOptimization, FollowsTheManyThatMoveOnlyIfTheyCountAsMuch) {
   for (std::size_t i = 0; i < 200; ++i) problem.observations[i].point_in_map -= Eigen::Vector3d(0.1, 0, 0);
   const auto error_m = [&] {
     const Pose found =
-        optimize_pose(kModel, problem.observations, problem.camera_from_map, PoseOptimizationConfig{})
+        optimize_pose(kModel, problem.observations, problem.camera_from_map)
             .camera_from_map;
     return (found * problem.camera_from_map.inverse()).translation().norm();
   };
@@ -64,7 +64,7 @@ TEST(PoseOptimization, FollowsTheManyThatMoveOnlyIfTheyCountAsMuch) {
 }
 
 TEST(PoseOptimization, LeavesThePoseWhereNothingCanBeSaid) {
-  const auto result = optimize_pose(kModel, {}, test::pose(1, 2, 3), PoseOptimizationConfig{});
+  const auto result = optimize_pose(kModel, {}, test::pose(1, 2, 3));
   EXPECT_EQ(result.inliers, 0);
   EXPECT_TRUE(result.camera_from_map.isApprox(test::pose(1, 2, 3)));
 }
@@ -72,7 +72,7 @@ TEST(PoseOptimization, LeavesThePoseWhereNothingCanBeSaid) {
 TEST(PoseOptimization, SurvivesPointsBehindTheCamera) {
   std::vector<PointObservation> observations(10);
   for (auto& o : observations) o.point_in_map = {0, 0, -2};
-  const auto result = optimize_pose(kModel, observations, Pose::Identity(), PoseOptimizationConfig{});
+  const auto result = optimize_pose(kModel, observations, Pose::Identity());
   EXPECT_EQ(result.inliers, 0);
   EXPECT_TRUE(geometry::is_finite(result.camera_from_map));
 }

@@ -30,7 +30,7 @@ class SparseImageAlignment : public ::testing::Test {
   }
 
   Pose align(const ImagePyramid& picture, const Pose& start = Pose::Identity()) const {
-    return align_sparsely(reference, points, picture, frame.camera, start, FollowingConfig{});
+    return align_sparsely(reference, points, picture, frame.camera, start);
   }
 
   static double error_px(const Pose& found, const Pose& truth) {

@@ -88,13 +88,12 @@ TEST(ImageProjection, SwapsWidthAndHeightWhenTheCameraRollsByAQuarter) {
 TEST(ImageProjection, RegionReachesOverTheThicknessAndTheMargins) {
   const auto person = scene::see_person({0, 0, 3}, Pose::Identity());
   ASSERT_TRUE(person);
-  const auto seen =
-      to_image(person->box, Pose::Identity(), scene::camera(), {.margin_px = 5, .margin_depth_m = 0.2});
+  const auto seen = to_image(person->box, Pose::Identity(), scene::camera());
   ASSERT_TRUE(seen);
-  EXPECT_NEAR(seen->region.box_px.x0, seen->box.x0 - 5, 1e-9);
-  EXPECT_NEAR(seen->region.box_px.y1, seen->box.y1 + 5, 1e-9);
-  EXPECT_NEAR(seen->region.min_depth_m, 3 - 0.3 - 0.2, 1e-6);
-  EXPECT_NEAR(seen->region.max_depth_m, 3 + 0.3 + 0.2, 1e-6);
+  EXPECT_NEAR(seen->region.box_px.x0, seen->box.x0 - kRegionMarginPx, 1e-9);
+  EXPECT_NEAR(seen->region.box_px.y1, seen->box.y1 + kRegionMarginPx, 1e-9);
+  EXPECT_NEAR(seen->region.min_depth_m, 3 - 0.3 - kRegionMarginM, 1e-6);
+  EXPECT_NEAR(seen->region.max_depth_m, 3 + 0.3 + kRegionMarginM, 1e-6);
 }
 
 TEST(ImageProjection, ReachWidensABoxByAShareWithinThePicture) {

@@ -6,7 +6,6 @@
 namespace rds::tracker::prediction {
 namespace {
 
-constexpr Kalman3dConfig kConfig;
 constexpr double kStep = 0.2;  // s
 
 /// A box in a plane 2 m before a camera that stands in the map's origin.
@@ -25,12 +24,12 @@ double right_of(const ObjectFilter& filter) {
 }
 
 void step(ObjectFilter& filter, const geometry::OrientedBox& box, const CutSides& cut = {}) {
-  filter.predict(kStep, kConfig);
-  filter.correct(box, cut, kConfig);
+  filter.predict(kStep);
+  filter.correct(box, cut);
 }
 
 TEST(ObjectFilter, LearnsTheVelocityOfABoxThatMovesAsAWhole) {
-  ObjectFilter filter(box_between(0, 0.6), {}, kConfig);
+  ObjectFilter filter(box_between(0, 0.6), {});
   for (int k = 1; k <= 10; ++k) step(filter, box_between(0.1 * k, 0.6 + 0.1 * k));
   EXPECT_NEAR(filter.velocity().x(), 0.5, 0.03);
   EXPECT_NEAR(filter.velocity().y(), 0, 1e-9);
@@ -38,7 +37,7 @@ TEST(ObjectFilter, LearnsTheVelocityOfABoxThatMovesAsAWhole) {
 }
 
 TEST(ObjectFilter, DoesNotTakeAnArmStretchedOutForMotion) {
-  ObjectFilter filter(box_between(0, 0.6), {}, kConfig);
+  ObjectFilter filter(box_between(0, 0.6), {});
   for (int k = 1; k <= 5; ++k) step(filter, box_between(0, 0.6));
   step(filter, box_between(0, 1.1));
   EXPECT_NEAR(filter.velocity().x(), 0, 1e-9);
@@ -47,7 +46,7 @@ TEST(ObjectFilter, DoesNotTakeAnArmStretchedOutForMotion) {
 }
 
 TEST(ObjectFilter, SomebodyWhoLeavesThePictureKeepsItsSizeAndVelocity) {
-  ObjectFilter filter(box_between(-0.4, 0.2), {}, kConfig);
+  ObjectFilter filter(box_between(-0.4, 0.2), {});
   for (int k = 1; k <= 10; ++k) {  // the picture ends at x = −1
     const double left = -0.4 - 0.1 * k;
     step(filter, box_between(std::max(-1., left), left + 0.6), {.left = left < -1});
@@ -58,8 +57,8 @@ TEST(ObjectFilter, SomebodyWhoLeavesThePictureKeepsItsSizeAndVelocity) {
 }
 
 TEST(ObjectFilter, SomebodyWhoEntersThePictureMovesWithTheSideThatIsSeen) {
-  ObjectFilter filter(box_between(-1, -0.95), {.left = true}, kConfig);
-  EXPECT_NEAR(filter.box().size.x(), kConfig.min_width_m, 1e-9) << "the rest is outside";
+  ObjectFilter filter(box_between(-1, -0.95), {.left = true});
+  EXPECT_NEAR(filter.box().size.x(), ObjectFilter::kMinWidthM, 1e-9) << "the rest is outside";
   for (int k = 1; k <= 8; ++k) {
     const double right = -0.95 + 0.1 * k;
     step(filter, box_between(std::max(-1., right - 0.6), right), {.left = right - 0.6 < -1});
@@ -69,18 +68,18 @@ TEST(ObjectFilter, SomebodyWhoEntersThePictureMovesWithTheSideThatIsSeen) {
 }
 
 TEST(ObjectFilter, IsMoreSurprisedByWhatIsFurtherAway) {
-  ObjectFilter filter(box_between(0, 0.6), {}, kConfig);
-  filter.predict(kStep, kConfig);
-  const double near = filter.surprise(box_between(0.1, 0.7), {}, kConfig);
-  const double far = filter.surprise(box_between(0.5, 1.1), {}, kConfig);
+  ObjectFilter filter(box_between(0, 0.6), {});
+  filter.predict(kStep);
+  const double near = filter.mahalanobis(box_between(0.1, 0.7), {});
+  const double far = filter.mahalanobis(box_between(0.5, 1.1), {});
   EXPECT_LT(near, far);
-  EXPECT_NEAR(filter.surprise(box_between(0, 0.6), {}, kConfig), 0, 1e-9);
+  EXPECT_NEAR(filter.mahalanobis(box_between(0, 0.6), {}), 0, 1e-9);
 }
 
 TEST(ObjectFilter, TrustsADepthLessThanAPlaceInThePicture) {
-  ObjectFilter filter(box_between(0, 0.6), {}, kConfig);
+  ObjectFilter filter(box_between(0, 0.6), {});
   EXPECT_GT(filter.center_sigma_in_box().z(), filter.center_sigma_in_box().x());
-  filter.predict(1, kConfig);
+  filter.predict(1);
   EXPECT_LT(filter.center_sigma_in_box().y(), filter.center_sigma_in_box().x()) << "nobody jumps";
 }
 

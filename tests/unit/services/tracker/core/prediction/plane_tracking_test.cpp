@@ -19,7 +19,7 @@ ObjectObservation box_at(const Eigen::Vector3d& center, const std::string& label
 }
 
 TEST(PlaneTracking, RecombinesEveryObjectFromItsThreePlanes) {
-  PlaneTracking tracking({});
+  PlaneTracking tracking;
   const std::vector<Eigen::Vector3d> velocity = {{0.6, 0, 0}, {0, 0.5, 0.3}, {-0.4, 0, -0.6}};
   const std::vector<Eigen::Vector3d> start = {{-2, 0, 3}, {0, -0.5, 5}, {2, 0.5, 8}};
   for (int k = 0; k <= 10; ++k) {
@@ -38,7 +38,7 @@ TEST(PlaneTracking, RecombinesEveryObjectFromItsThreePlanes) {
 }
 
 TEST(PlaneTracking, TellsObjectsApartThatOnePlaneCannot) {
-  PlaneTracking tracking({});
+  PlaneTracking tracking;
   for (int k = 0; k <= 5; ++k)  // one behind the other: one box in plane xOy
     tracking.update(nanoseconds(1 + 0.2 * k), std::vector{box_at({0, 0, 2}), box_at({0, 0, 5})}, nullptr);
   const auto objects = tracking.predict(nanoseconds(2.1));
@@ -47,7 +47,7 @@ TEST(PlaneTracking, TellsObjectsApartThatOnePlaneCannot) {
 }
 
 TEST(PlaneTracking, HandlesABoxThatIsTurnedAgainstTheMap) {
-  PlaneTracking tracking({});
+  PlaneTracking tracking;
   ObjectObservation turned = box_at({1, 2, 3});
   turned.box.map_from_box.linear() =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();

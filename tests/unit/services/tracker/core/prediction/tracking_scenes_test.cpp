@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "services/tracker/core/prediction/image_projection.hpp"
+#include "services/tracker/core/prediction/kalman_tracking.hpp"
 #include "services/tracker/core/prediction/object_predictor.hpp"
 #include "tests/unit/services/tracker/core/prediction/scene.hpp"
 
@@ -147,7 +148,7 @@ TEST(Kalman3dScenes, TheBoxOfAMissedObjectGrowsUpToItsLimit) {
     ASSERT_THAT(objects, SizeIs(1));
     EXPECT_GT(objects[0].box.size.x(), width);
     width = objects[0].box.size.x();
-    EXPECT_LE(width, 0.5 + 2 * Kalman3dConfig().max_growth_m + 1e-6);
+    EXPECT_LE(width, 0.5 + 2 * KalmanTracking::kMaxGrowthM + 1e-6);
   }
 }
 

@@ -35,14 +35,13 @@ TEST(Visibility, ExpectsNoneOfWhatIsMostlyOutsideThePictureOrBehindTheCamera) {
 }
 
 TEST(Visibility, DoubtsWhatFillsThePictureWithALowScoreOnly) {
-  const PredictionConfig config;
   ObjectObservation close = person_at(0, 0.42);
-  EXPECT_FALSE(is_doubtful(close, kView, config)) << "the network is sure";
+  EXPECT_FALSE(is_implausible(close, kView)) << "the network is sure";
   close.score = 0.5F;
-  EXPECT_TRUE(is_doubtful(close, kView, config));
+  EXPECT_TRUE(is_implausible(close, kView));
   ObjectObservation farther = person_at(0, 1);
   farther.score = 0.5F;
-  EXPECT_FALSE(is_doubtful(farther, kView, config));
+  EXPECT_FALSE(is_implausible(farther, kView));
 }
 
 }  // namespace

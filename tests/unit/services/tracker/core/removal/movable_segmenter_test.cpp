@@ -20,10 +20,10 @@ class MovableCutting : public testing::Test {
  protected:
   static MovableMask look(MovableSegmenter& cut, const image::RgbdFrame& picture,
                           const std::vector<MovableRegion>& regions) {
-    cut.look_at(picture);
-    cut.compare(Pose::Identity());
-    MovableMask mask = cut.cut(regions, {});
-    cut.remember(Pose::Identity(), true);
+    cut.set_picture(picture);
+    cut.detect_motion(Pose::Identity());
+    MovableMask mask = cut.segment(regions, {});
+    cut.set_pose(Pose::Identity(), true);
     return mask;
   }
   MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {
@@ -104,9 +104,9 @@ TEST_F(MovableCutting, CarriesWhatLostItsBoxForAWhile) {
 TEST_F(MovableCutting, APoseThatIsWrongShowsNoMotion) {
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   const Pose wrong = test::pose(0, 0, -0.8);
-  cut.look_at(room({}, 8 * kFrameNs));
-  cut.compare(wrong);
-  EXPECT_FALSE(cut.cut({}, {}).any());
+  cut.set_picture(room({}, 8 * kFrameNs));
+  cut.detect_motion(wrong);
+  EXPECT_FALSE(cut.segment({}, {}).any());
 }
 
 TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
@@ -118,8 +118,8 @@ TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
       if (test::shows(picture, x, y))
         stable.push_back(picture.depth.at(x, y) *
                          picture.camera.ray({static_cast<double>(x), static_cast<double>(y)}).cast<float>());
-  cut.look_at(picture);
-  const MovableMask mask = cut.cut(std::vector{region_of(shelf)}, stable);
+  cut.set_picture(picture);
+  const MovableMask mask = cut.segment(std::vector{region_of(shelf)}, stable);
   EXPECT_LT(compare(mask, picture).of_somebody, 0.1);
 }
 
@@ -129,10 +129,10 @@ TEST_F(MovableCutting, LateBoxesAreCutFromThePictureTheyBelongTo) {
   look(picture);
   const PictureCells cells = cut.latest();
   look(room({}, kFrameNs));
-  const auto marked = compare(cut.segment_late(cells, std::vector{region_of(somebody)}), picture);
+  const auto marked = compare(cut.segment_keyframe(cells, std::vector{region_of(somebody)}), picture);
   EXPECT_GT(marked.of_somebody, 0.95);
   EXPECT_LT(marked.of_the_rest, 0.05);
-  EXPECT_FALSE(cut.segment_late({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
+  EXPECT_FALSE(cut.segment_keyframe({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
       << "of another camera";
 }
 

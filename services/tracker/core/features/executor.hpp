@@ -8,17 +8,17 @@ namespace rds::tracker {
 
 /// Calls part(0) … part(count − 1), each once, in any order, also at the same time, and returns when all are
 /// done. Parts are independent of each other, so that results do not depend on who runs them where.
-using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& part)>;
+using Executor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& part)>;
 
-/// ParallelFor on the calling thread.
-inline void serial_for(std::size_t count, const std::function<void(std::size_t)>& part) {
+/// Executor on the calling thread.
+inline void execute_serially(std::size_t count, const std::function<void(std::size_t)>& part) {
   for (std::size_t i = 0; i < count; ++i) part(i);
 }
 
 /// Calls both, also at the same time.
-inline void run_both(const ParallelFor& parallel_for, const std::function<void()>& first,
+inline void run_both(const Executor& executor, const std::function<void()>& first,
                      const std::function<void()>& second) {
-  parallel_for(2, [&](std::size_t part) { part == 0 ? first() : second(); });
+  executor(2, [&](std::size_t part) { part == 0 ? first() : second(); });
 }
 
 }  // namespace rds::tracker

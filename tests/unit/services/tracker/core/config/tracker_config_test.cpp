@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/tracker_config.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 
 #include <gtest/gtest.h>
+
+#include "common/config/config_reader.hpp"
 
 namespace rds::tracker {
 namespace {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/surface_growth.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Geometry>
+
 namespace rds::tracker {
 namespace {
 
+constexpr double kNormalStepM = 0.08;  // between neighbours that a normal is made of
 const std::array<cv::Point, 4> kNeighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 bool is_within(const cv::Mat1f& depth_m, const GrowthLimits& limits, const cv::Point& cell) {
@@ -16,6 +19,19 @@ bool is_within(const cv::Mat1f& depth_m, const GrowthLimits& limits, const cv::P
 }
 
 }  // namespace
+
+Eigen::Vector3f SurfaceCells::normal(int column, int row) const {
+  const bool inside = column > 0 && row > 0 && column + 1 < depth_m.cols && row + 1 < depth_m.rows;
+  const float z = inside ? depth_m(row, column) : 0;
+  const auto joined = [&](float neighbour_m) {
+    return neighbour_m > 0 && one_surface(neighbour_m, z, kNormalStepM);
+  };
+  if (!inside || !joined(depth_m(row, column + 1)) || !joined(depth_m(row, column - 1)) ||
+      !joined(depth_m(row + 1, column)) || !joined(depth_m(row - 1, column)))
+    return Eigen::Vector3f::Zero();
+  return (point(column + 1, row) - point(column - 1, row))
+      .cross(point(column, row + 1) - point(column, row - 1));
+}
 
 void grow_surface(const cv::Mat1f& depth_m, const GrowthLimits& limits, std::vector<cv::Point> seeds,
                   cv::Mat1b& mask) {

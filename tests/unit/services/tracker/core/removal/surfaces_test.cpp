@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/surface_growth.hpp"
+#include "services/tracker/core/removal/surfaces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ cv::Mat1f step() {
   return depth;
 }
 
-TEST(SurfaceGrowth, StopsAtAStepInDepth) {
+TEST(Surfaces, StopsAtAStepInDepth) {
   cv::Mat1b mask(10, 20, std::uint8_t{0});
   mask(5, 5) = 255;
   grow_surface(step(), {{0, 0, 20, 10}, 0, 9, 0.05}, {{5, 5}}, mask);
@@ -21,13 +21,13 @@ TEST(SurfaceGrowth, StopsAtAStepInDepth) {
   EXPECT_EQ(mask(5, 10), 0);
 }
 
-TEST(SurfaceGrowth, StaysWithinItsLimits) {
+TEST(Surfaces, StaysWithinItsLimits) {
   cv::Mat1b mask(10, 20, std::uint8_t{0});
   grow_surface(step(), {{3, 3, 10, 4}, 0, 1.5F, 0.05}, {{5, 5}}, mask);
   EXPECT_EQ(cv::countNonZero(mask), 7 * 4);
 }
 
-TEST(SurfaceGrowth, FollowsASlope) {
+TEST(Surfaces, FollowsASlope) {
   cv::Mat1f depth(1, 40);
   for (int c = 0; c < 40; ++c) depth(0, c) = 1 + 0.04F * static_cast<float>(c);
   cv::Mat1b mask(1, 40, std::uint8_t{0});
@@ -35,7 +35,7 @@ TEST(SurfaceGrowth, FollowsASlope) {
   EXPECT_EQ(cv::countNonZero(mask), 40);
 }
 
-TEST(SurfaceGrowth, FindsSurfacesTheLargestFirst) {
+TEST(Surfaces, FindsSurfacesTheLargestFirst) {
   cv::Mat1f depth = step();
   depth(cv::Rect(15, 0, 5, 10)).setTo(0);
   const auto surfaces = surfaces_within(depth, {{0, 0, 20, 10}, 0, 9, 0.05});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/pose/depth_alignment.hpp"
+#include "services/tracker/core/pose/depth_aligner.hpp"
 
 #include <algorithm>
 
@@ -92,6 +92,31 @@ TEST_F(DepthAlignment, SaysNothingOfAnotherPlace) {
   walls_m = {0.4, 0.3, 1.0};
   EXPECT_FALSE(align_depth(before, look(moved, far_away), grid, Pose::Identity()));
   EXPECT_FALSE(align_depth(before, cv::Mat1f(grid.size(), 0.0F), grid, Pose::Identity()));
+}
+
+TEST_F(DepthAlignment, ThePictureBeforeIsThatOfTheLastPose) {
+  DepthAligner aligner;
+  const DepthView before{&grid, look(Pose::Identity(), far_away), {}};
+  const DepthView now{&grid, look(moved, far_away), {}};
+  EXPECT_FALSE(aligner.estimate(now, guess)) << "there is none yet";
+  aligner.set_previous(before, Pose::Identity());
+  expect_near(aligner.estimate(now, guess), 0.004, 0.003);
+  const Pose map_from_before = test::pose(3, 2, 1, 0.5);
+  aligner.set_previous(before, map_from_before);
+  const auto elsewhere = aligner.estimate(now, guess * map_from_before.inverse());
+  ASSERT_TRUE(elsewhere);
+  expect_near(*elsewhere * map_from_before, 0.004, 0.003);
+  aligner.forget();
+  EXPECT_FALSE(aligner.estimate(now, guess));
+}
+
+TEST_F(DepthAlignment, APictureOfAnotherCameraSaysNothing) {
+  DepthAligner aligner;
+  geometry::CameraModel other = test::small_camera();
+  other.fx *= 1.1;
+  const GridGeometry other_grid(other);
+  aligner.set_previous({&other_grid, cv::Mat1f(other_grid.size(), 2.0F), {}}, Pose::Identity());
+  EXPECT_FALSE(aligner.estimate({&grid, look(moved, far_away), {}}, guess));
 }
 
 }  // namespace

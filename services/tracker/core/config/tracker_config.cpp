@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/config/tracker_config.hpp"
+
+#include "common/config/config_reader.hpp"
+
+namespace rds::tracker {
+namespace {
+
+void read(config::ConfigReader& r, ExtractionConfig& c) {
+  r.value("features", c.features, 100, 10000);
+  r.value("levels", c.levels, 1, 12);
+  r.value("scale_factor", c.scale_factor, 1.05, 2.0);
+  r.value("fast_threshold", c.fast_threshold, 2, 100, "grey levels");
+  r.value("fast_threshold_low", c.fast_threshold_low, 2, 100, "grey levels");
+}
+
+void read(config::ConfigReader& r, DepthConfig& c) {
+  r.value("max_depth_m", c.max_depth_m, 0.5, 100.0, "m");
+  r.value("close_depth_m", c.close_depth_m, 0.3, 100.0, "m");
+  r.value("disparity_sigma_px", c.disparity_sigma_px, 0.05, 10.0, "px");
+}
+
+void read(config::ConfigReader& r, SelfCalibrationConfig& c) {
+  r.value("readout", c.readout);
+  r.value("readout_s", c.readout_s, -0.05, 0.05, "s");
+  r.value("focal_length", c.focal_length);
+}
+
+void read(config::ConfigReader& r, FollowingConfig& c) {
+  r.value("enabled", c.enabled);
+  r.value("points", c.points, 50, 5000);
+}
+
+void read(config::ConfigReader& r, RemovalConfig& c) {
+  r.choice("method", c.method, {"depth", "box", "off"});
+  r.value("motion", c.motion);
+}
+
+void read(config::ConfigReader& r, KeyframeConfig& c) {
+  r.value("movable_interval_s", c.movable_interval_s, 0.01, 60.0, "s");
+  r.value("static_interval_s", c.static_interval_s, 0.01, 3600.0, "s");
+}
+
+}  // namespace
+
+void read(config::ConfigReader& reader, TrackerConfig& config) {
+  read(reader.section("extraction"), config.extraction);
+  read(reader.section("depth"), config.depth);
+  read(reader.section("self_calibration"), config.self_calibration);
+  read(reader.section("following"), config.following);
+  read(reader.section("removal"), config.removal);
+  read(reader.section("keyframe"), config.keyframe);
+  reader.section("quality").value("young_map_s", config.young_map_s, 0.0, 1e6, "s");
+  reader.value("localize_only", config.localize_only);
+}
+
+}  // namespace rds::tracker

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "services/tracker/core/map/covisibility.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_stranger.py NAME: an ordinary ROS 2 node that publishes and hears /picture, until its standard input closes.
+"""ros_stranger.py NAME: an ordinary ROS 2 node that publishes and hears /picture, and hears a camera, until its standard input closes.
 
-Writes the frame_id of each picture it hears, one per line; its own are named "NAME NUMBER".
+Writes the frame_id of each picture it hears, one per line; its own are named "NAME NUMBER", a camera's "camera STAMP".
 """
 
 import itertools
@@ -9,6 +9,7 @@ import sys
 import threading
 
 import rclpy
+from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image
 
 
@@ -18,6 +19,7 @@ def main():
     node = rclpy.create_node(name)
     publisher = node.create_publisher(Image, "picture", 5)
     node.create_subscription(Image, "picture", lambda picture: print(picture.header.frame_id, flush=True), 5)
+    node.create_subscription(Image, "camera/color/image_raw", lambda picture: print("camera", picture.header.stamp.sec, flush=True), qos_profile_sensor_data)
     numbers = itertools.count()
 
     def publish():

@@ -102,6 +102,7 @@ inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
 inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{"rds/map/grid", {{kMapper, bus::kLatched}}, {}};
 
 // To readers on other machines, in place of the topics of keyframes (common/transfer).
+inline constexpr const char* kTransferPrefix = "rds/transfer/";
 inline constexpr Process kFarReaders = kDetector | kMapper | kLoopCloser;
 inline constexpr Topic<rds_msgs::msg::TransferOffer> kTransferOffers{
     "rds/transfer/offers", {{kTracker, bus::kLatched}}, {{kFarReaders, bus::kLatched}}};

@@ -26,7 +26,7 @@ class Answers : public ::testing::Test {
     return poses;
   }
   KeyframeAnswers answers(bool lockstep, double timeout_s = 30) {
-    return KeyframeAnswers(context, mailbox, {lockstep, timeout_s}, 0);
+    return KeyframeAnswers(context, mailbox, {.enabled = lockstep, .timeout_s = timeout_s}, 0);
   }
 
   std::unique_ptr<bus::Participant> participant = bus::Participant::create(

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hosts/hosts_check.hpp"
 
+#include <map>
+#include <string>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -26,6 +29,15 @@ fs::path results_of(const std::string& label) {
   return fs::path(RDS_HOSTS_DIR) / label;
 }
 
+/// Those of the first turn, in which pictures have their own stamps.
+void link_masks(const fs::path& from, const fs::path& to) {
+  std::map<double, fs::path> masks;
+  for (const auto& mask : fs::directory_iterator(from)) masks[std::stod(mask.path().stem())] = mask.path();
+  fs::create_directories(to);
+  for (const auto& [stamp_s, mask] : masks)
+    if (stamp_s <= masks.begin()->first + kTurnS) fs::create_symlink(mask, to / mask.filename());
+}
+
 RecordingPair recording_of(const Row& row, const fs::path& place) {
   const TestRecording people = recording_with_people();
   const RecordingPair whole{
@@ -33,6 +45,7 @@ RecordingPair recording_of(const Row& row, const fs::path& place) {
   if (!row.is_long) return whole;
   make_to_and_fro(whole.dataset, place / "recording", 0, kTurnS, kLongS);
   make_to_and_fro(whole.background, place / "background", 0, kTurnS, kLongS);
+  link_masks(whole.dataset / "masks", place / "recording" / "masks");
   return {place / "recording", place / "background"};
 }
 

@@ -26,12 +26,12 @@ struct HostFigures {
   double ate_final_m = 0;
   double recall = 0;  // of the map that C has saved
   double residue = 0;
-  std::size_t missing = 0;  // keyframes that the mapper lacks at the end
-  double link_bytes = 0;    // that A sent to its link while the camera ran, per keyframe
-  double reader_bytes = 0;  // of them to the reader that took most, per keyframe
-  double repeats = 0;       // chunks asked for again, per chunk that arrived
-
+  std::size_t missing = 0;          // keyframes that the mapper lacks at the end
+  double link_bytes = 0;            // that A sent to its link while the camera ran, per keyframe
+  double reader_bytes = 0;          // of them to the reader that took most, per keyframe
+  double repeats = 0;               // chunks asked for again, per chunk that arrived
   std::vector<std::string> faults;  // sentences: what services did not do
+
   [[nodiscard]] double share_answered() const {
     return keyframes == 0 ? 0 : static_cast<double>(answered) / static_cast<double>(keyframes);
   }

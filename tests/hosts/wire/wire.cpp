@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // wire A B DELAY_MS JITTER_MS LOSS SEED: carries frames between two interfaces, in both directions, as a link
 // of that delay and loss would. For kernels without netem.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>

@@ -162,7 +162,10 @@ tl::expected<MapScore, std::string> score_map(const MapScoreInput& input) {
   if (!keyframes) return tl::unexpected(keyframes.error());
   const auto map = map_in_truth(*tree, input, *truth, *keyframes);
   if (!map) return tl::unexpected(map.error());
-  const auto surfaces = static_surfaces(input, *truth, *keyframes, tree->resolution_m);
+  const auto seen =
+      input.seen_by.empty() ? keyframes : geometry::read_trajectory(input.seen_by / "keyframes.txt");
+  if (!seen) return tl::unexpected(seen.error());
+  const auto surfaces = static_surfaces(input, *truth, *seen, tree->resolution_m);
   if (!surfaces) return tl::unexpected(surfaces.error());
 
   MapScore score{tree->nodes, map->size(), tree->resolution_m, 0, 0, std::nullopt};

@@ -15,6 +15,7 @@ struct MapScoreInput {
   std::filesystem::path background;  // the same sequence without people
   std::filesystem::path out;         // map.ot, keyframes.txt
   int every = 5;                     // frames between two depth pictures that are looked at
+  std::filesystem::path seen_by = {};  // results whose keyframes tell what can be in the map; empty: out's
 };
 
 struct ResidueScore {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/hosts/hosts_check.hpp"
+
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/hosts/hosts_trial.hpp"
+#include "tests/support/disturbed_dataset.hpp"
+#include "tests/support/shared_data.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace rds::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMinLocalized = 0.9;  // of the frames, on one machine
+constexpr double kMaxGapS = 0.1;       // longer than one machine's
+constexpr double kMaxRepeats = 0.1;
+constexpr double kMaxReaderBytes = 0.2e6;  // a keyframe
+constexpr double kTurnS = 15;
+constexpr double kLongS = 46;
+const std::string kFiguresFile = "figures.json";
+
+fs::path results_of(const std::string& label) {
+  return fs::path(RDS_HOSTS_DIR) / label;
+}
+
+/// Those of the first turn, in which pictures have their own stamps.
+void link_masks(const fs::path& from, const fs::path& to) {
+  std::map<double, fs::path> masks;
+  for (const auto& mask : fs::directory_iterator(from)) masks[std::stod(mask.path().stem())] = mask.path();
+  fs::create_directories(to);
+  for (const auto& [stamp_s, mask] : masks)
+    if (stamp_s <= masks.begin()->first + kTurnS) fs::create_symlink(mask, to / mask.filename());
+}
+
+RecordingPair recording_of(const Row& row, const fs::path& place) {
+  const TestRecording people = recording_with_people();
+  const RecordingPair whole{
+      people.folder, people.rendered ? rendered_recording("room_empty") : shared() / "data/7scenes_kitchen"};
+  if (!row.is_long) return whole;
+  make_to_and_fro(whole.dataset, place / "recording", 0, kTurnS, kLongS);
+  make_to_and_fro(whole.background, place / "background", 0, kTurnS, kLongS);
+  link_masks(whole.dataset / "masks", place / "recording" / "masks");
+  return {place / "recording", place / "background"};
+}
+
+HostFigures run_row(const Row& row) {
+  const fs::path out = results_of(row.label());
+  fs::remove_all(out);
+  fs::create_directories(out);
+  const TemporaryFolder place;
+  const RecordingPair recording = recording_of(row, place.path());
+  HostFigures figures = HostsTrial(row, recording.dataset, out).run();
+  add_scores(recording, out, results_of(on_one_machine(row).label()), figures);
+  write_text(out / kFiguresFile, nlohmann::json(figures).dump(2));
+  return figures;
+}
+
+/// Those of this sitting's run on one machine, made now if there is none.
+HostFigures figures_on_one_machine(const Row& row) {
+  const Row baseline = on_one_machine(row);
+  const fs::path file = results_of(baseline.label()) / kFiguresFile;
+  return fs::exists(file) ? nlohmann::json::parse(read_text(file)).get<HostFigures>() : run_row(baseline);
+}
+
+}  // namespace
+
+void expect_baseline(const Row& row) {
+  if (const auto reason = HostNetwork::why_not(); !reason.empty()) GTEST_SKIP() << reason;
+  const HostFigures figures = run_row(row);
+  fmt::print("{}\n", to_line(row.label(), figures, figures));
+  EXPECT_THAT(figures.faults, testing::IsEmpty());
+  EXPECT_GE(static_cast<double>(figures.localized), kMinLocalized * static_cast<double>(figures.frames));
+}
+
+void expect_row(const Row& row) {
+  if (const auto reason = HostNetwork::why_not(); !reason.empty()) GTEST_SKIP() << reason;
+  const HostFigures one_machine = figures_on_one_machine(row);
+  const HostFigures figures = run_row(row);
+  fmt::print("{}\n", to_line(row.label(), figures, one_machine));
+  EXPECT_THAT(figures.faults, testing::IsEmpty());
+  EXPECT_GE(figures.share_answered(), row.bounds.answered);
+  EXPECT_LE(figures.p95_ms, row.bounds.p95_ms);
+  EXPECT_LE(figures.longest_gap_s, one_machine.longest_gap_s + kMaxGapS);
+  EXPECT_GE(figures.recall, one_machine.recall - row.bounds.map_share);
+  EXPECT_LE(figures.residue, one_machine.residue + row.bounds.map_share);
+  if (row.absence) {
+    EXPECT_EQ(figures.missing, 0U);
+  }
+  EXPECT_LE(figures.repeats, kMaxRepeats);
+  EXPECT_LE(figures.reader_bytes, kMaxReaderBytes);
+}
+
+}  // namespace rds::test

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "common/bus/participant.hpp"
+#include "tests/hosts/host_network.hpp"
+
+namespace rds::test {
+
+/// A host that is not there for a while [s after the first picture].
+struct Absence {
+  enum class Kind {
+    kUnplugged,  // its link is pulled out, and plugged in again
+    kReplaced,   // its services are killed, and start at once with an empty disk
+  };
+  std::string host = {};
+  Kind kind = Kind::kUnplugged;
+  double from_s = 5;
+  double for_s = 10;
+};
+
+/// What a row has to show.
+struct Bounds {
+  double answered = 0.98;   // share of the keyframes whose boxes arrive
+  double p95_ms = 150;      // … within, for 95 of 100
+  double map_share = 0.02;  // recall less, residue more than on one machine, at most
+};
+
+/// One row: five services on three hosts, A (camera, tracker, recorder), B (detector, transformer) and
+/// C (mapper, loop closer), or all on A.
+struct Row {
+  std::string name = {};
+  bus::Vendor vendor = bus::Vendor::kFastDds;
+  bool on_one_machine = false;
+  Link link = {};  // of A
+  std::optional<Absence> absence = {};
+  Bounds bounds = {};
+  /// To and fro for 45 s, so that there are 30 s after an absence; or the recording as it is.
+  bool is_long = false;
+
+  /// Name and vendor, for GoogleTest.
+  [[nodiscard]] std::string label() const { return name + "_" + bus::name_of(vendor); }
+};
+
+/// The row on one machine that this one is compared with.
+Row on_one_machine(const Row& row);
+
+void PrintTo(const Row& row, std::ostream* out);
+
+/// Each vendor and length on one machine.
+std::vector<Row> one_machine_rows();
+/// Clean, 40 Mbit/s, 1 % of loss, C away for 10 s.
+std::vector<Row> short_rows();
+/// All.
+std::vector<Row> all_rows();
+
+}  // namespace rds::test

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/hosts/hosts_trial.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/topics/topics.hpp"
+#include "tests/integration/run_support.hpp"
+#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/run/results/run_files.hpp"
+#include "tools/rds/run/services/service_commands.hpp"
+
+namespace rds::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr auto kConnectLimit = 40s;
+constexpr auto kStatusLimit = 500ms;
+constexpr auto kLastStatusLimit = 3s;
+constexpr auto kAcknowledgeLimit = 10s;
+constexpr auto kFinishLimit = 120s;
+constexpr auto kStopLimit = 8s;
+constexpr double kLongS = 45;
+const std::string kMapName = "map";
+const std::string kA = "A";
+
+/// Which service runs on which host when they are on three.
+const std::map<std::string, std::string>& placement() {
+  static const std::map<std::string, std::string> kPlacement{{run::kTracker, "A"},
+                                                             {run::kDetector, "B"},
+                                                             {run::kTransformer, "B"},
+                                                             {run::kMapper, "C"},
+                                                             {run::kLoopCloser, "C"}};
+  return kPlacement;
+}
+
+std::vector<run::Endpoint> endpoints_of(const std::string& status) {
+  const auto json = nlohmann::json::parse(status, nullptr, false);
+  std::vector<run::Endpoint> endpoints;
+  if (json.is_object() && json.contains("endpoints"))
+    for (const auto& e : json["endpoints"])
+      endpoints.push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
+  return endpoints;
+}
+
+std::vector<run::Endpoint> endpoints_of(const bus::Participant& bus) {
+  std::vector<run::Endpoint> endpoints;
+  for (const auto& e : bus.statistics()) endpoints.push_back({e.topic, e.publisher, e.matched});
+  return endpoints;
+}
+
+/// Topics that nobody reads, or whose readers take a transfer instead when they are on another machine.
+bool may_be_missing(const std::string& link, bool on_one_machine) {
+  const auto is_of = [&](const std::string& topic) {
+    return link.find(" " + topic + ":") != std::string::npos;
+  };
+  return is_of(topics::kFeatures.name) ||
+         (!on_one_machine && (is_of(topics::kKeyframeImages.name) || is_of(topics::kKeyframeFeatures.name)));
+}
+
+/// A number of a command's answer; 0 if there is none.
+std::uint64_t number_in(const std::string& answer, const char* key) {
+  const auto json = nlohmann::json::parse(answer, nullptr, false);
+  return json.is_object() ? json.value(key, std::uint64_t{0}) : 0;
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace
+
+HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
+    : row_(row),
+      out_(std::move(out)),
+      dataset_(image::TumDataset::open(recording).value()),
+      network_(row.on_one_machine ? std::vector{kA} : std::vector<std::string>{"A", "B", "C"}, row.link),
+      here_(network_, kA),
+      bus_(bus::Participant::create(
+          {.vendor = row.vendor, .domain = domain_.domain(), .node_name = "hosts_trial"})),
+      recorder_(*bus_),
+      commander_(*bus_),
+      arrivals_(*bus_),
+      camera_(*bus_, dataset_, {}),
+      fleet_(commands()) {}
+
+/// On each host as `rds run` would start them there.
+std::vector<run::ServiceCommand> HostsTrial::commands() const {
+  std::vector<run::ServiceCommand> all;
+  for (const std::string host : {"A", "B", "C"}) {
+    run::RunOptions options;
+    options.default_vendor = row_.vendor;
+    options.network = true;
+    for (auto& command : run::service_commands(options, domain_.domain(), folder_of(host))) {
+      if (placement().at(command.name) != host) continue;
+      command.command.front() = RDS_BIN_DIR "/" + command.name;
+      if (!row_.on_one_machine) command.command = network_.on(host, command.command);
+      all.push_back(std::move(command));
+    }
+  }
+  return all;
+}
+
+HostFigures HostsTrial::run() {
+  wait_until_connected();
+  const std::uint64_t sent_before = bytes_sent();
+  play();
+  const auto sent = static_cast<double>(bytes_sent() - sent_before);
+  drain();
+  figures_.keyframes = arrivals_.keyframes();
+  const auto times_ms = arrivals_.answer_times_ms();
+  figures_.answered = times_ms.size();
+  figures_.p50_ms = quantile(times_ms, 0.5);
+  figures_.p95_ms = quantile(times_ms, 0.95);
+  figures_.link_bytes = sent / static_cast<double>(std::max<std::size_t>(1, figures_.keyframes));
+  note_statuses();
+  fleet_.stop(kStopLimit);
+  const run::Recording recording = recorder_.recording();
+  figures_.localized = static_cast<std::size_t>(
+      std::ranges::count_if(recording.frames, [](const auto& frame) { return frame.second.has_pose; }));
+  run::write_run_files(recording, out_);
+  return figures_;
+}
+
+void HostsTrial::wait_until_connected() {
+  const auto deadline = Clock::now() + kConnectLimit;
+  std::set<std::string> running = fleet_.names();
+  running.insert(run::kPlayer);
+  std::vector<std::string> missing{"nobody answers"};
+  while (Clock::now() < deadline) {
+    fleet_.watch();
+    std::map<std::string, std::vector<run::Endpoint>> endpoints{{run::kPlayer, endpoints_of(*bus_)}};
+    for (const auto& [name, text] : commander_.ask_status(placement().size(), {}, kStatusLimit))
+      endpoints[name] = endpoints_of(text);
+    missing = run::missing_links(running, endpoints, false);
+    std::erase_if(missing, [&](const auto& link) { return may_be_missing(link, row_.on_one_machine); });
+    if (missing.empty()) return;
+  }
+  throw std::runtime_error(fmt::format("the services did not come together: {}", fmt::join(missing, "; ")));
+}
+
+void HostsTrial::play() {
+  const std::int64_t first_ns = dataset_.frames().front().stamp_ns;
+  const auto report = camera_.run({}, [&](const image::RgbdFrame& frame, std::size_t) {
+    const double at_s = static_cast<double>(frame.stamp_ns - first_ns) * 1e-9;
+    last_stamp_ns_ = frame.stamp_ns;
+    be_absent(at_s);
+    fleet_.watch();
+    return !row_.is_long || at_s < kLongS;
+  });
+  figures_.frames = report.played;
+  figures_.longest_gap_s = arrivals_.longest_gap_s();
+}
+
+void HostsTrial::be_absent(double at_s) {
+  if (!row_.absence) return;
+  const Absence& absence = *row_.absence;
+  if (phase_ == Phase::kBefore && at_s >= absence.from_s) {
+    phase_ = Phase::kDuring;
+    if (absence.kind == Absence::Kind::kUnplugged) return network_.unplug(absence.host);
+    return replace(absence.host);
+  }
+  if (phase_ != Phase::kDuring || at_s < absence.from_s + absence.for_s) return;
+  phase_ = Phase::kAfter;
+  if (absence.kind == Absence::Kind::kUnplugged) network_.plug(absence.host);
+}
+
+/// Whoever looks after the services starts them again.
+void HostsTrial::replace(const std::string& host) {
+  for (const auto& [service, its_host] : placement())
+    if (its_host == host)
+      for (const pid_t pid : children(getpid(), service)) kill(pid, SIGKILL);
+  fs::remove_all(folder_of(host) / run::kMapsFolder);
+}
+
+/// As `rds run` ends a run.
+void HostsTrial::drain() {
+  recorder_.wait_acknowledged(last_stamp_ns_, {}, kAcknowledgeLimit);
+  const std::string poses = ask(run::kTracker, "finish", "");
+  recorder_.wait_poses(number_in(poses, "poses_revision"), {}, kAcknowledgeLimit);
+  const std::uint64_t mapped = number_in(ask(run::kMapper, "finish", poses), "keyframes");
+  const std::uint64_t made = number_in(poses, "keyframes");
+  figures_.missing = made > mapped ? made - mapped : 0;
+  save_map();
+}
+
+/// The mapper's part: it lies on the mapper's machine.
+void HostsTrial::save_map() {
+  ask(run::kMapper, "save", kMapName);
+  const fs::path saved = folder_of(placement().at(run::kMapper)) / run::kMapsFolder / kMapName / "map.ot";
+  if (!fs::exists(saved)) return figures_.faults.push_back("the map was not saved");
+  fs::copy_file(saved, out_ / "map.ot");
+}
+
+std::string HostsTrial::ask(const std::string& service, const std::string& verb,
+                            const std::string& argument) {
+  fleet_.watch();
+  const auto reply = commander_.ask(service, verb, argument, {}, kFinishLimit);
+  if (!reply || !reply->success)
+    figures_.faults.push_back(fmt::format("{} {}: {}", service, verb, reply ? reply->message : "no answer"));
+  return reply ? reply->message : "";
+}
+
+void HostsTrial::note_statuses() {
+  const auto statuses = commander_.ask_status(placement().size(), {}, kLastStatusLimit);
+  for (const auto& [service, text] : statuses) write_text(out_ / (service + ".json"), text);
+  add_transfer(statuses, figures_);
+}
+
+}  // namespace rds::test

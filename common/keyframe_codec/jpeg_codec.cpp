@@ -23,6 +23,21 @@ JpegHandle checked(tjhandle handle) {
   return JpegHandle(handle);
 }
 
+/// What is wrong with the header, a fixed sentence, empty if nothing.
+std::string fault_of_header(std::span<const std::uint8_t> data, cv::Size size) {
+  if (!has_one_sequential_scan(data)) return kOtherKind;
+  const JpegHandle handle = checked(tjInitDecompress());
+  int width = 0;
+  int height = 0;
+  int subsampling = 0;
+  int colorspace = 0;
+  if (tjDecompressHeader3(handle.get(), data.data(), data.size(), &width, &height, &subsampling,
+                          &colorspace) != 0)
+    return kOtherKind;
+  if (cv::Size(width, height) != size) return "the JPEG is of another size than declared";
+  return {};
+}
+
 }  // namespace
 
 void FreeJpegHandle::operator()(void* handle) const {
@@ -45,25 +60,13 @@ std::vector<std::uint8_t> JpegCompressor::compress(const image::ColorImage& pict
   return {out, out + size};
 }
 
-std::string jpeg_fault(std::span<const std::uint8_t> data, cv::Size size) {
-  if (!has_one_sequential_scan(data)) return kOtherKind;
-  const JpegHandle handle = checked(tjInitDecompress());
-  int width = 0;
-  int height = 0;
-  int subsampling = 0;
-  int colorspace = 0;
-  if (tjDecompressHeader3(handle.get(), data.data(), data.size(), &width, &height, &subsampling,
-                          &colorspace) != 0)
-    return kOtherKind;
-  if (cv::Size(width, height) != size) return "the JPEG is of another size than declared";
-  return {};
-}
-
 tl::expected<std::vector<std::uint8_t>, std::string> decompress_jpeg(std::span<const std::uint8_t> data,
                                                                      cv::Size size,
                                                                      image::ChannelOrder order) {
-  if (std::string fault = jpeg_fault(data, size); !fault.empty()) return tl::unexpected(std::move(fault));
-  // A handle keeps the tables of earlier pictures, and after an error more than that; a new one takes less than 1 us.
+  if (std::string fault = fault_of_header(data, size); !fault.empty())
+    return tl::unexpected(std::move(fault));
+  // A handle keeps the tables of earlier pictures, and after an error more than that; a new one takes less
+  // than 1 us.
   const JpegHandle handle = checked(tjInitDecompress());
   const int row_bytes = 3 * size.width;
   std::vector<std::uint8_t> rows(static_cast<std::size_t>(row_bytes) * static_cast<std::size_t>(size.height));

@@ -34,15 +34,11 @@ class JpegCompressor {
   std::vector<std::uint8_t> buffer_;
 };
 
-/// What is wrong with JPEG data of anyone, a fixed sentence, empty if nothing: sequential, 8 bits, three
-/// components in one scan, and of this size. Looks at the header only.
-std::string jpeg_fault(std::span<const std::uint8_t> data, cv::Size size);
-
-/// Decodes such data.
+/// Decodes JPEG data of anyone: sequential, 8 bits, three components in one scan, and of this size.
 ///
 /// @param size  of the picture, as whoever sent the bytes declares it.
-/// @return rows without padding of three bytes a pixel, or a fixed sentence: jpeg_fault(), or libjpeg-turbo
-/// warns (torn, no such code). No picture is allocated before the header says the same size.
+/// @return rows without padding of three bytes a pixel, or a fixed sentence: another kind or size, or
+/// libjpeg-turbo warns (torn, no such code). No picture is allocated before the header says the same size.
 tl::expected<std::vector<std::uint8_t>, std::string> decompress_jpeg(std::span<const std::uint8_t> data,
                                                                      cv::Size size,
                                                                      image::ChannelOrder order);

@@ -18,6 +18,7 @@ template <class T>
 using Expected = tl::expected<T, std::string>;
 using Bytes = std::vector<std::uint8_t>;
 
+constexpr int kJpegQuality = 85;  // docs/decisions/keyframe-codec.md
 constexpr const char* kJpeg = "jpeg";
 constexpr const char* kPlanes = "planes_zstd";
 constexpr const char* kRanks = "ranks_zstd";
@@ -87,14 +88,10 @@ cv::Size size_of(const CompressedPicture& picture) {
   return {static_cast<int>(picture.width()), static_cast<int>(picture.height())};
 }
 
-Expected<CompressedPicture> compress_color(const Image& picture, std::span<const std::uint8_t> camera_jpeg,
-                                           JpegCompressor& jpeg) {
+Expected<CompressedPicture> compress_color(const Image& picture, JpegCompressor& jpeg) {
   const auto color = messages::to_color_image(borrowed(picture));
   if (!color) return tl::unexpected(color.error());
-  if (camera_jpeg.empty()) return compressed_picture(picture, kJpeg, jpeg.compress(*color));
-  if (std::string fault = jpeg_fault(camera_jpeg, color->pixels.size()); !fault.empty())
-    return tl::unexpected(std::move(fault));
-  return compressed_picture(picture, kJpeg, {camera_jpeg.begin(), camera_jpeg.end()});
+  return compressed_picture(picture, kJpeg, jpeg.compress(*color));
 }
 
 Expected<CompressedPicture> compress_depth(const Image& picture, LosslessCompressor& lossless) {
@@ -152,12 +149,11 @@ tl::unexpected<std::string> fault_in(const char* picture, const std::string& fau
 
 }  // namespace
 
-KeyframeCompressor::KeyframeCompressor(const CodecConfig& config) : jpeg_(config.jpeg_quality) {}
+KeyframeCompressor::KeyframeCompressor() : jpeg_(kJpegQuality) {}
 
-tl::expected<KeyFrameCompressed, std::string> KeyframeCompressor::compress(
-    const KeyFrameImages& keyframe, std::span<const std::uint8_t> camera_jpeg) {
+tl::expected<KeyFrameCompressed, std::string> KeyframeCompressor::compress(const KeyFrameImages& keyframe) {
   auto color = check_size(keyframe.color().width(), keyframe.color().height()).and_then([&] {
-    return compress_color(keyframe.color(), camera_jpeg, jpeg_);
+    return compress_color(keyframe.color(), jpeg_);
   });
   if (!color) return fault_in("color", color.error());
   auto depth = check_size(keyframe.depth().width(), keyframe.depth().height()).and_then([&] {

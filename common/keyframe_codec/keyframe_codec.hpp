@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -16,24 +15,16 @@ namespace rds::keyframe_codec {
 
 constexpr std::uint32_t kLargestPicture_px = 16 * 1024 * 1024;
 
-struct CodecConfig {
-  int jpeg_quality = 85;  // 1 to 100, as libjpeg counts
-};
-
 /// Makes a keyframe small: colour as JPEG, depth and mask without loss. The same keyframe gives the same
 /// bytes, whatever was compressed before. Not thread-safe: one object per thread, which keeps its buffers.
 class KeyframeCompressor {
  public:
-  /// @throws std::invalid_argument for a quality outside its range.
-  explicit KeyframeCompressor(const CodecConfig& config = {});
+  KeyframeCompressor();
 
-  /// @param camera_jpeg  the colour picture as the camera's driver compressed it, passed on as it is; empty:
-  /// there is none, and keyframe.color() is compressed.
   /// @return or what is wrong with a picture, beginning with its name: encoding, size, step, data as in
-  /// common/messages/image_conversions.hpp, more than kLargestPicture_px, a camera_jpeg of another size or
-  /// kind.
+  /// common/messages/image_conversions.hpp, more than kLargestPicture_px.
   tl::expected<rds_msgs::msg::KeyFrameCompressed, std::string> compress(
-      const rds_msgs::msg::KeyFrameImages& keyframe, std::span<const std::uint8_t> camera_jpeg = {});
+      const rds_msgs::msg::KeyFrameImages& keyframe);
 
  private:
   JpegCompressor jpeg_;

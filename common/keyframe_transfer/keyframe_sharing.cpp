@@ -16,28 +16,26 @@ constexpr std::size_t kMemoryBytes = std::size_t{100} << 20U;
 
 }  // namespace
 
-KeyframeSharing::KeyframeSharing(service::ServiceContext& context)
+KeyframeSharing::KeyframeSharing(service::ServiceContext& context, std::uint64_t map_epoch)
     : compressor_(std::make_shared<keyframe_codec::KeyframeCompressor>()),
-      server_(context, topics::kTracker, kMemoryBytes) {}
+      server_(context, topics::kTracker, kMemoryBytes) {
+  begin(map_epoch);
+}
 
 void KeyframeSharing::share(rds_msgs::msg::KeyFrameImages&& images) {
-  const std::uint64_t epoch = images.map_epoch();
-  const transfer::ItemId id{Stream::kKeyframeImages, images.keyframe_id()};
-  if (!server_.has_readers()) return;
   const auto held = std::make_shared<const rds_msgs::msg::KeyFrameImages>(std::move(images));
-  server_.share(epoch, id, [held, compressor = compressor_] {
-    const auto compressed = compressor->compress(*held);
-    if (!compressed) throw std::runtime_error(compressed.error());
-    return bytes_of(*compressed);
-  });
+  server_.share(held->map_epoch(), Stream::kKeyframeImages, held->keyframe_id(),
+                [held, compressor = compressor_] {
+                  const auto compressed = compressor->compress(*held);
+                  if (!compressed) throw std::runtime_error(compressed.error());
+                  return bytes_of(*compressed);
+                });
 }
 
 void KeyframeSharing::share(rds_msgs::msg::KeyFrameFeatures&& features) {
-  const std::uint64_t epoch = features.map_epoch();
-  const transfer::ItemId id{Stream::kKeyframeFeatures, features.keyframe_id()};
-  if (!server_.has_readers()) return;
   const auto held = std::make_shared<const rds_msgs::msg::KeyFrameFeatures>(std::move(features));
-  server_.share(epoch, id, [held] { return bytes_of(*held); });
+  server_.share(held->map_epoch(), Stream::kKeyframeFeatures, held->keyframe_id(),
+                [held] { return bytes_of(*held); });
 }
 
 }  // namespace rds::keyframe_transfer

@@ -14,8 +14,10 @@ namespace rds::keyframe_transfer {
 /// of its own. Costs nothing before such a reader is there.
 class KeyframeSharing {
  public:
-  explicit KeyframeSharing(service::ServiceContext& context);
+  KeyframeSharing(service::ServiceContext& context, std::uint64_t map_epoch);
 
+  /// Another map: what was shared before is forgotten.
+  void begin(std::uint64_t map_epoch) { server_.begin(map_epoch); }
   void share(rds_msgs::msg::KeyFrameImages&& images);
   void share(rds_msgs::msg::KeyFrameFeatures&& features);
 

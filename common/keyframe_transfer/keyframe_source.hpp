@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "common/keyframe_codec/keyframe_codec.hpp"
 #include "common/transfer/bus/item_client.hpp"
@@ -32,8 +31,8 @@ class KeyframeSource {
   std::function<bus::Subscription(Callback)> subscribe_;
   Callback callback_;
   keyframe_codec::KeyframeDecompressor decompressor_;
-  std::unique_ptr<bus::Subscription> near_;  // of the client's thread
-  transfer::ItemClient far_;                 // last: its thread uses the others
+  bus::Subscription near_;    // of the client's thread
+  transfer::ItemClient far_;  // last: its thread uses the others
 };
 
 extern template class KeyframeSource<rds_msgs::msg::KeyFrameImages>;

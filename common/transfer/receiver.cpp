@@ -5,40 +5,28 @@
 
 namespace rds::transfer {
 
-void Receiver::have(const ItemId& item) {
-  if (auto& stream = streams_[index(item.stream)]) stream->wanted.remove(item.number);
-  begun_.erase(item);
-  forget_asked(item, 0);
-}
-
 void Receiver::offer(const Offer& offer) {
-  auto& stream = streams_[index(offer.stream)];
-  if (!stream) return;
-  stream->wanted.offer(offer);
-  std::vector<ItemId> over;
-  for (const auto& [item, begun] : begun_)
-    if (item.stream == offer.stream && item.number < offer.oldest) over.push_back(item);
-  for (const ItemId& item : over) have(item);
+  wanted_.offer(offer);
+  while (!begun_.empty() && begun_.begin()->first < offer.oldest) finish(begun_.begin()->first);
 }
 
 std::optional<Item> Receiver::take(const Chunk& chunk, Time now) {
-  arrive(chunk, now);
-  const auto begun = begun_.find(chunk.item);
+  arrive({chunk.number, chunk.index}, now);
+  const auto begun = begun_.find(chunk.number);
   if (begun == begun_.end()) {
     ++statistics_.repeated;
     return std::nullopt;
   }
   if (chunk.item_bytes == 0) {
     ++statistics_.absent;
-    have(chunk.item);
+    finish(chunk.number);
     return std::nullopt;
   }
   Assembly& assembly = begun->second.assembly;
   add(chunk, assembly);
   if (!assembly.complete()) return std::nullopt;
-  Item item{chunk.item, std::move(assembly.bytes())};
-  ++statistics_.items;
-  have(chunk.item);
+  Item item{chunk.number, std::move(assembly.bytes())};
+  finish(chunk.number);
   return item;
 }
 
@@ -48,13 +36,13 @@ std::vector<Request> Receiver::due(Time now) {
   while (in_flight_.size() < window_.chunks()) {
     const auto next = next_chunk();
     if (!next) break;
-    const auto& [item, chunk] = *next;
-    const bool again = begun_.at(item).assembly.ask(chunk);
+    const auto& [number, chunk] = *next;
+    const bool again = begun_.at(number).assembly.ask(chunk);
     order_of_[*next] = next_order_;
-    in_flight_.emplace(next_order_++, Asked{item, chunk, now, again});
-    const bool follows = !requests.empty() && requests.back().item == item &&
+    in_flight_.emplace(next_order_++, Asked{*next, now, again});
+    const bool follows = !requests.empty() && requests.back().number == number &&
                          requests.back().first + requests.back().count == chunk;
-    if (!follows) requests.push_back({item, chunk, 0});
+    if (!follows) requests.push_back({number, chunk, 0});
     ++requests.back().count;
   }
   return requests;
@@ -68,14 +56,9 @@ std::optional<Time> Receiver::next_due() const {
   return std::min(silent, oldest.at + window_.round_trip() + window_.reordering());
 }
 
-std::size_t Receiver::lacking(Stream stream) const {
-  const auto& state = streams_[index(stream)];
-  return state ? state->wanted.missing().size() : 0;
-}
-
 /// What was asked for is there, whatever becomes of it.
-void Receiver::arrive(const Chunk& chunk, Time now) {
-  const auto order = order_of_.find({chunk.item, chunk.index});
+void Receiver::arrive(const ChunkId& chunk, Time now) {
+  const auto order = order_of_.find(chunk);
   if (order == order_of_.end()) return;
   const auto asked = in_flight_.find(order->second);
   window_.arrived(now, now - asked->second.at, asked->second.again, in_flight_.size());
@@ -102,68 +85,60 @@ void Receiver::give_up_lost(Time now) {
 }
 
 void Receiver::lose(Orders::iterator asked) {
-  const Asked lost = asked->second;
-  const auto begun = begun_.find(lost.item);
-  if (begun != begun_.end()) begun->second.assembly.lost(lost.chunk);
+  const ChunkId lost = asked->second.chunk;
+  begun_.at(lost.first).assembly.lost(lost.second);
   ++statistics_.asked_again;
-  order_of_.erase({lost.item, lost.chunk});
+  order_of_.erase(lost);
   in_flight_.erase(asked);
 }
 
 void Receiver::add(const Chunk& chunk, Assembly& assembly) {
   const bool first = assembly.size() == 0;
   const Assembly::Verdict verdict = assembly.take(chunk);
-  if (first && assembly.size() > 0) forget_asked(chunk.item, chunks_in(assembly.size()));
+  if (first && assembly.size() > 0) forget_asked(chunk.number, chunks_in(assembly.size()));
   ++(verdict == Assembly::Verdict::kTaken      ? statistics_.chunks
      : verdict == Assembly::Verdict::kRepeated ? statistics_.repeated
                                                : statistics_.impossible);
 }
 
+/// The item is here, or cannot be had.
+void Receiver::finish(std::uint64_t number) {
+  wanted_.remove(number);
+  begun_.erase(number);
+  forget_asked(number, 0);
+}
+
 /// Of an item that is over, or of its end that does not exist.
-void Receiver::forget_asked(const ItemId& item, std::uint32_t first_chunk) {
-  auto it = order_of_.lower_bound({item, first_chunk});
-  while (it != order_of_.end() && it->first.first == item) {
+void Receiver::forget_asked(std::uint64_t number, std::uint32_t first_chunk) {
+  auto it = order_of_.lower_bound({number, first_chunk});
+  while (it != order_of_.end() && it->first.first == number) {
     in_flight_.erase(it->second);
     it = order_of_.erase(it);
   }
 }
 
 /// Of the item that was begun first and has a chunk to ask for; else an item is begun.
-std::optional<std::pair<ItemId, std::uint32_t>> Receiver::next_chunk() {
-  const Begun* earliest = nullptr;
-  ItemId item;
-  for (const auto& [id, begun] : begun_) {
-    if (!begun.assembly.next() || (earliest != nullptr && earliest->turn < begun.turn)) continue;
-    earliest = &begun;
-    item = id;
-  }
-  if (earliest == nullptr) {
-    const std::optional<ItemId> next = begun_.size() < kMostBegun ? next_item() : std::nullopt;
+std::optional<Receiver::ChunkId> Receiver::next_chunk() {
+  auto earliest = begun_.end();
+  for (auto it = begun_.begin(); it != begun_.end(); ++it)
+    if (it->second.assembly.next() && (earliest == begun_.end() || it->second.turn < earliest->second.turn))
+      earliest = it;
+  if (earliest == begun_.end()) {
+    const auto next = next_item();
     if (!next) return std::nullopt;
-    item = *next;
-    earliest = &begun_.emplace(item, Begun{++turn_, {}}).first->second;
-    streams_[index(item.stream)]->turn = turn_;
+    earliest = begun_.emplace(*next, Begun{++turn_, {}}).first;
   }
-  return std::pair(item, *earliest->assembly.next());
+  return ChunkId(earliest->first, *earliest->second.assembly.next());
 }
 
-/// The newest of a stream before what is older; of two streams the one whose turn is longer ago.
-std::optional<ItemId> Receiver::next_item() const {
-  std::optional<ItemId> best;
-  std::pair<bool, std::uint64_t> best_rank;
-  for (std::size_t i = 0; i < kStreams; ++i) {
-    if (!streams_[i]) continue;
-    const auto& missing = streams_[i]->wanted.missing();
-    const auto newest = std::find_if(missing.rbegin(), missing.rend(), [&](std::uint64_t number) {
-      return !begun_.contains({static_cast<Stream>(i), number});
-    });
-    if (newest == missing.rend()) continue;
-    const std::pair rank(!streams_[i]->wanted.is_newest(*newest), streams_[i]->turn);
-    if (best && best_rank <= rank) continue;
-    best = ItemId{static_cast<Stream>(i), *newest};
-    best_rank = rank;
-  }
-  return best;
+/// In the order of numbers one at a time, as a later one could be whole before.
+std::optional<std::uint64_t> Receiver::next_item() const {
+  const auto& missing = wanted_.missing();
+  if (missing.empty() || begun_.size() >= (order_ == Order::kNewest ? kMostBegun : 1)) return std::nullopt;
+  if (order_ == Order::kNumber) return *missing.begin();
+  const auto newest = std::find_if(missing.rbegin(), missing.rend(),
+                                   [&](std::uint64_t number) { return !begun_.contains(number); });
+  return newest == missing.rend() ? std::nullopt : std::optional(*newest);
 }
 
 }  // namespace rds::transfer

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/transfer/assembly.hpp"
@@ -15,12 +15,17 @@
 namespace rds::transfer {
 
 struct Item {
-  ItemId id;
+  std::uint64_t number = 0;
   std::vector<std::uint8_t> bytes;
 };
 
+/// Which of the items that a reader lacks comes first.
+enum class Order : std::uint8_t {
+  kNewest,  // what is fresh counts; older ones follow
+  kNumber   // each after all before it, for readers that take no other order
+};
+
 struct ReceiverStatistics {
-  std::uint64_t items = 0;        // whole ones
   std::uint64_t chunks = 0;       // of use
   std::uint64_t repeated = 0;     // came twice, or when nobody waited for them
   std::uint64_t asked_again = 0;  // chunks that were lost
@@ -28,17 +33,14 @@ struct ReceiverStatistics {
   std::uint64_t impossible = 0;   // chunks that cannot be right
 };
 
-/// Fetches the items of one writer: the newest of each stream in turn, then what is older. An item that has
-/// been begun is finished first, so a slow link still carries whole ones, as fresh as it can.
+/// Fetches the items of one writer's stream. An item that has been begun is finished first, so a slow link
+/// still carries whole ones, as fresh as it can.
 ///
 /// Has no clock and no thread: whoever owns it sends what due() returns and calls it again at next_due(), and
 /// after each offer or chunk.
 class Receiver {
  public:
-  /// Without a call of want() a stream is not asked for.
-  void want(Stream stream, bool only_newest) { streams_[index(stream)] = {Wanted(only_newest)}; }
-  /// The reader has this one already.
-  void have(const ItemId& item);
+  explicit Receiver(Order order) : order_(order) {}
 
   void offer(const Offer& offer);
   /// @return the item, if this chunk completes it
@@ -49,43 +51,39 @@ class Receiver {
   [[nodiscard]] std::optional<Time> next_due() const;
 
   /// Items that are offered and not here yet.
-  [[nodiscard]] std::size_t lacking(Stream stream) const;
+  [[nodiscard]] std::size_t lacking() const { return wanted_.missing().size(); }
   [[nodiscard]] const ReceiverStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const Window& window() const { return window_; }
 
  private:
   static constexpr std::size_t kMostBegun = 8;  // items at a time
 
+  using ChunkId = std::pair<std::uint64_t, std::uint32_t>;  // of an item's number
   struct Asked {
-    ItemId item;
-    std::uint32_t chunk = 0;
+    ChunkId chunk;
     Time at{};
     bool again = false;  // not for the first time
   };
-  using Orders = std::map<std::uint64_t, Asked>;  // by order of asking
-
-  static std::size_t index(Stream stream) { return static_cast<std::size_t>(stream); }
+  using Orders = std::map<std::uint64_t, Asked>;  // counted as they were asked for
   struct Begun {
     std::uint64_t turn = 0;  // counts up with each item that is begun
     Assembly assembly;
   };
-  struct StreamState {
-    Wanted wanted;
-    std::uint64_t turn = 0;  // of its latest item
-  };
 
-  void arrive(const Chunk& chunk, Time now);
+  void arrive(const ChunkId& chunk, Time now);
   void add(const Chunk& chunk, Assembly& assembly);
   void give_up_lost(Time now);
   void lose(Orders::iterator asked);
-  void forget_asked(const ItemId& item, std::uint32_t first_chunk);
-  [[nodiscard]] std::optional<std::pair<ItemId, std::uint32_t>> next_chunk();
-  [[nodiscard]] std::optional<ItemId> next_item() const;
+  void finish(std::uint64_t number);
+  void forget_asked(std::uint64_t number, std::uint32_t first_chunk);
+  [[nodiscard]] std::optional<ChunkId> next_chunk();
+  [[nodiscard]] std::optional<std::uint64_t> next_item() const;
 
-  std::array<std::optional<StreamState>, kStreams> streams_;
-  std::map<ItemId, Begun> begun_;
+  Order order_;
+  Wanted wanted_;
+  std::map<std::uint64_t, Begun> begun_;
   Orders in_flight_;
-  std::map<std::pair<ItemId, std::uint32_t>, std::uint64_t> order_of_;  // of what is in flight
+  std::map<ChunkId, std::uint64_t> order_of_;  // of what is in flight
   std::uint64_t next_order_ = 0;
   std::uint64_t overtaken_ = 0;  // orders below it that are in flight
   std::uint64_t turn_ = 0;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,32 +20,25 @@ inline constexpr std::size_t kChunkBytes = 1200;
 /// Larger items are refused: what claims to be larger is an error.
 inline constexpr std::size_t kMaxItemBytes = std::size_t{256} << 20U;
 
-/// Kinds of items; what comes first is asked for first.
-enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures, kMap };
-inline constexpr std::size_t kStreams = 3;
+/// Kinds of items, as on the wire.
+enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures };
 
-struct ItemId {
-  Stream stream = Stream::kKeyframeImages;
-  std::uint64_t number = 0;  // counts up within the stream: keyframe id, revision
-  auto operator<=>(const ItemId&) const = default;
-};
-
-/// The numbers that a writer can send. One between them may be absent: its chunk then says so.
+/// The numbers that a writer can send of a stream, where they count up. One between them may be absent: its
+/// chunk then says so.
 struct Offer {
-  Stream stream = Stream::kKeyframeImages;
   std::uint64_t oldest = 0;
   std::uint64_t newest = 0;
 };
 
 /// Asks for chunks first … first + count - 1 of an item; those beyond its end are not answered.
 struct Request {
-  ItemId item;
+  std::uint64_t number = 0;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
 };
 
 struct Chunk {
-  ItemId item;
+  std::uint64_t number = 0;      // of the item
   std::uint32_t item_bytes = 0;  // of the whole item; 0: the writer does not have it
   std::uint32_t index = 0;
   std::span<const std::uint8_t> data;  // kChunkBytes, fewer in the last one
@@ -57,10 +49,10 @@ inline std::uint32_t chunks_in(std::size_t item_bytes) {
 }
 
 /// Chunk `index` of an item. @param index  below chunks_in(item.size())
-inline Chunk chunk_of(const ItemId& id, std::span<const std::uint8_t> item, std::uint32_t index) {
+inline Chunk chunk_of(std::uint64_t number, std::span<const std::uint8_t> item, std::uint32_t index) {
   const std::size_t begin = index * kChunkBytes;
   const std::size_t size = std::min(kChunkBytes, item.size() - begin);
-  return {id, static_cast<std::uint32_t>(item.size()), index, item.subspan(begin, size)};
+  return {number, static_cast<std::uint32_t>(item.size()), index, item.subspan(begin, size)};
 }
 
 }  // namespace rds::transfer

@@ -13,29 +13,22 @@ namespace rds::transfer {
 /// Which items of a stream a reader lacks.
 class Wanted {
  public:
-  /// @param only_newest  as of a map, where an older item is of no use
-  explicit Wanted(bool only_newest) : only_newest_(only_newest) {}
-
   /// What was offered before and is no more is not wanted any longer.
   void offer(const Offer& offer) {
     if (offer.oldest > offer.newest || offer.newest == std::numeric_limits<std::uint64_t>::max()) return;
     missing_.erase(missing_.begin(), missing_.lower_bound(offer.oldest));
-    const std::uint64_t first = only_newest_ ? offer.newest : offer.oldest;
     const std::uint64_t reach = offer.newest - std::min(offer.newest, kMost - 1);
-    for (std::uint64_t n = std::max({first, next_, reach}); n <= offer.newest; ++n) missing_.insert(n);
-    if (only_newest_) missing_.erase(missing_.begin(), missing_.lower_bound(offer.newest));
+    for (std::uint64_t n = std::max({offer.oldest, next_, reach}); n <= offer.newest; ++n) missing_.insert(n);
     next_ = std::max(next_, offer.newest + 1);
   }
-  /// The reader has it already, or nobody does.
+  /// The reader has it, or nobody does.
   void remove(std::uint64_t number) { missing_.erase(number); }
   /// By number.
   [[nodiscard]] const std::set<std::uint64_t>& missing() const { return missing_; }
-  [[nodiscard]] bool is_newest(std::uint64_t number) const { return number + 1 == next_; }
 
  private:
   static constexpr std::uint64_t kMost = 100'000;  // of an offer; three hours of ten keyframes a second
 
-  bool only_newest_;
   std::uint64_t next_ = 0;  // after the newest that was offered
   std::set<std::uint64_t> missing_;
 };

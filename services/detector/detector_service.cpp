@@ -47,7 +47,7 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(topics::advertise(context.bus, topics::kDetections, topics::kDetector)),
-      source_of_keyframes_(
+      keyframe_source_(
           context, topics::kDetector,
           [this](auto receiver) {
             return subscribe_to_instances(topics::kKeyframeImages, topics::kDetector, std::move(receiver));

@@ -46,7 +46,7 @@ class DetectorService : public service::Service {
   concurrency::Inbox<Arrival> keyframes_;
   bus::Publisher<vision_msgs::msg::Detection2DArray> detections_;
   keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>
-      source_of_keyframes_;  // last: fills the inbox
+      keyframe_source_;  // last: fills the inbox
 };
 
 }  // namespace rds::detector

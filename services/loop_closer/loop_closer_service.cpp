@@ -31,7 +31,7 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
   if (!config.localize_only)
-    source_.emplace(
+    keyframe_source_.emplace(
         context, topics::kLoopCloser,
         [this](auto receiver) {
           return subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser, std::move(receiver));

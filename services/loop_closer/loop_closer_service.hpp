@@ -55,7 +55,7 @@ class LoopCloserService : public service::Service {
   map_commands::MapCommands map_commands_;
   PoseAnswers answers_;
   concurrency::Inbox<Features> features_;
-  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>> source_;  // last: fills the inbox
+  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>> keyframe_source_;  // last: fills the inbox
 };
 
 }  // namespace rds::loop_closer

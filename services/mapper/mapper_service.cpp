@@ -99,7 +99,7 @@ void MapperService::go_on_from_checkpoint() {
 
 void MapperService::subscribe() {
   if (!config_.localize_only) {
-    keyframes_.emplace(
+    keyframe_source_.emplace(
         context_, topics::kMapper,
         [this](auto receiver) {
           return subscribe_to_instances(topics::kKeyframeImages, topics::kMapper, std::move(receiver));

@@ -70,7 +70,7 @@ class MapperService : public service::Service {
   bool is_paused_ = false;
   map_commands::MapCommands map_commands_;
   Inboxes inboxes_;
-  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>> keyframes_;
+  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>> keyframe_source_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inboxes
 };
 

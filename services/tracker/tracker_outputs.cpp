@@ -60,12 +60,13 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
       keyframe_images_(topics::advertise(context.bus, topics::kKeyframeImages, topics::kTracker)),
       keyframe_features_(topics::advertise(context.bus, topics::kKeyframeFeatures, topics::kTracker)),
       keyframe_poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kTracker)),
-      sharing_(context) {}
+      sharing_(context, map_epoch) {}
 
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   pose_changes_.clear();
   odometry_.reset();
+  sharing_.begin(map_epoch);
 }
 
 bool TrackerOutputs::has_new_reader() {

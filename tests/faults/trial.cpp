@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/faults/true_stamps.hpp"
+#include "tests/integration/run_support.hpp"
 #include "tools/rds/commander/topology.hpp"
 #include "tools/rds/play/decode_ahead.hpp"
 #include "tools/rds/run/results/run_files.hpp"
@@ -29,27 +30,6 @@ constexpr auto kAcknowledgeLimit = 10s;
 constexpr auto kFinishLimit = 120s;
 constexpr auto kStopLimit = 8s;
 const std::string kMapName = "map";
-
-std::vector<run::Endpoint> endpoints_of(const std::string& status) {
-  const auto json = nlohmann::json::parse(status, nullptr, false);
-  std::vector<run::Endpoint> endpoints;
-  if (json.is_object() && json.contains("endpoints"))
-    for (const auto& e : json["endpoints"])
-      endpoints.push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
-  return endpoints;
-}
-
-std::vector<run::Endpoint> endpoints_of(const bus::Participant& bus) {
-  std::vector<run::Endpoint> endpoints;
-  for (const auto& e : bus.statistics()) endpoints.push_back({e.topic, e.publisher, e.matched});
-  return endpoints;
-}
-
-/// A number of a command's answer; 0 if there is none.
-std::uint64_t number_in(const std::string& answer, const char* key) {
-  const auto json = nlohmann::json::parse(answer, nullptr, false);
-  return json.is_object() ? json.value(key, std::uint64_t{0}) : 0;
-}
 
 }  // namespace
 
@@ -101,10 +81,8 @@ void Trial::wait_until_connected() {
   running.insert(run::kPlayer);
   std::vector<std::string> missing{"nobody answers"};
   while (Clock::now() < deadline) {
-    std::map<std::string, std::vector<run::Endpoint>> endpoints{{run::kPlayer, endpoints_of(*bus_)}};
-    for (const auto& [name, text] : commander_.ask_status(commands_.size(), {}, patient(kStatusLimit)))
-      endpoints[name] = endpoints_of(text);
-    missing = run::missing_links(running, endpoints, false);
+    const auto statuses = commander_.ask_status(commands_.size(), {}, patient(kStatusLimit));
+    missing = run::missing_links(running, run::endpoints_of(*bus_, statuses));
     std::erase_if(missing,
                   [](const std::string& link) { return link.find("rds/features") != std::string::npos; });
     if (missing.empty()) return;

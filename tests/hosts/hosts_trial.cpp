@@ -41,21 +41,6 @@ const std::map<std::string, std::string>& placement() {
   return kPlacement;
 }
 
-std::vector<run::Endpoint> endpoints_of(const std::string& status) {
-  const auto json = nlohmann::json::parse(status, nullptr, false);
-  std::vector<run::Endpoint> endpoints;
-  if (json.is_object() && json.contains("endpoints"))
-    for (const auto& e : json["endpoints"])
-      endpoints.push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
-  return endpoints;
-}
-
-std::vector<run::Endpoint> endpoints_of(const bus::Participant& bus) {
-  std::vector<run::Endpoint> endpoints;
-  for (const auto& e : bus.statistics()) endpoints.push_back({e.topic, e.publisher, e.matched});
-  return endpoints;
-}
-
 /// Topics that nobody reads, or whose readers take a transfer instead when they are on another machine.
 bool may_be_missing(const std::string& link, bool on_one_machine) {
   const auto is_of = [&](const std::string& topic) {
@@ -63,12 +48,6 @@ bool may_be_missing(const std::string& link, bool on_one_machine) {
   };
   return is_of(topics::kFeatures.name) ||
          (!on_one_machine && (is_of(topics::kKeyframeImages.name) || is_of(topics::kKeyframeFeatures.name)));
-}
-
-/// A number of a command's answer; 0 if there is none.
-std::uint64_t number_in(const std::string& answer, const char* key) {
-  const auto json = nlohmann::json::parse(answer, nullptr, false);
-  return json.is_object() ? json.value(key, std::uint64_t{0}) : 0;
 }
 
 double quantile(const std::vector<double>& sorted, double share) {
@@ -137,10 +116,8 @@ void HostsTrial::wait_until_connected() {
   std::vector<std::string> missing{"nobody answers"};
   while (Clock::now() < deadline) {
     fleet_.watch();
-    std::map<std::string, std::vector<run::Endpoint>> endpoints{{run::kPlayer, endpoints_of(*bus_)}};
-    for (const auto& [name, text] : commander_.ask_status(placement().size(), {}, kStatusLimit))
-      endpoints[name] = endpoints_of(text);
-    missing = run::missing_links(running, endpoints, false);
+    const auto statuses = commander_.ask_status(placement().size(), {}, kStatusLimit);
+    missing = run::missing_links(running, run::endpoints_of(*bus_, statuses));
     std::erase_if(missing, [&](const auto& link) { return may_be_missing(link, row_.on_one_machine); });
     if (missing.empty()) return;
   }

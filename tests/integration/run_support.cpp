@@ -26,6 +26,11 @@ nlohmann::json score(const fs::path& dataset, const fs::path& out, const fs::pat
   return nlohmann::json::parse(result.standard_output);
 }
 
+std::uint64_t number_in(const std::string& answer, const char* key) {
+  const auto json = nlohmann::json::parse(answer, nullptr, false);
+  return json.is_object() ? json.value(key, std::uint64_t{0}) : 0;
+}
+
 std::vector<pid_t> children(pid_t parent, const std::string& name) {
   std::vector<pid_t> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {

@@ -26,6 +26,9 @@ ProcessResult run(const std::filesystem::path& dataset, const std::filesystem::p
 nlohmann::json score(const std::filesystem::path& dataset, const std::filesystem::path& out,
                      const std::filesystem::path& background = {});
 
+/// A number of a command's answer, which is JSON; 0 if there is none.
+std::uint64_t number_in(const std::string& answer, const char* key);
+
 /// Process ids of the children of `parent` whose executable is called `name`.
 std::vector<pid_t> children(pid_t parent, const std::string& name);
 

@@ -2,6 +2,7 @@
 #include "common/transfer/bus/host.hpp"
 
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include <sys/stat.h>
@@ -13,9 +14,7 @@ std::uint64_t this_host() {
   std::ifstream("/proc/sys/kernel/random/boot_id") >> name;
   struct stat network {};
   if (stat("/proc/self/ns/net", &network) == 0) name += " " + std::to_string(network.st_ino);
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash | 1U;
+  return std::hash<std::string>{}(name) | 1U;
 }
 
 }  // namespace rds::transfer

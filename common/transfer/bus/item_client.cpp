@@ -23,14 +23,16 @@ Time now() {
 
 }  // namespace
 
-ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, std::vector<Stream> streams,
+ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, Stream stream, Order order,
                        Callbacks callbacks, std::uint64_t host)
     : context_(context),
       process_(process),
-      streams_(std::move(streams)),
+      stream_(stream),
+      order_(order),
       callbacks_(std::move(callbacks)),
       host_(host),
       followed_(context.bus),
+      receiver_(order),
       requests_(topics::advertise(context.bus, topics::kTransferRequests, process)),
       offers_(mailbox_, kMostOffers),
       chunks_(mailbox_, kMostChunks) {
@@ -48,11 +50,8 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
   context.diagnostics.gauge("transfer items lacking", [this] { return lacking_.load(); });
   context.diagnostics.gauge("transfer round trip us", [this] { return round_trip_us_.load(); });
   context.diagnostics.gauge("transfer chunks asked again", [this] { return asked_again_.load(); });
+  context.diagnostics.gauge("transfer chunks impossible", [this] { return impossible_.load(); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-}
-
-ItemClient::~ItemClient() {
-  subscriptions_.clear();
 }
 
 void ItemClient::run(const std::stop_token& stop) {
@@ -87,18 +86,15 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
                                        "another service");
   follow(offers);
   for (std::size_t i = 0; i < rows; ++i)
-    if (offers.streams()[i] < kStreams)
-      receiver_.offer({static_cast<Stream>(offers.streams()[i]), offers.oldest()[i], offers.newest()[i]});
+    if (static_cast<Stream>(offers.streams()[i]) == stream_)
+      receiver_.offer({offers.oldest()[i], offers.newest()[i]});
 }
 
 void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
   const bool new_map = offers.map_epoch() != map_epoch_ || writer_ == 0;
   writer_ = offers.instance();
   map_epoch_ = offers.map_epoch();
-  if (new_map) {
-    receiver_ = {};
-    for (const Stream stream : streams_) receiver_.want(stream, stream == Stream::kMap);
-  }
+  if (new_map) receiver_ = Receiver(order_);
   be(offers.host() == host_ ? Where::kHere : Where::kElsewhere);
 }
 
@@ -107,12 +103,10 @@ void ItemClient::be(Where where) {
 }
 
 void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
-  if (chunk.instance() != writer_ || chunk.map_epoch() != map_epoch_ || chunk.stream() >= kStreams) return;
-  auto item = receiver_.take({{static_cast<Stream>(chunk.stream()), chunk.number()},
-                              chunk.item_bytes(),
-                              chunk.index(),
-                              chunk.data()},
-                             now);
+  if (chunk.instance() != writer_ || chunk.map_epoch() != map_epoch_ ||
+      static_cast<Stream>(chunk.stream()) != stream_)
+    return;
+  auto item = receiver_.take({chunk.number(), chunk.item_bytes(), chunk.index(), chunk.data()}, now);
   if (item) callbacks_.item(map_epoch_, std::move(*item));
 }
 
@@ -122,10 +116,9 @@ void ItemClient::ask(Time now) {
     send(std::span(due).subspan(i, std::min(kMostRows, due.size() - i)));
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
   if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
-  std::size_t lacking = 0;
-  for (const Stream stream : streams_) lacking += receiver_.lacking(stream);
-  lacking_ = lacking;
+  lacking_ = receiver_.lacking();
   asked_again_ = receiver_.statistics().asked_again;
+  impossible_ = receiver_.statistics().impossible;
   round_trip_us_ = static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
 }
 
@@ -136,8 +129,8 @@ void ItemClient::send(std::span<const Request> requests) {
   message.map_epoch(map_epoch_);
   message.reader(static_cast<std::uint8_t>(process_));
   for (const Request& request : requests) {
-    message.streams().push_back(static_cast<std::uint8_t>(request.item.stream));
-    message.numbers().push_back(request.item.number);
+    message.streams().push_back(static_cast<std::uint8_t>(stream_));
+    message.numbers().push_back(request.number);
     message.firsts().push_back(request.first);
     message.counts().push_back(request.count);
   }

@@ -31,12 +31,9 @@ class ItemClient {
     std::function<void(Where)> where = [](Where) {};          // on the client's thread, when it changes
   };
 
-  /// @param streams  that are wanted. @param host  for tests.
-  ItemClient(service::ServiceContext& context, topics::Process process, std::vector<Stream> streams,
+  /// @param stream  that is wanted. @param host  for tests.
+  ItemClient(service::ServiceContext& context, topics::Process process, Stream stream, Order order,
              Callbacks callbacks, std::uint64_t host = this_host());
-  ~ItemClient();
-  ItemClient(const ItemClient&) = delete;
-  ItemClient& operator=(const ItemClient&) = delete;
 
  private:
   using Offers = std::shared_ptr<const rds_msgs::msg::TransferOffer>;
@@ -53,7 +50,8 @@ class ItemClient {
 
   service::ServiceContext& context_;
   topics::Process process_;
-  std::vector<Stream> streams_;
+  Stream stream_;
+  Order order_;
   Callbacks callbacks_;
   std::uint64_t host_;
   service::InstanceOwners owners_;
@@ -67,6 +65,7 @@ class ItemClient {
   std::atomic<std::size_t> lacking_ = 0;  // these are read by diagnostics
   std::atomic<std::uint64_t> round_trip_us_ = 0;
   std::atomic<std::uint64_t> asked_again_ = 0;
+  std::atomic<std::uint64_t> impossible_ = 0;
   bus::Publisher<rds_msgs::msg::TransferRequest> requests_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Offers> offers_;

@@ -15,6 +15,7 @@ constexpr std::size_t kMostRequests = 256;
 /// Of one request; a reader's window is smaller.
 constexpr std::uint32_t kMostChunks = 4096;
 constexpr int kNice = 10;  // tracking has the processor first
+constexpr std::chrono::seconds kOfferPeriod{1};
 
 }  // namespace
 
@@ -36,48 +37,48 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-ItemServer::~ItemServer() {
-  subscription_ = {};
-}
-
-void ItemServer::share(std::uint64_t map_epoch, const ItemId& id, std::function<Bytes()> make) {
-  if (has_readers_) shared_.push({map_epoch, id, std::move(make)});
+void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t number,
+                       std::function<Bytes()> make) {
+  if (has_readers_) shared_.push({map_epoch, {stream, number}, std::move(make)});
 }
 
 void ItemServer::run(const std::stop_token& stop) {
   concurrency::give_way(kNice);
-  offer();
-  while (mailbox_.wait(stop, [this] { return !shared_.locked_empty() || !requests_.locked_empty(); })) {
+  while (!stop.stop_requested()) {
+    const bool woken = mailbox_.wait_for(
+        stop, kOfferPeriod, [this] { return !shared_.locked_empty() || !requests_.locked_empty(); });
     while (const auto request = requests_.try_pop()) answer(**request);
-    if (auto shared = shared_.try_pop()) take(std::move(*shared));
+    if (const auto shared = shared_.try_pop()) take(*shared);
+    if (!woken) offer();
   }
 }
 
-void ItemServer::take(Shared shared) {
-  Bytes item;
-  try {
-    item = shared.make();
-  } catch (const std::exception& e) {
-    context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
-  }
+void ItemServer::take(const Shared& shared) {
   if (shared.map_epoch != map_epoch_) {
     items_.clear();
     bytes_ = 0;
     map_epoch_ = shared.map_epoch;
   }
-  if (item.empty() || item.size() > kMaxItemBytes) return;
-  bytes_ += item.size();
-  const auto [known, added] = items_.try_emplace(shared.id);
-  bytes_ -= known->second.size();
-  known->second = std::move(item);
-  while (bytes_ > memory_bytes_ && items_.size() > 1) forget_most();
+  try {
+    if (shared.make) keep(shared.id, shared.make());
+  } catch (const std::exception& e) {
+    context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
+  }
   offer();
+}
+
+void ItemServer::keep(const Id& id, Bytes item) {
+  if (item.empty() || item.size() > kMaxItemBytes) return;
+  Bytes& kept = items_[id];
+  bytes_ += item.size() - kept.size();
+  kept = std::move(item);
+  while (bytes_ > memory_bytes_ && items_.size() > 1) forget_most();
 }
 
 /// The oldest item of the stream that takes most memory.
 void ItemServer::forget_most() {
   std::map<Stream, std::size_t> sizes;
-  for (const auto& [id, item] : items_) sizes[id.stream] += item.size();
+  for (const auto& [id, item] : items_) sizes[id.first] += item.size();
   const auto most = std::ranges::max_element(sizes, {}, [](const auto& entry) { return entry.second; });
   const auto oldest = items_.lower_bound({most->first, 0});
   bytes_ -= oldest->second.size();
@@ -90,11 +91,11 @@ void ItemServer::offer() {
   offer.host(host_);
   offer.map_epoch(map_epoch_);
   for (auto it = items_.begin(); it != items_.end();) {
-    const Stream stream = it->first.stream;
-    const auto end = std::find_if(it, items_.end(), [&](const auto& e) { return e.first.stream != stream; });
+    const Stream stream = it->first.first;
+    const auto end = std::find_if(it, items_.end(), [&](const auto& e) { return e.first.first != stream; });
     offer.streams().push_back(static_cast<std::uint8_t>(stream));
-    offer.oldest().push_back(it->first.number);
-    offer.newest().push_back(std::prev(end)->first.number);
+    offer.oldest().push_back(it->first.second);
+    offer.newest().push_back(std::prev(end)->first.second);
     it = end;
   }
   offers_.write(offer);
@@ -108,27 +109,30 @@ void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
   for (std::size_t i = 0; i < rows; ++i) {
-    const ItemId id{static_cast<Stream>(request.streams()[i]), request.numbers()[i]};
-    const auto item = items_.find(id);
+    const auto stream = static_cast<Stream>(request.streams()[i]);
+    const std::uint64_t number = request.numbers()[i];
+    const std::uint64_t first = request.firsts()[i];
+    const auto item = items_.find({stream, number});
     if (item == items_.end()) {
-      send(to->second, request.instance(), {id, 0, request.firsts()[i], {}});
+      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second);
       continue;
     }
-    const std::uint64_t first = request.firsts()[i];
-    const std::uint64_t end = first + std::min(request.counts()[i], kMostChunks);
-    for (std::uint64_t k = first; k < std::min<std::uint64_t>(end, chunks_in(item->second.size())); ++k)
-      send(to->second, request.instance(), chunk_of(id, item->second, static_cast<std::uint32_t>(k)));
+    const std::uint64_t end = std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks),
+                                                      chunks_in(item->second.size()));
+    for (std::uint64_t k = first; k < end; ++k)
+      send(chunk_of(number, item->second, static_cast<std::uint32_t>(k)), stream, request.instance(),
+           to->second);
   }
 }
 
-void ItemServer::send(bus::Publisher<rds_msgs::msg::TransferChunk>& to, std::uint64_t reader,
-                      const Chunk& chunk) {
+void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader,
+                      bus::Publisher<rds_msgs::msg::TransferChunk>& to) {
   rds_msgs::msg::TransferChunk message;
   message.instance(context_.instance);
   message.reader(reader);
   message.map_epoch(map_epoch_);
-  message.stream(static_cast<std::uint8_t>(chunk.item.stream));
-  message.number(chunk.item.number);
+  message.stream(static_cast<std::uint8_t>(stream));
+  message.number(chunk.number);
   message.item_bytes(chunk.item_bytes);
   message.index(chunk.index);
   message.data().assign(chunk.data.begin(), chunk.data.end());

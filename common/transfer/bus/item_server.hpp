@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
@@ -20,7 +21,7 @@
 namespace rds::transfer {
 
 /// What a service has for readers on other machines, and the thread that answers them. Nothing is made before
-/// the first of them says that it is there.
+/// the first of them says that it is there; what is offered is told every second, in case nobody listened.
 class ItemServer {
  public:
   using Bytes = std::vector<std::uint8_t>;
@@ -29,38 +30,37 @@ class ItemServer {
   /// @param host  for tests.
   ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
              std::uint64_t host = this_host());
-  ~ItemServer();
-  ItemServer(const ItemServer&) = delete;
-  ItemServer& operator=(const ItemServer&) = delete;
 
-  /// Whether a reader on another machine has ever been there.
-  [[nodiscard]] bool has_readers() const { return has_readers_; }
-
-  /// Offers an item, of any thread. `make` is called on the server's thread, if at all; an empty result or an
-  /// exception: there is no such item. An item of another epoch makes those of before forgotten.
-  void share(std::uint64_t map_epoch, const ItemId& id, std::function<Bytes()> make);
+  /// Another map: its items are told apart by its epoch, those of before are forgotten. Of any thread.
+  void begin(std::uint64_t map_epoch) { shared_.push({map_epoch, {}, {}}); }
+  /// Offers an item of the map's epoch, of any thread. `make` is called on the server's thread, if at all; an
+  /// empty result or an exception: there is no such item.
+  void share(std::uint64_t map_epoch, Stream stream, std::uint64_t number, std::function<Bytes()> make);
 
  private:
+  using Id = std::pair<Stream, std::uint64_t>;
   struct Shared {
     std::uint64_t map_epoch = 0;
-    ItemId id;
-    std::function<Bytes()> make;
+    Id id;
+    std::function<Bytes()> make;  // empty: an epoch begins
   };
   using Request = std::shared_ptr<const rds_msgs::msg::TransferRequest>;
 
   void run(const std::stop_token& stop);
-  void take(Shared shared);
+  void take(const Shared& shared);
+  void keep(const Id& id, Bytes item);
   void forget_most();
   void offer();
   void answer(const rds_msgs::msg::TransferRequest& request);
-  void send(bus::Publisher<rds_msgs::msg::TransferChunk>& to, std::uint64_t reader, const Chunk& chunk);
+  void send(const Chunk& chunk, Stream stream, std::uint64_t reader,
+            bus::Publisher<rds_msgs::msg::TransferChunk>& to);
 
   service::ServiceContext& context_;
   std::size_t memory_bytes_;
   std::uint64_t host_;
   std::atomic<bool> has_readers_ = false;
   std::uint64_t map_epoch_ = 0;
-  std::map<ItemId, Bytes> items_;
+  std::map<Id, Bytes> items_;
   std::size_t bytes_ = 0;
   std::map<topics::Process, bus::Publisher<rds_msgs::msg::TransferChunk>> chunks_;
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/topics/table.hpp"
 #include "common/topics/topics.hpp"
@@ -62,8 +63,19 @@ std::string part_of(const std::string& service) {
   return part;
 }
 
-std::vector<std::string> missing_links(const std::set<std::string>& running,
-                                       const std::map<std::string, std::vector<Endpoint>>& endpoints,
+Endpoints endpoints_of(const bus::Participant& player, const std::map<std::string, std::string>& statuses) {
+  Endpoints endpoints;
+  for (const auto& e : player.statistics()) endpoints[kPlayer].push_back({e.topic, e.publisher, e.matched});
+  for (const auto& [service, text] : statuses) {
+    const auto status = nlohmann::json::parse(text, nullptr, false);
+    if (!status.is_object() || !status.contains("endpoints")) continue;
+    for (const auto& e : status["endpoints"])
+      endpoints[service].push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
+  }
+  return endpoints;
+}
+
+std::vector<std::string> missing_links(const std::set<std::string>& running, const Endpoints& endpoints,
                                        bool localize_only) {
   std::vector<std::string> missing;
   const auto check = [&](const std::string& process, const Link& link, bool publisher) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/participant.hpp"
+
 namespace rds::run {
 
 /// Process names of `rds run`. "rds" is the player and recorder itself.
@@ -26,6 +28,11 @@ struct Endpoint {
   int matched = 0;
 };
 
+using Endpoints = std::map<std::string, std::vector<Endpoint>>;  // by process name
+
+/// @param player  whose endpoints are known here. @param statuses  answers of services, by name.
+Endpoints endpoints_of(const bus::Participant& player, const std::map<std::string, std::string>& statuses);
+
 /// Links between the running processes that are not up yet, one sentence each.
 ///
 /// A volatile sample written before both ends know each other is lost, so a run starts when this is empty.
@@ -33,7 +40,6 @@ struct Endpoint {
 /// link.
 /// @param localize_only  the mapper and the loop closer do not listen to keyframes.
 std::vector<std::string> missing_links(const std::set<std::string>& running,
-                                       const std::map<std::string, std::vector<Endpoint>>& endpoints,
-                                       bool localize_only = false);
+                                       const Endpoints& endpoints, bool localize_only = false);
 
 }  // namespace rds::run

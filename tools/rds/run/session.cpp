@@ -26,19 +26,6 @@ constexpr seconds kFinishLimit{120};
 constexpr milliseconds kStopLimit{2500};
 const std::string kMapName = "map";
 
-std::vector<Endpoint> endpoints_of(const nlohmann::json& list) {
-  std::vector<Endpoint> endpoints;
-  for (const auto& e : list)
-    endpoints.push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
-  return endpoints;
-}
-
-std::vector<Endpoint> endpoints_of(const bus::Participant& bus) {
-  std::vector<Endpoint> endpoints;
-  for (const auto& e : bus.statistics()) endpoints.push_back({e.topic, e.publisher, e.matched});
-  return endpoints;
-}
-
 std::unique_ptr<bus::Participant> join(const RunOptions& options, int domain) {
   return bus::Participant::create({.vendor = options.vendor_of(kPlayer),
                                    .domain = domain,
@@ -87,13 +74,8 @@ void Session::wait_until_connected(const std::stop_token& stop) {
   std::vector<std::string> missing;
   while (!stop.stop_requested()) {
     fleet_->watch();
-    std::map<std::string, std::vector<Endpoint>> endpoints{{kPlayer, endpoints_of(*bus_)}};
-    for (const auto& [name, text] : commander_.ask_status(services, stop, kStatusLimit)) {
-      const auto status = nlohmann::json::parse(text, nullptr, false);
-      if (status.is_object() && status.contains("endpoints"))
-        endpoints[name] = endpoints_of(status["endpoints"]);
-    }
-    missing = missing_links(running, endpoints, options_.localize_only);
+    const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
+    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only);
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",

@@ -138,21 +138,6 @@ TEST_F(KeyframeCodec, HasAMessageThatTheBusKnows) {
   EXPECT_EQ(decoded, small);
 }
 
-TEST_F(KeyframeCodec, PassesTheJpegOfACameraOn) {
-  const auto keyframe = test::example_keyframe();
-  std::vector<std::uint8_t> jpeg;
-  cv::imencode(".jpg", pixels_of(keyframe.color()), jpeg, {cv::IMWRITE_JPEG_QUALITY, 70});
-  auto small = compressor_.compress(keyframe, jpeg);
-  ASSERT_TRUE(small.has_value()) << small.error();
-  EXPECT_EQ(small->color().data(), jpeg);
-  EXPECT_TRUE(decompressor_.decompress(*small).has_value());
-
-  cv::imencode(".jpg", cv::Mat3b(10, 10, cv::Vec3b(1, 2, 3)), jpeg);
-  small = compressor_.compress(keyframe, jpeg);
-  ASSERT_FALSE(small.has_value());
-  EXPECT_EQ(small.error(), "color: the JPEG is of another size than declared");
-}
-
 TEST_F(KeyframeCodec, DoesNotCompressWhatServicesWouldRefuse) {
   EXPECT_THAT(why_not_compressed([](auto& k) { k.color().encoding("rgba8"); }),
               StartsWith("color: image encoding"));

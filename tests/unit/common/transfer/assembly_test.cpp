@@ -8,7 +8,7 @@ namespace {
 
 using Verdict = Assembly::Verdict;
 
-constexpr ItemId kId{Stream::kKeyframeImages, 7};
+constexpr std::uint64_t kId = 7;
 
 std::vector<std::uint8_t> item_of(std::size_t size) {
   std::vector<std::uint8_t> item(size);

@@ -24,10 +24,7 @@ class Transfer {
  public:
   Transfer(const LinkQuality& quality, int readers)
       : uplink_(events_, quality, 1), downlink_(events_, quality, 2) {
-    for (int i = 0; i < readers; ++i) {
-      readers_.emplace_back();
-      readers_.back().receiver.want(Stream::kKeyframeImages, false);
-    }
+    readers_.resize(static_cast<std::size_t>(readers));
   }
 
   void run(int keyframes, std::size_t bytes) {
@@ -58,7 +55,7 @@ class Transfer {
 
  private:
   struct Reader {
-    Receiver receiver;
+    Receiver receiver{Order::kNewest};
     std::vector<Time> delays;
     std::uint64_t timer = 0;
   };
@@ -81,7 +78,7 @@ class Transfer {
     events_.at(events_.now() + kRepair, [=, this] { send_offer(i, number, heard); });
   }
   void offer(std::size_t i, int newest) {
-    readers_[i].receiver.offer({Stream::kKeyframeImages, 0, static_cast<std::uint64_t>(newest)});
+    readers_[i].receiver.offer({0, static_cast<std::uint64_t>(newest)});
     ask(i);
   }
   void ask(std::size_t i) {
@@ -95,16 +92,16 @@ class Transfer {
       });
   }
   void answer(std::size_t i, const Request& request) {
-    const auto& item = items_.at(static_cast<int>(request.item.number));
+    const auto& item = items_.at(static_cast<int>(request.number));
     for (std::uint32_t k = request.first; k < std::min(request.first + request.count, chunks_in(item.size()));
          ++k)
       uplink_.send(kChunkBytes + kHeaderBytes,
-                   [this, i, id = request.item, &item, k] { take(i, chunk_of(id, item, k)); });
+                   [this, i, id = request.number, &item, k] { take(i, chunk_of(id, item, k)); });
   }
   void take(std::size_t i, const Chunk& chunk) {
     if (const auto item = readers_[i].receiver.take(chunk, events_.now())) {
-      EXPECT_EQ(item->bytes, items_.at(static_cast<int>(item->id.number)));
-      readers_[i].delays.push_back(events_.now() - made_.at(static_cast<int>(item->id.number)));
+      EXPECT_EQ(item->bytes, items_.at(static_cast<int>(item->number)));
+      readers_[i].delays.push_back(events_.now() - made_.at(static_cast<int>(item->number)));
     }
     ask(i);
   }
@@ -160,7 +157,7 @@ TEST(Transfer, GapIsFilledAfterwards) {
   transfer.cut(3s, 13s);
   transfer.run(100, 120'000);
   EXPECT_EQ(transfer.arrived(0), 100U);
-  EXPECT_EQ(transfer.receiver(0).lacking(Stream::kKeyframeImages), 0U);
+  EXPECT_EQ(transfer.receiver(0).lacking(), 0U);
 }
 
 }  // namespace

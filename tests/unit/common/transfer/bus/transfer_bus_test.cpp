@@ -44,7 +44,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
  protected:
   std::unique_ptr<ItemClient> make_client(std::uint64_t host) {
     return std::make_unique<ItemClient>(
-        there_.context, topics::kMapper, std::vector{Stream::kKeyframeImages},
+        there_.context, topics::kMapper, Stream::kKeyframeImages, Order::kNewest,
         ItemClient::Callbacks{
             .item = [this](std::uint64_t epoch, Item item) { take(epoch, std::move(item)); },
             .where = [this](ItemClient::Where where) { say(where); }},
@@ -53,8 +53,8 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   void take(std::uint64_t epoch, Item item) {
     const std::lock_guard lock(mutex_);
     EXPECT_EQ(epoch, kEpoch);
-    EXPECT_EQ(item.bytes, item_of(item.id.number));
-    arrived_[item.id.number]++;
+    EXPECT_EQ(item.bytes, item_of(item.number));
+    arrived_[item.number]++;
     changed_.notify_all();
   }
   void say(ItemClient::Where where) {
@@ -69,7 +69,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   }
   /// Until readers are known nothing is kept.
   void share(ItemServer& server, std::uint64_t number) {
-    server.share(kEpoch, {Stream::kKeyframeImages, number}, [number] { return item_of(number); });
+    server.share(kEpoch, Stream::kKeyframeImages, number, [number] { return item_of(number); });
   }
 
   Node here_{GetParam(), "tracker"};
@@ -120,13 +120,28 @@ TEST_P(TransferBus, WhoComesLaterHasEverythingThatIsKept) {
   EXPECT_EQ(arrived_.rbegin()->first, 119U);
 }
 
+TEST_P(TransferBus, ARestartedServerIsFollowed) {
+  const auto client = make_client(kServerRoom);
+  for (const std::uint64_t from : {0U, 1000U}) {
+    Node node(GetParam(), "tracker" + std::to_string(from));  // another instance each time
+    ItemServer server(node.context, topics::kTracker, kMemory, kRobot);
+    server.begin(kEpoch);
+    for (std::uint64_t number = from; number < from + 200; ++number) {
+      if (wait_for([&] { return !arrived_.empty() && arrived_.rbegin()->first >= from; }, 0s)) break;
+      share(server, number);
+      std::this_thread::sleep_for(50ms);
+    }
+    EXPECT_TRUE(wait_for([&] { return !arrived_.empty() && arrived_.rbegin()->first >= from; }, 0s)) << from;
+  }
+}
+
 TEST_P(TransferBus, OnOneMachineNothingIsMade) {
   ItemServer server(here_.context, topics::kTracker, kMemory, kRobot);
   const auto client = make_client(kRobot);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kHere; }));
   std::atomic<bool> made = false;
   for (std::uint64_t number = 0; number < 20; ++number) {
-    server.share(kEpoch, {Stream::kKeyframeImages, number}, [&] {
+    server.share(kEpoch, Stream::kKeyframeImages, number, [&] {
       made = true;
       return item_of(0);
     });

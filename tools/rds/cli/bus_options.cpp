@@ -3,7 +3,22 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/bus/peer_addresses.hpp"
+
 namespace rds {
+
+namespace {
+
+/// A name that is not known is bad usage.
+std::vector<std::string> addresses_of(const std::string& names) {
+  try {
+    return bus::peer_addresses(names);
+  } catch (const bus::BusError& e) {
+    throw CLI::ValidationError("--peers", e.what());
+  }
+}
+
+}  // namespace
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
   command.add_option("--bus", options.vendor, "fastdds or cyclonedds")
@@ -13,7 +28,10 @@ void add_bus_options(CLI::App& command, BusOptions& options) {
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   command.add_flag("--loopback", options.loopback_only, "this machine only");
-  command.add_option("--peers", options.peers, "Other machines, names or addresses: robot,nas.local,10.0.0.7")
+  command
+      .add_option_function<std::string>(
+          "--peers", [&options](const std::string& names) { options.peers = addresses_of(names); },
+          "Other machines, names or addresses: robot,nas.local,10.0.0.7")
       ->envname("RDS_PEERS");
   add_secure_options(command, options.secure);
 }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 
 #include "common/bus/participant.hpp"
-#include "common/bus/peer_addresses.hpp"
 #include "tools/rds/cli/secure_options.hpp"
 
 namespace rds {
@@ -16,16 +16,16 @@ struct BusOptions {
   std::string vendor = "fastdds";
   int domain = 0;
   bool loopback_only = false;
-  std::string peers;
+  std::vector<std::string> peers;  // addresses
   SecureOptions secure;
 
-  /// @throws std::runtime_error with one sentence: a peer that is not known, something wrong with the credentials.
+  /// @throws std::runtime_error with one sentence if there is something wrong with the credentials.
   [[nodiscard]] bus::ParticipantOptions participant(const std::string& node_name) const {
     return {.vendor = bus::vendor_from_name(vendor),
             .domain = domain,
             .node_name = node_name,
             .loopback_only = loopback_only,
-            .peers = bus::peer_addresses(peers),
+            .peers = peers,
             .credentials = secure.credentials()};
   }
 };

@@ -168,7 +168,7 @@ void MapperService::integrate(const KeyframeQueue::Entry& entry) {
   if (!input)
     return context_.diagnostics.reject(topics::kKeyframeImages.name, Rejection::kInvalid, input.error());
   const IntegratedKeyframe keyframe{input->id, input->stamp_ns, input->map_from_camera.inverse(),
-                                    input->camera};
+                                    input->camera, entry.boxes != nullptr};
   if (entry.boxes)
     input->boxes = to_labelled_boxes(*entry.boxes, keyframe, config_.mapper, context_.diagnostics);
   if (const auto* known = poses_.find(keyframe.id)) input->map_from_camera = known->map_from_camera;

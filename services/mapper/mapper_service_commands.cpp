@@ -95,17 +95,16 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
                                                      {"labels", mapper_.map().labels.names()}})};
 }
 
+/// Ends early where nothing has come for a while.
 void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t keyframes) {
-  using Clock = std::chrono::steady_clock;
-  auto deadline = Clock::now() + (config_.lockstep ? std::chrono::milliseconds(kRestLimit) : kQuietLimit);
-  while (!stop_.stop_requested()) {
+  const auto limit = config_.lockstep ? std::chrono::milliseconds(kRestLimit) : kQuietLimit;
+  bool is_quiet = false;
+  while (!stop_.stop_requested() && !is_quiet) {
     beat();
     take_messages();
     integrate_ready();
     if (poses_.revision() >= poses_revision && mapper_.archive().size() >= keyframes) return;
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return;
-    mailbox_.wait_for(stop_, left, [this] { return !inboxes_.locked_empty(); });
+    is_quiet = !mailbox_.wait_for(stop_, limit, [this] { return !inboxes_.locked_empty(); });
   }
 }
 

@@ -16,11 +16,11 @@ std::int64_t stamp_of(const auto& message) {
 
 }  // namespace
 
-void KeyframeQueue::add(const Images& images) {
+void KeyframeQueue::add(const Images& images, Clock::time_point now) {
   const std::int64_t stamp_ns = stamp_of(images);
   const auto integrated = integrated_.find(stamp_ns);
   if (integrated != integrated_.end() && integrated->second.id >= images->keyframe_id()) return;
-  keyframes_.try_emplace(images->keyframe_id(), images, clock_.go_to(stamp_ns).time_ns);
+  keyframes_.try_emplace(images->keyframe_id(), images, clock_.go_to(stamp_ns).time_ns, now);
   if (keyframes_.size() > capacity_) {
     keyframes_.erase(keyframes_.begin());
     ++dropped_;
@@ -32,15 +32,18 @@ const IntegratedKeyframe* KeyframeQueue::add(const Boxes& boxes) {
   const std::int64_t stamp_ns = stamp_of(boxes);
   const auto integrated = integrated_.find(stamp_ns);
   const auto is_of_boxes = [&](const auto& entry) { return stamp_of(entry.second.images) == stamp_ns; };
-  if (integrated != integrated_.end() && std::ranges::none_of(keyframes_, is_of_boxes))
+  if (integrated != integrated_.end() && !integrated->second.has_boxes &&
+      std::ranges::none_of(keyframes_, is_of_boxes)) {
+    integrated->second.has_boxes = true;
     return &integrated->second;
+  }
   take_boxes(stamp_ns);
   boxes_.emplace_back(stamp_ns, boxes);
   if (boxes_.size() > kMaxBoxes) boxes_.pop_front();
   return nullptr;
 }
 
-bool KeyframeQueue::is_ready() const {
+bool KeyframeQueue::is_ready(Clock::time_point now) const {
   if (keyframes_.empty()) return false;
   const Waiting& oldest = keyframes_.begin()->second;
   const std::int64_t stamp_ns = stamp_of(oldest.images);
@@ -49,7 +52,9 @@ bool KeyframeQueue::is_ready() const {
   const auto is_later = [&](const StampedBoxes& boxes) { return boxes.first > stamp_ns; };
   if (wait_.lockstep)
     return std::ranges::any_of(boxes_, is_later);  // its own were lost with a mapper that was killed
-  return static_cast<double>(keyframes_.rbegin()->second.time_ns - oldest.time_ns) * 1e-9 > wait_.timeout_s;
+  const Waiting& newest = keyframes_.rbegin()->second;
+  return now - newest.came > kLongestWait ||
+         static_cast<double>(newest.time_ns - oldest.time_ns) * 1e-9 > wait_.timeout_s;
 }
 
 KeyframeQueue::Entry KeyframeQueue::take_oldest() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -22,13 +23,14 @@ struct IntegratedKeyframe {
   std::int64_t stamp_ns = 0;
   geometry::Pose camera_from_map = geometry::Pose::Identity();  // when the keyframe was made
   geometry::CameraModel camera;
+  bool has_boxes = false;  // false: also where it is not known
 };
 
 /// How long a keyframe waits for its boxes.
 struct BoxesWait {
   bool expected = true;   // false: not at all
   bool lockstep = false;  // until they have come, or later ones: boxes come in the order of the keyframes
-  double timeout_s = 1;   // otherwise until a keyframe newer by this has come
+  double timeout_s = 1;   // otherwise until a keyframe newer by this has come, or none for kLongestWait
 };
 
 /// Brings keyframes together with their boxes, by their stamps: keyframes wait in the order of their ids,
@@ -37,6 +39,7 @@ struct BoxesWait {
 /// thread, size() and dropped() by any.
 class KeyframeQueue {
  public:
+  using Clock = std::chrono::steady_clock;
   using Images = std::shared_ptr<const rds_msgs::msg::KeyFrameImages>;
   using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
   struct Entry {
@@ -47,15 +50,19 @@ class KeyframeQueue {
   /// @param capacity  keyframes, at least 1.
   KeyframeQueue(std::size_t capacity, const BoxesWait& wait) : capacity_(capacity), wait_(wait) {}
 
+  /// Where the camera stands still no newer keyframe comes: several times as long as a detector needs.
+  static constexpr std::chrono::seconds kLongestWait{5};
+
   /// A keyframe that waits or is integrated already changes nothing.
-  void add(const Images& images);
-  /// Boxes wait for their keyframe, in place of others of its stamp. @return the keyframe for which they come
-  /// too late, because it is integrated; nullptr if they wait.
+  void add(const Images& images, Clock::time_point now = Clock::now());
+  /// Boxes wait for their keyframe, in place of others of its stamp. Those of an integrated keyframe that has
+  /// its own are of one that is still to come (a recording that is played again). @return the keyframe for
+  /// which they come too late, because it is integrated; nullptr if they wait.
   const IntegratedKeyframe* add(const Boxes& boxes);
 
   [[nodiscard]] bool empty() const { return keyframes_.empty(); }
   /// Whether the oldest keyframe has waited for its boxes long enough.
-  [[nodiscard]] bool is_ready() const;
+  [[nodiscard]] bool is_ready(Clock::time_point now = Clock::now()) const;
   /// There must be one.
   Entry take_oldest();
   /// Of keyframes with one stamp (a recording that is played again), later boxes are of the newest.
@@ -74,6 +81,7 @@ class KeyframeQueue {
   struct Waiting {
     Images images;
     std::int64_t time_ns;  // goes on where stamps go back
+    Clock::time_point came;
   };
   using StampedBoxes = std::pair<std::int64_t, Boxes>;
 

@@ -126,9 +126,11 @@ TEST_F(MapperOnTheBus, ImpossibleBoxesAreLeftOutAndCounted) {
   boxes.write(messages::to_detection_message(seen, messages::make_header(input.stamp_ns, "map")));
   ASSERT_TRUE(has_revision(1));
   EXPECT_EQ(mapper->counter("impossible boxes"), 5U);
+  const KeyframeInput next = SyntheticKeyframe(1).make();
   vision_msgs::msg::Detection3DArray nonsense =
-      messages::to_detection_message(seen, messages::make_header(input.stamp_ns, "map"));
+      messages::to_detection_message(seen, messages::make_header(next.stamp_ns, "map"));
   nonsense.detections()[0].bbox().size().x(-1);
+  images.write(to_message(next));
   boxes.write(nonsense);
   EXPECT_TRUE(wait_for([&] { return mapper->diagnostics().rejected() == 1; }));
 }

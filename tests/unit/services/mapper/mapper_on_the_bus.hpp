@@ -15,6 +15,8 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
+#include "common/transfer/bus/host.hpp"
+#include "rds_msgs/msg/TransferOffer.h"
 #include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/mapper_service.hpp"
@@ -92,6 +94,13 @@ class RunningMapper {
 
 class MapperOnTheBus : public ::testing::Test {
  protected:
+  /// As a tracker on this machine: otherwise the mapper would wait for 2 s whether it is on another one.
+  MapperOnTheBus() {
+    rds_msgs::msg::TransferOffer offer;
+    offer.host(transfer::this_host());
+    offer.map_epoch(kEpoch);
+    offers.write(offer);
+  }
   MapperServiceConfig config() const {
     MapperServiceConfig config;
     config.maps.maps_dir = maps.path().string();
@@ -121,6 +130,8 @@ class MapperOnTheBus : public ::testing::Test {
 
   rds::test::TemporaryFolder maps;
   std::unique_ptr<bus::Participant> bus = join("others");
+  bus::Publisher<rds_msgs::msg::TransferOffer> offers =
+      bus->advertise<rds_msgs::msg::TransferOffer>("rds/transfer/offers", bus::kLatched);
   bus::Publisher<Images> images = bus->advertise<Images>("rds/keyframe/images", bus::kKeyframeImages);
   bus::Publisher<Poses> poses = bus->advertise<Poses>("rds/keyframe/poses", bus::kLatched);
   bus::Publisher<vision_msgs::msg::Detection3DArray> boxes =

@@ -54,6 +54,14 @@ TEST(KeyframeQueue, WithoutBoxesItGoesOnWhenANewerKeyframeHasCome) {
   EXPECT_EQ(queue.take_oldest().boxes, nullptr);
 }
 
+TEST(KeyframeQueue, WhereNoKeyframeFollowsItGoesOnAfterAWhile) {
+  const auto now = KeyframeQueue::Clock::now();
+  KeyframeQueue queue(5, {});
+  queue.add(keyframe(3, 30 * kSecond), now);
+  EXPECT_FALSE(queue.is_ready(now + KeyframeQueue::kLongestWait));
+  EXPECT_TRUE(queue.is_ready(now + KeyframeQueue::kLongestWait + std::chrono::milliseconds(1)));
+}
+
 TEST(KeyframeQueue, InLockstepOnlyLaterBoxesTellThatItsOwnAreLost) {
   KeyframeQueue queue(5, {.lockstep = true, .timeout_s = 1});
   queue.add(keyframe(3, 30 * kSecond));
@@ -91,6 +99,23 @@ TEST(KeyframeQueue, BoxesOfAnIntegratedKeyframeAreLate) {
   EXPECT_TRUE(queue.is_ready());
   queue.forget_keyframes();
   EXPECT_EQ(queue.add(boxes(30 * kSecond)), nullptr) << "another map";
+}
+
+TEST(KeyframeQueue, BoxesMayComeFirstInARecordingThatIsPlayedAgain) {
+  KeyframeQueue queue(5, {});
+  queue.note_integrated({3, 30 * kSecond, geometry::Pose::Identity(), {}, true});
+  const auto of_second_lap = boxes(30 * kSecond);
+  EXPECT_EQ(queue.add(of_second_lap), nullptr);
+  queue.add(keyframe(9, 30 * kSecond));
+  ASSERT_TRUE(queue.is_ready());
+  EXPECT_EQ(queue.take_oldest().boxes, of_second_lap);
+}
+
+TEST(KeyframeQueue, LateBoxesAreOfTheirKeyframeOnce) {
+  KeyframeQueue queue(5, {});
+  queue.note_integrated({3, 30 * kSecond, geometry::Pose::Identity(), {}});
+  EXPECT_NE(queue.add(boxes(30 * kSecond)), nullptr);
+  EXPECT_EQ(queue.add(boxes(30 * kSecond)), nullptr) << "of the next lap";
 }
 
 }  // namespace

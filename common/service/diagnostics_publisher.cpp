@@ -29,6 +29,10 @@ double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
+double mb(std::size_t bytes) {
+  return static_cast<double>(bytes) / 1e6;
+}
+
 double resident_mb() {
   std::ifstream statm("/proc/self/statm");
   double total_pages = 0;
@@ -103,8 +107,9 @@ void DiagnosticsPublisher::publish() {
   values.push_back(key_value("worker silent [s]", fmt::format("{:.1f}", worker.silent_s)));
   values.push_back(key_value("cpu [s]", fmt::format("{:.2f}", cpu_s())));
   values.push_back(key_value("rss [MB]", fmt::format("{:.1f}", resident_mb())));
-  values.push_back(
-      key_value("freed, kept [MB]", fmt::format("{:.1f}", static_cast<double>(mallinfo2().fordblks) / 1e6)));
+  const auto heap = mallinfo2();
+  values.push_back(key_value("allocated [MB]", fmt::format("{:.1f}", mb(heap.uordblks + heap.hblkhd))));
+  values.push_back(key_value("freed, kept [MB]", fmt::format("{:.1f}", mb(heap.fordblks))));
   for (const auto& [name, value] : context_.diagnostics.figures()) values.push_back(key_value(name, value));
   for (const auto& endpoint : context_.bus.statistics())
     if (endpoint.dropped > 0)

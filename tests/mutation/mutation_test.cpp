@@ -39,18 +39,23 @@ using namespace std::chrono_literals;
 constexpr int kDomain = 173;
 constexpr std::uint64_t kMany = 10'000;  // messages of each topic, among which buffers reach their size
 constexpr auto kDrain = 5s;              // until what was written has been looked at
+constexpr auto kRest = 15s;              // until what was freed is given back
 constexpr double kMaxGrowthMb = 5;
+constexpr double kMaxFreedMb = 34;  // that a service keeps
 constexpr std::uint64_t kInstance = 4711;
 
-double grown_mb(std::uint64_t before, std::uint64_t after) {
-  return (static_cast<double>(after) - static_cast<double>(before)) / 1e6;
-}
+/// Of a service [MB].
+struct Memory {
+  double allocated = 0;
+  double total = 0;
+};
+using MemoryOfAll = std::vector<Memory>;  // in the order of Fleet::kServices
 
-void print_growth(const std::vector<std::uint64_t>& before, const std::vector<std::uint64_t>& after,
-                  const std::string& what) {
+void print_growth(const MemoryOfAll& before, const MemoryOfAll& after, const std::string& what) {
   fmt::print("{:40}", what);
   for (std::size_t s = 0; s < after.size(); ++s)
-    fmt::print(" {} {:+.1f} MB", *(Fleet::kServices.begin() + s), grown_mb(before[s], after[s]));
+    fmt::print(" {} {:+.1f} ({:+.1f}) MB", *(Fleet::kServices.begin() + s),
+               after[s].allocated - before[s].allocated, after[s].total - before[s].total);
   fmt::print("\n");
   std::fflush(stdout);
 }
@@ -60,25 +65,41 @@ std::uint64_t mutations() {
   return given == nullptr ? 300 : std::stoull(given);
 }
 
-/// How many messages the services have refused, by what their diagnostics say.
-class RefusalWatch {
+/// What the services' diagnostics say of refused messages and of memory.
+class DiagnosticsWatch {
  public:
-  explicit RefusalWatch(bus::Participant& bus)
+  explicit DiagnosticsWatch(bus::Participant& bus)
       : subscription_(bus.subscribe<diagnostic_msgs::msg::DiagnosticArray>(
             "diagnostics", bus::kStream, [this](const auto& m) {
               const std::lock_guard lock(mutex_);
               for (const auto& status : m->status())
-                for (const auto& figure : status.values())
-                  if (figure.key().starts_with("rejected ") && status.name().starts_with("rds-"))
-                    refused_[status.name() + " " + figure.key()] = std::stoull(figure.value());
+                if (status.name().starts_with("rds-")) take(status);
             })) {}
   std::map<std::string, std::uint64_t> refused() {
     const std::lock_guard lock(mutex_);
     return refused_;
   }
+  /// Of now. [MB]
+  double allocated(const std::string& service) {
+    std::unique_lock lock(mutex_);
+    allocated_.erase(service);
+    changed_.wait_for(lock, 5s, [&] { return allocated_.contains(service); });
+    return allocated_.at(service);
+  }
 
  private:
+  void take(const diagnostic_msgs::msg::DiagnosticStatus& status) {
+    for (const auto& figure : status.values()) {
+      if (figure.key().starts_with("rejected "))
+        refused_[status.name() + " " + figure.key()] = std::stoull(figure.value());
+      if (figure.key() == "allocated [MB]") allocated_[status.name()] = std::stod(figure.value());
+    }
+    changed_.notify_all();
+  }
+
   std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, double> allocated_;
   std::map<std::string, std::uint64_t> refused_;
   bus::Subscription subscription_;
 };
@@ -107,9 +128,11 @@ class Mutations : public ::testing::TestWithParam<const char*> {
  protected:
   Mutations() { make_excerpt(recording_of_a_room().folder, place_ / "room", 150); }
 
-  std::vector<std::uint64_t> memory() const {
-    std::vector<std::uint64_t> all;
-    for (const auto& service : fleet_.services()) all.push_back(memory_of(service->pid()));
+  MemoryOfAll memory() {
+    MemoryOfAll all;
+    for (std::size_t s = 0; s < Fleet::kServices.size(); ++s)
+      all.push_back({watch_.allocated(*(Fleet::kServices.begin() + s)),
+                     static_cast<double>(memory_of(fleet_.services().at(s)->pid())) / 1e6});
     return all;
   }
   void expect_well(const std::string& after) {
@@ -162,7 +185,7 @@ class Mutations : public ::testing::TestWithParam<const char*> {
                                 .node_name = "stranger",
                                 .loopback_only = true});
   run::Commander commander_{*bus_};
-  RefusalWatch watch_{*bus_};
+  DiagnosticsWatch watch_{*bus_};
 };
 
 /// The camera rests meanwhile: what memory grows by is what strangers have written.
@@ -176,7 +199,7 @@ TEST_P(Mutations, EndNothingAndFillNothing) {
   }
   player.reset();
   for (const auto& stranger : all) write(*stranger, mutations() / 10);
-  std::this_thread::sleep_for(kDrain);
+  std::this_thread::sleep_for(kRest);
   const auto before = memory();
   for (const auto& stranger : all) {
     const auto before_topic = memory();
@@ -185,10 +208,13 @@ TEST_P(Mutations, EndNothingAndFillNothing) {
     std::this_thread::sleep_for(kDrain);
     print_growth(before_topic, memory(), stranger->topic());
   }
+  std::this_thread::sleep_for(kRest);
   const auto after = memory();
   print_growth(before, after, "all topics");
-  for (std::size_t s = 0; s < after.size() && mutations() >= kMany; ++s)
-    EXPECT_LE(grown_mb(before[s], after[s]), kMaxGrowthMb) << *(Fleet::kServices.begin() + s);
+  for (std::size_t s = 0; s < after.size() && mutations() >= kMany; ++s) {
+    EXPECT_LE(after[s].allocated - before[s].allocated, kMaxGrowthMb) << *(Fleet::kServices.begin() + s);
+    EXPECT_LE(after[s].total - before[s].total, kMaxGrowthMb + kMaxFreedMb) << *(Fleet::kServices.begin() + s);
+  }
   write_as_the_tracker(all);
   for (const auto& [what, count] : watch_.refused()) fmt::print("{}: {}\n", what, count);
   expect_to_go_on();

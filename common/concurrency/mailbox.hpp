@@ -93,13 +93,16 @@ class Inbox {
     return front;
   }
 
-  /// The newest element; the older ones are dropped and counted.
+  /// The newest element; the older ones stay.
   std::optional<T> try_pop_newest() {
-    const std::lock_guard lock(mailbox_.mutex_);
-    if (queue_.empty()) return std::nullopt;
-    dropped_ += queue_.size() - 1;
-    std::optional<T> newest(std::move(queue_.back()));
-    queue_.clear();
+    std::optional<T> newest;
+    {
+      const std::lock_guard lock(mailbox_.mutex_);
+      if (queue_.empty()) return std::nullopt;
+      newest.emplace(std::move(queue_.back()));
+      queue_.pop_back();
+    }
+    freed_.notify_one();
     return newest;
   }
 

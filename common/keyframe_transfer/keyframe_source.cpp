@@ -41,7 +41,7 @@ Decoded<Message> decode(const transfer::Item& item, keyframe_codec::KeyframeDeco
 template <class Message>
 KeyframeSource<Message>::KeyframeSource(service::ServiceContext& context, topics::Process process,
                                         std::function<bus::Subscription(Callback)> subscribe,
-                                        Callback callback)
+                                        Callback callback, std::function<bool()> has_room)
     : context_(context),
       subscribe_(std::move(subscribe)),
       callback_(std::move(callback)),
@@ -49,7 +49,8 @@ KeyframeSource<Message>::KeyframeSource(service::ServiceContext& context, topics
            kIsImages<Message> ? transfer::Stream::kKeyframeImages : transfer::Stream::kKeyframeFeatures,
            kIsImages<Message> ? transfer::Order::kNewest : transfer::Order::kNumber,
            {.item = [this](std::uint64_t epoch, const transfer::Item& item) { take(epoch, item); },
-            .where = [this](Where where) { change_over(where); }}) {}
+            .where = [this](Where where) { change_over(where); },
+            .has_room = std::move(has_room)}) {}
 
 template <class Message>
 void KeyframeSource<Message>::change_over(Where where) {

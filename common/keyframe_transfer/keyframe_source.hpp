@@ -11,6 +11,9 @@
 
 namespace rds::keyframe_transfer {
 
+/// Keyframes that a reader can take beside those that wait, before it asks for further ones.
+inline constexpr std::size_t kRoom = transfer::Receiver::kMostBegun;
+
 /// A service's keyframes, wherever the tracker is: from its topic on the same machine, by transfer from
 /// another one, so that no raw picture leaves the tracker's machine.
 template <class Message>
@@ -19,9 +22,11 @@ class KeyframeSource {
   using Callback = std::function<void(std::shared_ptr<const Message>)>;
 
   /// @param subscribe  to the topic of the same machine. @param callback  with each keyframe, from whichever;
-  /// on a thread of the bus or of the transfer, one after the other.
+  /// on a thread of the bus or of the transfer, one after the other. @param has_room  for kRoom more; of any
+  /// thread.
   KeyframeSource(service::ServiceContext& context, topics::Process process,
-                 std::function<bus::Subscription(Callback)> subscribe, Callback callback);
+                 std::function<bus::Subscription(Callback)> subscribe, Callback callback,
+                 std::function<bool()> has_room);
 
  private:
   void change_over(transfer::ItemClient::Where where);

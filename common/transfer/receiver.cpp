@@ -30,11 +30,11 @@ std::optional<Item> Receiver::take(const Chunk& chunk, Time now) {
   return item;
 }
 
-std::vector<Request> Receiver::due(Time now) {
+std::vector<Request> Receiver::due(Time now, bool may_begin) {
   give_up_lost(now);
   std::vector<Request> requests;
   while (in_flight_.size() < window_.chunks()) {
-    const auto next = next_chunk();
+    const auto next = next_chunk(may_begin);
     if (!next) break;
     const auto& [number, chunk] = *next;
     const bool again = begun_.at(number).assembly.ask(chunk);
@@ -118,13 +118,13 @@ void Receiver::forget_asked(std::uint64_t number, std::uint32_t first_chunk) {
 }
 
 /// Of the item that was begun first and has a chunk to ask for; else an item is begun.
-std::optional<Receiver::ChunkId> Receiver::next_chunk() {
+std::optional<Receiver::ChunkId> Receiver::next_chunk(bool may_begin) {
   auto earliest = begun_.end();
   for (auto it = begun_.begin(); it != begun_.end(); ++it)
     if (it->second.assembly.next() && (earliest == begun_.end() || it->second.turn < earliest->second.turn))
       earliest = it;
   if (earliest == begun_.end()) {
-    const auto next = next_item();
+    const auto next = may_begin ? next_item() : std::nullopt;
     if (!next) return std::nullopt;
     earliest = begun_.emplace(*next, Begun{++turn_, {}}).first;
   }

@@ -40,13 +40,15 @@ struct ReceiverStatistics {
 /// after each offer or chunk.
 class Receiver {
  public:
+  static constexpr std::size_t kMostBegun = 8;  // items at a time
+
   explicit Receiver(Order order) : order_(order) {}
 
   void offer(const Offer& offer);
   /// @return the item, if this chunk completes it
   std::optional<Item> take(const Chunk& chunk, Time now);
-  /// What to ask for now.
-  std::vector<Request> due(Time now);
+  /// What to ask for now. @param may_begin  false: only for the rest of items that have been begun
+  std::vector<Request> due(Time now, bool may_begin = true);
   /// When due() has something to say even if nothing comes until then.
   [[nodiscard]] std::optional<Time> next_due() const;
 
@@ -56,8 +58,6 @@ class Receiver {
   [[nodiscard]] const Window& window() const { return window_; }
 
  private:
-  static constexpr std::size_t kMostBegun = 8;  // items at a time
-
   using ChunkId = std::pair<std::uint64_t, std::uint32_t>;  // of an item's number
   struct Asked {
     ChunkId chunk;
@@ -76,7 +76,7 @@ class Receiver {
   void lose(Orders::iterator asked);
   void finish(std::uint64_t number);
   void forget_asked(std::uint64_t number, std::uint32_t first_chunk);
-  [[nodiscard]] std::optional<ChunkId> next_chunk();
+  [[nodiscard]] std::optional<ChunkId> next_chunk(bool may_begin);
   [[nodiscard]] std::optional<std::uint64_t> next_item() const;
 
   Order order_;

@@ -43,7 +43,7 @@ std::unique_ptr<DetectionSource> make_source(const DetectorServiceConfig& config
 DetectorService::DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config)
     : Service(context),
       lockstep_(config.lockstep),
-      tracker_(context.bus),
+      tracker_(context.bus, service::kTracker),
       source_(make_source(config)),
       keyframes_(mailbox_, lockstep_ ? std::numeric_limits<std::size_t>::max() : kMaxWaiting),
       detections_(topics::advertise(context.bus, topics::kDetections, topics::kDetector)),
@@ -52,7 +52,8 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
           [this](auto receiver) {
             return subscribe_to_instances(topics::kKeyframeImages, topics::kDetector, std::move(receiver));
           },
-          [this](Keyframe m) { receive(std::move(m)); }) {
+          [this](Keyframe m) { receive(std::move(m)); },
+          [this] { return keyframes_.size() + keyframe_transfer::kRoom <= kMaxWaiting; }) {
   context.diagnostics.gauge("keyframes waiting", [this] { return keyframes_.size(); });
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }

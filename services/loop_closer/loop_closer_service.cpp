@@ -20,7 +20,7 @@ constexpr std::size_t kMaxWaiting = bus::kKeyframeFeatures.max_samples;
 
 LoopCloserService::LoopCloserService(service::ServiceContext& context, const LoopCloserServiceConfig& config)
     : Service(context),
-      tracker_(context.bus),
+      tracker_(context.bus, service::kTracker),
       loop_closer_(config.loop_closer),
       checkpoints_(
           config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
@@ -36,7 +36,8 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
         [this](auto receiver) {
           return subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser, std::move(receiver));
         },
-        [this](Features m) { features_.push(std::move(m)); });
+        [this](Features m) { features_.push(std::move(m)); },
+        [this] { return features_.size() + keyframe_transfer::kRoom <= kMaxWaiting; });
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });

@@ -32,8 +32,8 @@ std::unique_ptr<SpillStorage> storage_of(MapperCheckpoints& checkpoints, const M
   return std::make_unique<SpillFile>(config.mapper.correction.spill_folder);
 }
 
-EpochFollower::Accepts accepts(bus::Participant& bus) {
-  return [writer = std::make_shared<service::FollowedWriter>(bus)](std::uint64_t instance, bool same_map) {
+EpochFollower::Accepts accepts(bus::Participant& bus, std::string_view kind) {
+  return [writer = std::make_shared<service::FollowedWriter>(bus, kind)](std::uint64_t instance, bool same_map) {
     return writer->accept(instance, same_map);
   };
 }
@@ -57,7 +57,7 @@ double ms_since(std::chrono::steady_clock::time_point started) {
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
     : Service(context),
       config_(config),
-      epochs_(accepts(context.bus), accepts(context.bus)),
+      epochs_(accepts(context.bus, service::kTracker), accepts(context.bus, service::kLoopCloser)),
       checkpoints_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
                    config.maps.checkpoint_s),
       mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
@@ -75,7 +75,6 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   }
   go_on_from_checkpoint();
   subscribe();
-  context.diagnostics.gauge("keyframes waiting", [this] { return inboxes_.images.size() + queue_.size(); });
   context.diagnostics.gauge("keyframes dropped",
                             [this] { return inboxes_.images.dropped() + queue_.dropped(); });
 }
@@ -98,13 +97,16 @@ void MapperService::go_on_from_checkpoint() {
 }
 
 void MapperService::subscribe() {
+  const auto waiting = [this] { return inboxes_.images.size() + queue_.size(); };
+  context_.diagnostics.gauge("keyframes waiting", waiting);
   if (!config_.localize_only) {
     keyframe_source_.emplace(
         context_, topics::kMapper,
         [this](auto receiver) {
           return subscribe_to_instances(topics::kKeyframeImages, topics::kMapper, std::move(receiver));
         },
-        [this](Images m) { inboxes_.images.push(std::move(m)); });
+        [this](Images m) { inboxes_.images.push(std::move(m)); },
+        [waiting] { return waiting() + keyframe_transfer::kRoom <= kMaxWaiting; });
     subscriptions_.push_back(topics::subscribe(context_.bus, topics::kBoxes, topics::kMapper,
                                                [this](Boxes m) { inboxes_.boxes.push(std::move(m)); }));
   }

@@ -17,7 +17,7 @@ KeyframeAnswers::KeyframeAnswers(service::ServiceContext& context, concurrency::
                                  const LockstepConfig& lockstep, int mapping_nice)
     : diagnostics_(context.diagnostics),
       mailbox_(mailbox),
-      loop_closer_(context.bus),
+      loop_closer_(context.bus, service::kLoopCloser),
       lockstep_(lockstep),
       boxes_inbox_(mailbox, kMaxAnswers),
       poses_inbox_(mailbox, kMaxAnswers),

@@ -18,7 +18,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                        const TransformerServiceConfig& config)
     : Service(context),
       config_(config),
-      tracker_(context.bus),
+      tracker_(context.bus, service::kTracker),
       poses_(kMaxPoses),
       detections_inbox_(mailbox_, kMaxWaiting),
       poses_inbox_(mailbox_, kMaxWaiting),

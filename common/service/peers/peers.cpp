@@ -40,11 +40,20 @@ void Peers::forget_silent() {
   std::erase_if(peers_, [&](const auto& entry) { return now - entry.second.heard > kGoneAfter; });
 }
 
+bool Peers::is_active(const Peer& peer) {
+  return peer.status.role() == Role::ACTIVE && Clock::now() - peer.heard <= kGoneAfter;
+}
+
 bool Peers::is_there(std::uint64_t instance) const {
   const std::lock_guard lock(mutex_);
   const auto peer = peers_.find(instance);
-  return peer != peers_.end() && peer->second.status.role() == Role::ACTIVE &&
-         Clock::now() - peer->second.heard <= kGoneAfter;
+  return peer != peers_.end() && is_active(peer->second);
+}
+
+bool Peers::has_active(std::string_view kind) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(
+      peers_, [&](const auto& entry) { return entry.second.status.service() == kind && is_active(entry.second); });
 }
 
 std::optional<Peers::Clock::duration> Peers::silent_for(std::uint64_t instance) const {
@@ -73,11 +82,18 @@ std::vector<Peer> Peers::present() const {
 }
 
 bool FollowedWriter::accept(std::uint64_t instance, bool same_map) {
-  if (follows_ && instance != followed_ && !same_map && !is_gone(instance)) return false;
+  const bool accepted = !follows_ ? peers_.is_there(instance) || !peers_.has_active(kind_)
+                                  : instance == followed_ || may_replace(instance, same_map);
+  if (!accepted) return false;
   follows_ = true;
   followed_ = instance;
   last_used_ = Peers::Clock::now();
   return true;
+}
+
+bool FollowedWriter::may_replace(std::uint64_t newcomer, bool same_map) const {
+  const bool goes_on = same_map && (peers_.is_there(newcomer) || !peers_.is_there(followed_));
+  return goes_on || is_gone(newcomer);
 }
 
 /// Who tells no status is gone when it writes no more, or when a service comes that does.

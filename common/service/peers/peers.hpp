@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/bus/participant.hpp"
@@ -16,6 +17,10 @@
 #include "rds_msgs/msg/ServiceStatus.h"
 
 namespace rds::service {
+
+/// Kinds of services whose messages are followed.
+inline constexpr std::string_view kTracker = "rds-tracker";
+inline constexpr std::string_view kLoopCloser = "rds-loop-closer";
 
 /// A service on the bus, as it tells about itself.
 struct Peer {
@@ -39,6 +44,8 @@ class Peers {
 
   /// Whether an active service of this instance has been heard of lately.
   [[nodiscard]] bool is_there(std::uint64_t instance) const;
+  /// Whether any of this kind has.
+  [[nodiscard]] bool has_active(std::string_view kind) const;
   /// Since its last status; nullopt if none was heard.
   [[nodiscard]] std::optional<Clock::duration> silent_for(std::uint64_t instance) const;
   /// Whether it said good-bye.
@@ -47,6 +54,7 @@ class Peers {
   [[nodiscard]] std::vector<Peer> present() const;
 
  private:
+  static bool is_active(const Peer& peer);
   void take(const rds_msgs::msg::ServiceStatus& status);
   void forget_silent();  // under the lock
 
@@ -62,17 +70,20 @@ class Peers {
 /// recording that is played, another program). Owned by one thread.
 class FollowedWriter {
  public:
-  explicit FollowedWriter(bus::Participant& bus) : peers_(bus) {}
+  /// @param kind  of service that writes these messages.
+  FollowedWriter(bus::Participant& bus, std::string_view kind) : kind_(kind), peers_(bus) {}
 
   /// Whether a message of this instance is to be used; then it is the one that is followed from now on.
   ///
-  /// @param same_map  the message goes on with the map that the reader knows: whoever was started again in
-  /// the place of the one that was followed is taken at once.
+  /// @param same_map  the message goes on with the map that the reader knows: a service that was started again
+  /// in the place of the one that was followed is taken at once.
   bool accept(std::uint64_t instance, bool same_map);
 
  private:
+  [[nodiscard]] bool may_replace(std::uint64_t newcomer, bool same_map) const;
   [[nodiscard]] bool is_gone(std::uint64_t newcomer) const;
 
+  std::string_view kind_;
   Peers peers_;
   bool follows_ = false;
   std::uint64_t followed_ = 0;

@@ -14,6 +14,7 @@ constexpr std::size_t kMostOffers = 100;
 constexpr std::size_t kMostChunks = 8192;  // 10 MB
 constexpr Time kHelloPeriod = std::chrono::seconds(1);
 constexpr milliseconds kLongestWait{500};
+constexpr milliseconds kWaitForRoom{50};
 constexpr Time kPatience = std::chrono::seconds(2);
 constexpr std::size_t kMostRows = 40;  // in one datagram
 
@@ -31,9 +32,11 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
       order_(order),
       callbacks_(std::move(callbacks)),
       host_(host),
-      followed_(context.bus),
+      followed_(context.bus, service::kTracker),
       receiver_(order),
-      requests_(topics::advertise(context.bus, topics::kTransferRequests, process)),
+      requests_([&context, process] {
+        return topics::advertise(context.bus, topics::kTransferRequests, process);
+      }),
       offers_(mailbox_, kMostOffers),
       chunks_(mailbox_, kMostChunks) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kTransferOffers, process,
@@ -59,7 +62,8 @@ void ItemClient::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     const auto due = receiver_.next_due();
     const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
-    mailbox_.wait_for(stop, std::clamp(wait, milliseconds(0), kLongestWait),
+    const auto longest = receiver_.lacking() > 0 && !callbacks_.has_room() ? kWaitForRoom : kLongestWait;
+    mailbox_.wait_for(stop, std::clamp(wait, milliseconds(0), longest),
                       [this] { return !offers_.locked_empty() || !chunks_.locked_empty(); });
     try {
       step();
@@ -111,7 +115,7 @@ void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
 }
 
 void ItemClient::ask(Time now) {
-  const std::vector<Request> due = receiver_.due(now);
+  const std::vector<Request> due = receiver_.due(now, callbacks_.has_room());
   for (std::size_t i = 0; i < due.size(); i += kMostRows)
     send(std::span(due).subspan(i, std::min(kMostRows, due.size() - i)));
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});

@@ -14,6 +14,7 @@
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/host.hpp"
+#include "common/transfer/bus/lanes.hpp"
 #include "common/transfer/receiver.hpp"
 #include "rds_msgs/msg/TransferChunk.h"
 #include "rds_msgs/msg/TransferOffer.h"
@@ -29,6 +30,8 @@ class ItemClient {
   struct Callbacks {
     std::function<void(std::uint64_t map_epoch, Item)> item;  // a whole item, on the client's thread
     std::function<void(Where)> where = [](Where) {};          // on the client's thread, when it changes
+    /// Whether kMostBegun more items can be taken; else no further ones are asked for. On the client's thread.
+    std::function<bool()> has_room = [] { return true; };
   };
 
   /// @param stream  that is wanted. @param host  for tests.
@@ -66,7 +69,7 @@ class ItemClient {
   std::atomic<std::uint64_t> round_trip_us_ = 0;
   std::atomic<std::uint64_t> asked_again_ = 0;
   std::atomic<std::uint64_t> impossible_ = 0;
-  bus::Publisher<rds_msgs::msg::TransferRequest> requests_;
+  Lanes<rds_msgs::msg::TransferRequest> requests_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Offers> offers_;
   concurrency::Inbox<Chunks> chunks_;

@@ -28,7 +28,9 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {
   for (const topics::Process reader : {topics::kDetector, topics::kMapper, topics::kLoopCloser})
-    chunks_.emplace(reader, topics::advertise(context.bus, topics::transfer_to(reader), process));
+    chunks_.emplace(reader, [&context, reader, process] {
+      return topics::advertise(context.bus, topics::transfer_to(reader), process);
+    });
   subscription_ =
       topics::subscribe(context.bus, topics::kTransferRequests, process, [this](const Request& request) {
         if (request->writer() == context_.instance) requests_.push(request);
@@ -126,7 +128,7 @@ void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
 }
 
 void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader,
-                      bus::Publisher<rds_msgs::msg::TransferChunk>& to) {
+                      Lanes<rds_msgs::msg::TransferChunk>& to) {
   rds_msgs::msg::TransferChunk message;
   message.instance(context_.instance);
   message.reader(reader);

@@ -13,6 +13,7 @@
 #include "common/concurrency/mailbox.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/host.hpp"
+#include "common/transfer/bus/lanes.hpp"
 #include "common/transfer/transfer.hpp"
 #include "rds_msgs/msg/TransferChunk.h"
 #include "rds_msgs/msg/TransferOffer.h"
@@ -53,7 +54,7 @@ class ItemServer {
   void offer();
   void answer(const rds_msgs::msg::TransferRequest& request);
   void send(const Chunk& chunk, Stream stream, std::uint64_t reader,
-            bus::Publisher<rds_msgs::msg::TransferChunk>& to);
+            Lanes<rds_msgs::msg::TransferChunk>& to);
 
   service::ServiceContext& context_;
   std::size_t memory_bytes_;
@@ -62,7 +63,7 @@ class ItemServer {
   std::uint64_t map_epoch_ = 0;
   std::map<Id, Bytes> items_;
   std::size_t bytes_ = 0;
-  std::map<topics::Process, bus::Publisher<rds_msgs::msg::TransferChunk>> chunks_;
+  std::map<topics::Process, Lanes<rds_msgs::msg::TransferChunk>> chunks_;
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Shared> shared_;

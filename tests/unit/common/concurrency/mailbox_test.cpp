@@ -44,13 +44,15 @@ TEST(Inbox, PushWhenFreeWaitsForRoomAndLosesNothing) {
   EXPECT_EQ(inbox.dropped(), 0U);
 }
 
-TEST(Inbox, NewestLeavesNothingBehindAndCountsTheRest) {
+TEST(Inbox, TheNewestIsTakenAndTheOthersStay) {
   Mailbox mailbox;
   Inbox<int> inbox(mailbox, 10);
   for (int i = 0; i < 4; ++i) inbox.push(i);
   EXPECT_EQ(inbox.try_pop_newest(), 3);
-  EXPECT_EQ(inbox.dropped(), 3U);
-  EXPECT_EQ(inbox.size(), 0U);
+  EXPECT_EQ(inbox.dropped(), 0U);
+  EXPECT_EQ(inbox.try_pop(), 0);
+  EXPECT_EQ(inbox.try_pop_newest(), 2);
+  EXPECT_EQ(inbox.size(), 1U);
 }
 
 TEST(Mailbox, WorkerWakesForEitherInboxAndTakesEverythingInOrder) {

@@ -38,7 +38,7 @@ class Followed : public ::testing::Test {
       services_->advertise<ServiceStatus>(topics::kServiceStatus.name, bus::kLatchedEvery);
   std::unique_ptr<bus::Participant> reader_ = join("reader");
   Peers seen_{*reader_};
-  FollowedWriter followed_{*reader_};
+  FollowedWriter followed_{*reader_, kTracker};
 };
 
 TEST_F(Followed, AStrangerIsRefusedWhileTheOneThatIsFollowedIsThere) {
@@ -61,7 +61,20 @@ TEST_F(Followed, WhoLeavesIsReplacedAtOnce) {
 TEST_F(Followed, WhoGoesOnWithTheSameMapIsTakenAtOnce) {
   tell(1, Role::ACTIVE);
   EXPECT_TRUE(followed_.accept(1, true));
+  EXPECT_FALSE(followed_.accept(3, true)) << "no service";
+  tell(2, Role::ACTIVE);
   EXPECT_TRUE(followed_.accept(2, true));
+}
+
+TEST_F(Followed, AmongWritersThatAreNoServicesWhoGoesOnWithTheSameMapIsTakenAtOnce) {
+  EXPECT_TRUE(followed_.accept(7, true));
+  EXPECT_TRUE(followed_.accept(8, true));
+}
+
+TEST_F(Followed, AStrangerIsRefusedWhileAServiceOfTheKindIsThereThatHasNotSpoken) {
+  tell(1, Role::ACTIVE);
+  EXPECT_FALSE(followed_.accept(7, false));
+  EXPECT_TRUE(followed_.accept(1, false));
 }
 
 TEST_F(Followed, AServiceGoesBeforeAWriterThatIsNone) {

@@ -56,6 +56,16 @@ TEST(Receiver, KeepsTheOrderOfNumbersWhereThatIsAskedFor) {
   EXPECT_EQ(fetch_all(receiver, item.size(), 9s), (Numbers{3, 4, 5, 6}));
 }
 
+TEST(Receiver, WithoutRoomOnlyWhatIsBegunIsFinished) {
+  Receiver receiver(Order::kNewest);
+  receiver.offer({1, 3});
+  EXPECT_TRUE(receiver.due(1s, false).empty());
+  const std::vector<std::uint8_t> item(100 * kChunkBytes, 1);
+  ASSERT_FALSE(receiver.due(1s).empty());
+  receiver.take(chunk_of(3, item, 0), 1s + 1ms);
+  for (const Request& request : receiver.due(1s + 1ms, false)) EXPECT_EQ(request.number, 3U);
+}
+
 TEST(Receiver, AsksForNothingTwice) {
   Receiver receiver(Order::kNewest);
   receiver.offer({0, 2});

@@ -61,7 +61,7 @@ std::vector<PredictionRecord> to_records(const rds_msgs::msg::PredictedBoxes& m)
 
 }  // namespace
 
-Recorder::Recorder(bus::Participant& bus) : tracker_(bus) {
+Recorder::Recorder(bus::Participant& bus) : tracker_(bus, service::kTracker) {
   subscribe(bus, topics::kTrackingState, &Recorder::on_state);
   subscribe(bus, topics::kPredictedBoxes, &Recorder::on_boxes);
   subscribe(bus, topics::kKeyframePoses, &Recorder::on_poses);

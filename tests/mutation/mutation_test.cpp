@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spoiled copies of every message that the services read, written while the camera rests. RDS_MUTATIONS says
-// how many per topic.
+// how many per topic, RDS_MUTATED_TOPIC that it be of one only.
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -121,6 +121,8 @@ std::vector<std::unique_ptr<Stranger>> strangers(bus::Participant& bus) {
   add(std::type_identity<sensor_msgs::msg::CameraInfo>{}, "camera/color/camera_info", bus::kSensor);
   add(std::type_identity<sensor_msgs::msg::Image>{}, "camera/color/image_raw", bus::kSensor);
   add(std::type_identity<sensor_msgs::msg::Image>{}, "camera/aligned_depth_to_color/image_raw", bus::kSensor);
+  const char* only = std::getenv("RDS_MUTATED_TOPIC");
+  if (only != nullptr) std::erase_if(all, [only](const auto& stranger) { return stranger->topic() != only; });
   return all;
 }
 

@@ -13,6 +13,14 @@ using rds_msgs::msg::ServiceStatus;
 namespace Role = rds_msgs::msg::ServiceStatus_Constants;
 
 constexpr std::size_t kMaxPeers = 256;
+constexpr std::size_t kMostText = 1024;  // bytes of a status
+
+/// Not one that a stranger has made long: kMaxPeers are kept.
+bool is_short(const ServiceStatus& status) {
+  return status.header().frame_id().size() + status.service().size() + status.version().size() +
+             status.message().size() <=
+         kMostText;
+}
 
 }  // namespace
 
@@ -23,6 +31,7 @@ Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qo
           owners_.only_owned([this](const auto& status) { take(*status); }, [] {}))) {}
 
 void Peers::take(const ServiceStatus& status) {
+  if (!is_short(status)) return;
   bool changed = false;
   {
     const std::lock_guard lock(mutex_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,6 +44,8 @@ class BackendReader {
   virtual ~BackendReader() = default;
   /// Blocks until take() may find something or wake() was called, once and for all.
   virtual void wait() = 0;
+  /// As wait(), but no longer than this. @return false if nothing of that has happened.
+  virtual bool wait_for(std::chrono::seconds limit) = 0;
   virtual void wake() = 0;
   /// Takes the next message into `sample`. @return false if there is none.
   virtual bool take(Sample& sample) = 0;

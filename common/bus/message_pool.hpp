@@ -18,6 +18,8 @@ class MessagePool {
   std::shared_ptr<void> get() {
     return {shelf_->take(), [shelf = shelf_](void* message) { shelf->put_back(message); }};
   }
+  /// Forgets what waits to be used again.
+  void clear() { shelf_->clear(); }
 
  private:
   static constexpr std::size_t kKept = 2;
@@ -26,8 +28,11 @@ class MessagePool {
     explicit Shelf(const TypeOps& ops) : type(ops) {}
     Shelf(const Shelf&) = delete;
     Shelf& operator=(const Shelf&) = delete;
-    ~Shelf() {
+    ~Shelf() { clear(); }
+    void clear() {
+      const std::lock_guard lock(mutex);
       for (void* message : unused) type.destroy(message);
+      unused.clear();
     }
     void* take() {
       const std::lock_guard lock(mutex);

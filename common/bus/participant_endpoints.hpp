@@ -71,7 +71,10 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      reader_->wait();
+      if (!reader_->wait_for(kIdleAfter)) {
+        pool_.clear();
+        reader_->wait();
+      }
       while (!stop.stop_requested() && take_one()) {
       }
     }
@@ -99,6 +102,8 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
       ++dropped_;
     }
   }
+
+  static constexpr std::chrono::seconds kIdleAfter{2};  // then no memory is kept for the next message
 
   Callback callback_;
   MessagePool pool_;

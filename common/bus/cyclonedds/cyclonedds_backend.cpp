@@ -82,6 +82,9 @@ class CycloneReader final : public BackendReader {
   }
 
   void wait() override { dds_waitset_wait(wait_set_.get(), nullptr, 0, DDS_INFINITY); }
+  bool wait_for(std::chrono::seconds limit) override {
+    return dds_waitset_wait(wait_set_.get(), nullptr, 0, DDS_SECS(limit.count())) != 0;
+  }
   void wake() override { dds_set_guardcondition(stop_.get(), true); }
   bool take(Sample& sample) override {
     ddsi_serdata* message = nullptr;

@@ -124,6 +124,10 @@ class FastReader final : public BackendReader {
     dds::ConditionSeq active;
     wait_set_.wait(active, eprosima::fastrtps::c_TimeInfinite);
   }
+  bool wait_for(std::chrono::seconds limit) override {
+    dds::ConditionSeq active;
+    return wait_set_.wait(active, {static_cast<std::int32_t>(limit.count()), 0}) == ReturnCode_t::RETCODE_OK;
+  }
   void wake() override { stop_.set_trigger_value(true); }
   bool take(Sample& sample) override {
     dds::SampleInfo info;

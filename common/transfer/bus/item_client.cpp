@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/topics/topics.hpp"
+#include "common/transfer/bus/clock.hpp"
 
 namespace rds::transfer {
 namespace {
@@ -17,10 +20,6 @@ constexpr milliseconds kLongestWait{500};
 constexpr milliseconds kWaitForRoom{50};
 constexpr Time kPatience = std::chrono::seconds(2);
 constexpr std::size_t kMostRows = 40;  // in one datagram
-
-Time now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
 
 }  // namespace
 
@@ -51,6 +50,11 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
                                                  chunks_.push(std::move(chunk));
                                              }));
   context.diagnostics.gauge("transfer items lacking", [this] { return lacking_.load(); });
+  context.diagnostics.warning("transfer", [this]() -> std::optional<std::string> {
+    const std::size_t lacking = lacking_;
+    if (lacking == 0 || now() - lacks_nothing_.load() < kBehindAfter) return std::nullopt;
+    return fmt::format("behind: {} items of the tracker have not come yet", lacking);
+  });
   context.diagnostics.gauge("transfer round trip us", [this] { return round_trip_us_.load(); });
   context.diagnostics.gauge("transfer chunks asked again", [this] { return asked_again_.load(); });
   context.diagnostics.gauge("transfer chunks impossible", [this] { return impossible_.load(); });
@@ -121,6 +125,7 @@ void ItemClient::ask(Time now) {
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
   if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
   lacking_ = receiver_.lacking();
+  if (lacking_ == 0) lacks_nothing_ = now;
   asked_again_ = receiver_.statistics().asked_again;
   impossible_ = receiver_.statistics().impossible;
   round_trip_us_ = static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
@@ -131,6 +136,7 @@ void ItemClient::send(std::span<const Request> requests) {
   message.instance(context_.instance);
   message.writer(writer_);
   message.map_epoch(map_epoch_);
+  message.lacking(static_cast<std::uint32_t>(receiver_.lacking()));
   message.reader(static_cast<std::uint8_t>(process_));
   for (const Request& request : requests) {
     message.streams().push_back(static_cast<std::uint8_t>(stream_));

@@ -66,6 +66,7 @@ class ItemClient {
   Receiver receiver_;
   Time last_hello_{};
   std::atomic<std::size_t> lacking_ = 0;  // these are read by diagnostics
+  std::atomic<Time> lacks_nothing_{};     // when that last was so
   std::atomic<std::uint64_t> round_trip_us_ = 0;
   std::atomic<std::uint64_t> asked_again_ = 0;
   std::atomic<std::uint64_t> impossible_ = 0;

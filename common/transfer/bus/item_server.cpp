@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/concurrency/priority.hpp"
 #include "common/topics/topics.hpp"
+#include "common/transfer/bus/clock.hpp"
 
 namespace rds::transfer {
 namespace {
@@ -28,15 +31,26 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {
   for (const topics::Process reader : {topics::kDetector, topics::kMapper, topics::kLoopCloser})
-    chunks_.emplace(reader, [&context, reader, process] {
-      return topics::advertise(context.bus, topics::transfer_to(reader), process);
-    });
+    add_reader(reader, process);
   subscription_ =
       topics::subscribe(context.bus, topics::kTransferRequests, process, [this](const Request& request) {
         if (request->writer() == context_.instance) requests_.push(request);
       });
   context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void ItemServer::add_reader(topics::Process process, topics::Process own) {
+  const auto& topic = topics::transfer_to(process);
+  Reader& reader =
+      readers_
+          .try_emplace(process, [this, &topic, own] { return topics::advertise(context_.bus, topic, own); })
+          .first->second;
+  context_.diagnostics.warning(topic.name, [&reader, &topic]() -> std::optional<std::string> {
+    const std::uint32_t lacking = reader.lacking;
+    if (lacking == 0 || now() - reader.lacks_nothing.load() < kBehindAfter) return std::nullopt;
+    return fmt::format("{}: the reader is behind by {} items", topic.name, lacking);
+  });
 }
 
 void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t number,
@@ -105,25 +119,27 @@ void ItemServer::offer() {
 
 void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
   has_readers_ = true;
-  const auto to = chunks_.find(static_cast<topics::Process>(request.reader()));
+  const auto to = readers_.find(static_cast<topics::Process>(request.reader()));
   const std::size_t rows = request.streams().size();
-  if (to == chunks_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
+  if (to == readers_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
+  to->second.lacking = request.lacking();
+  if (request.lacking() == 0) to->second.lacks_nothing = now();
   for (std::size_t i = 0; i < rows; ++i) {
     const auto stream = static_cast<Stream>(request.streams()[i]);
     const std::uint64_t number = request.numbers()[i];
     const std::uint64_t first = request.firsts()[i];
     const auto item = items_.find({stream, number});
     if (item == items_.end()) {
-      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second);
+      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second.chunks);
       continue;
     }
     const std::uint64_t end = std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks),
                                                       chunks_in(item->second.size()));
     for (std::uint64_t k = first; k < end; ++k)
       send(chunk_of(number, item->second, static_cast<std::uint32_t>(k)), stream, request.instance(),
-           to->second);
+           to->second.chunks);
   }
 }
 

@@ -47,6 +47,7 @@ class ItemServer {
   };
   using Request = std::shared_ptr<const rds_msgs::msg::TransferRequest>;
 
+  void add_reader(topics::Process process, topics::Process own);
   void run(const std::stop_token& stop);
   void take(const Shared& shared);
   void keep(const Id& id, Bytes item);
@@ -63,7 +64,15 @@ class ItemServer {
   std::uint64_t map_epoch_ = 0;
   std::map<Id, Bytes> items_;
   std::size_t bytes_ = 0;
-  std::map<topics::Process, Lanes<rds_msgs::msg::TransferChunk>> chunks_;
+  struct Reader {
+    Lanes<rds_msgs::msg::TransferChunk> chunks;
+    std::atomic<std::uint32_t> lacking = 0;
+    std::atomic<Time> lacks_nothing{};  // when it last said so
+
+    explicit Reader(Lanes<rds_msgs::msg::TransferChunk>::Advertise advertise)
+        : chunks(std::move(advertise)) {}
+  };
+  std::map<topics::Process, Reader> readers_;
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Shared> shared_;

@@ -58,9 +58,23 @@ void Diagnostics::gauge(const std::string& name, std::function<std::uint64_t()> 
   gauges_[name] = std::move(read);
 }
 
+void Diagnostics::warning(const std::string& name, std::function<std::optional<std::string>()> read) {
+  const std::lock_guard lock(mutex_);
+  warnings_[name] = std::move(read);
+}
+
+std::map<std::string, std::string> Diagnostics::warnings() const {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, std::string> said;
+  for (const auto& [name, read] : warnings_)
+    if (auto text = read()) said.emplace(name, std::move(*text));
+  return said;
+}
+
 void Diagnostics::forget_gauges() {
   const std::lock_guard lock(mutex_);
   gauges_.clear();
+  warnings_.clear();
 }
 
 void Diagnostics::reject(const std::string& topic, Rejection code, std::string_view detail) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,7 +54,9 @@ class Diagnostics {
   LatencyWindow& latency(const std::string& name);
   /// A value read when the report is made, e.g. a queue's depth.
   void gauge(const std::string& name, std::function<std::uint64_t()> read);
-  /// Before what the gauges read is destroyed.
+  /// What is wrong in a part of the service, read four times a second; nullopt while nothing is.
+  void warning(const std::string& name, std::function<std::optional<std::string>()> read);
+  /// Before what gauges and warnings read is destroyed.
   void forget_gauges();
 
   /// Counts a message that was not used, by topic and code, and logs it with the detail, made printable: the
@@ -62,6 +65,8 @@ class Diagnostics {
 
   /// All figures by name, as text.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> figures() const;
+  /// What the warnings say, by their names.
+  [[nodiscard]] std::map<std::string, std::string> warnings() const;
   /// Messages rejected since the start.
   [[nodiscard]] std::uint64_t rejected() const;
 
@@ -74,6 +79,7 @@ class Diagnostics {
   std::map<std::string, Counter> counters_;
   std::map<std::string, LatencyWindow> latencies_;
   std::map<std::string, std::function<std::uint64_t()>> gauges_;
+  std::map<std::string, std::function<std::optional<std::string>()>> warnings_;
   std::map<std::string, std::array<Rejected, kRejections>> rejections_;  // by topic, as few as subscriptions
 };
 

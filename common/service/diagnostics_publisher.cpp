@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <malloc.h>
+#include <spdlog/spdlog.h>
 #include <systemd/sd-daemon.h>
 #include <unistd.h>
 
@@ -17,7 +18,8 @@
 namespace rds::service {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod{1000};
+constexpr std::chrono::milliseconds kLookPeriod{250};
+constexpr int kLooksPerReport = 4;
 constexpr double kHangS = 5;  // a worker that is silent for longer hangs
 
 bool hangs(const WorkerState& worker) {
@@ -60,12 +62,24 @@ DiagnosticsPublisher::DiagnosticsPublisher(ServiceContext& context, Presence& pr
       thread_([this](const std::stop_token& stop) {
         concurrency::Mailbox timer;
         FreedMemory freed_memory;
-        while (!stop.stop_requested()) {
-          publish();
-          freed_memory.look();
-          timer.wait_for(stop, kPeriod, [] { return false; });
+        for (int looks = 0; !stop.stop_requested(); ++looks) {
+          look();
+          if (looks % kLooksPerReport == 0) {
+            publish();
+            freed_memory.look();
+          }
+          timer.wait_for(stop, kLookPeriod, [] { return false; });
         }
       }) {}
+
+void DiagnosticsPublisher::look() {
+  auto warnings = context_.diagnostics.warnings();
+  for (const auto& [name, text] : warnings)
+    if (!warnings_.contains(name)) spdlog::warn("{}", text);
+  if (auto silent = others_.look(presence_.peers().known(), Peers::Clock::now()))
+    warnings.emplace("", std::move(*silent));  // goes first, and is in the log
+  warnings_ = std::move(warnings);
+}
 
 Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t mismatches) {
   std::uint64_t troubles = context_.diagnostics.rejected();
@@ -75,6 +89,7 @@ Health DiagnosticsPublisher::health(const WorkerState& worker, std::size_t misma
   if (hangs(worker)) return {kError, fmt::format("the worker has been silent for {:.0f} s", worker.silent_s)};
   if (const auto rivalry = presence_.rivalry()) return {kError, *rivalry};
   if (mismatches > 0) return {kWarn, fmt::format("{} endpoints of another version", mismatches)};
+  if (!warnings_.empty()) return {kWarn, warnings_.begin()->second};
   if (lately > 0) return {kWarn, fmt::format("{} messages dropped", lately)};
   return {};
 }

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <thread>
 
+#include "common/service/peers/peer_watch.hpp"
 #include "common/service/presence.hpp"
 #include "common/service/service_slot.hpp"
 #include "common/service/version_watch.hpp"
@@ -14,9 +16,10 @@
 
 namespace rds::service {
 
-/// Publishes a process's figures on `diagnostics` and its state on `rds/services` once a second, from a thread
-/// of its own; how the service is, is what its worker shows. What supervises the process (systemd) hears that it is
-/// alive only while the worker is.
+/// Publishes a process's figures on `diagnostics` and its state on `rds/services` once a second, from a
+/// thread of its own; how the service is, is what its worker shows. Looks at the others four times as often,
+/// and logs at once what begins to be wrong. What supervises the process (systemd) hears that it is alive
+/// only while the worker is.
 class DiagnosticsPublisher {
  public:
   DiagnosticsPublisher(ServiceContext& context, Presence& presence, const ServiceSlot& service);
@@ -25,6 +28,7 @@ class DiagnosticsPublisher {
   [[nodiscard]] double silent_s() const;
 
  private:
+  void look();
   void publish();
   Health health(const WorkerState& worker, std::size_t mismatches);
   void tell_supervisor(const WorkerState& worker, const Health& health);
@@ -34,6 +38,8 @@ class DiagnosticsPublisher {
   const ServiceSlot& service_;
   bus::Publisher<diagnostic_msgs::msg::DiagnosticArray> publisher_;
   VersionWatch versions_;
+  PeerWatch others_;
+  std::map<std::string, std::string> warnings_;  // by name
   std::uint64_t troubles_before_ = 0;
   std::string told_;  // to the supervisor
   std::atomic<std::chrono::steady_clock::time_point> published_ = std::chrono::steady_clock::now();

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/service/presence.hpp"
 
+#include <array>
+#include <climits>
+
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "common/messages/conversions.hpp"
 #include "common/topics/endpoints.hpp"
@@ -9,7 +13,13 @@
 namespace rds::service {
 namespace {
 namespace Role = rds_msgs::msg::ServiceStatus_Constants;
+
+std::string host_name() {
+  std::array<char, HOST_NAME_MAX + 1> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
+
+}  // namespace
 
 Presence::Presence(ServiceContext& context, std::function<void()> changed)
     : context_(context),
@@ -29,7 +39,7 @@ double Presence::active_s() const {
 
 std::vector<Candidate> Presence::rivals() const {
   std::vector<Candidate> rivals;
-  for (const auto& [status, heard] : peers_.present())
+  for (const auto& [status, heard, clock_ahead_s] : peers_.present())
     if (status.service() == context_.name && status.instance() != context_.instance) {
       const std::chrono::duration<double> since = std::chrono::steady_clock::now() - heard;
       rivals.push_back({status.instance(), status.role() == Role::ACTIVE, status.active_s() + since.count()});
@@ -64,6 +74,7 @@ void Presence::write(std::uint8_t role, const Health& health, double worker_sile
   status.instance(context_.instance);
   status.service(context_.name);
   status.version(RDS_VERSION);
+  status.machine(host_name());
   status.role(role);
   status.active_s(active_s());
   status.worker_silent_s(worker_silent_s);

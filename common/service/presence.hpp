@@ -36,6 +36,7 @@ class Presence {
   [[nodiscard]] bool is_active() const { return active_; }
   /// Whether it should be: see election.hpp.
   [[nodiscard]] bool should_be_active() const;
+  [[nodiscard]] const Peers& peers() const { return peers_; }
   /// "another rds-mapper … is in this domain", or nothing.
   [[nodiscard]] std::optional<std::string> rivalry() const;
 

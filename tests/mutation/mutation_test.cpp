@@ -200,7 +200,9 @@ TEST_P(Mutations, EndNothingAndFillNothing) {
     (void)commander_.ask_status(Fleet::kServices.size(), {}, 300ms);  // commands to spoil
   }
   player.reset();
-  for (const auto& stranger : all) write(*stranger, mutations() / 10);
+  // First what costs memory once: statuses make it a service of its own, what it says then begins and
+  // corrects maps.
+  for (const auto& stranger : all) write(*stranger, mutations() / 2);
   std::this_thread::sleep_for(kRest);
   const auto before = memory();
   for (const auto& stranger : all) {

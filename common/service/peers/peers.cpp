@@ -18,7 +18,7 @@ constexpr std::size_t kMostText = 1024;  // bytes of a status
 /// Not one that a stranger has made long: kMaxPeers are kept.
 bool is_short(const ServiceStatus& status) {
   return status.header().frame_id().size() + status.service().size() + status.version().size() +
-             status.message().size() <=
+             status.machine().size() + status.message().size() <=
          kMostText;
 }
 
@@ -39,7 +39,9 @@ void Peers::take(const ServiceStatus& status) {
     if (known == peers_.end()) forget_silent();
     if (known == peers_.end() && peers_.size() >= kMaxPeers) return;
     changed = known == peers_.end() || known->second.status.role() != status.role();
-    peers_[status.instance()] = {status, Clock::now()};
+    const std::chrono::duration<double> here = std::chrono::system_clock::now().time_since_epoch();
+    const double there = status.header().stamp().sec() + status.header().stamp().nanosec() * 1e-9;
+    peers_[status.instance()] = {status, Clock::now(), there - here.count()};
   }
   if (changed && changed_) changed_();
 }
@@ -75,6 +77,13 @@ bool Peers::has_left(std::uint64_t instance) const {
   const std::lock_guard lock(mutex_);
   const auto peer = peers_.find(instance);
   return peer != peers_.end() && peer->second.status.role() != Role::ACTIVE;
+}
+
+std::vector<Peer> Peers::known() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Peer> known;
+  for (const auto& entry : peers_) known.push_back(entry.second);
+  return known;
 }
 
 std::vector<Peer> Peers::present() const {

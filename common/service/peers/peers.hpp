@@ -26,6 +26,7 @@ inline constexpr std::string_view kLoopCloser = "rds-loop-closer";
 struct Peer {
   rds_msgs::msg::ServiceStatus status;
   std::chrono::steady_clock::time_point heard;
+  double clock_ahead_s = 0;  // of its machine, against this one's; what the message took counts as behind
 };
 
 /// Who of the services is on the bus, from their statuses. Safe to use from any thread.
@@ -50,6 +51,8 @@ class Peers {
   [[nodiscard]] std::optional<Clock::duration> silent_for(std::uint64_t instance) const;
   /// Whether it said good-bye.
   [[nodiscard]] bool has_left(std::uint64_t instance) const;
+  /// All that are remembered, those too that are silent or have left.
+  [[nodiscard]] std::vector<Peer> known() const;
   /// All that were heard of lately and have not left, by service and instance.
   [[nodiscard]] std::vector<Peer> present() const;
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/topics/topics.hpp"
 
 namespace rds::transfer {
@@ -18,53 +20,54 @@ constexpr milliseconds kWaitForRoom{50};
 constexpr Time kPatience = std::chrono::seconds(2);
 constexpr std::size_t kMostRows = 40;  // in one datagram
 
-Time now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
-
 }  // namespace
+
+ItemClient::Inboxes::Inboxes() : offers(mailbox, kMostOffers), chunks(mailbox, kMostChunks) {}
 
 ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, Stream stream, Order order,
                        Callbacks callbacks, std::uint64_t host)
     : context_(context),
-      process_(process),
-      stream_(stream),
-      order_(order),
+      self_{process, stream, order, host},
       callbacks_(std::move(callbacks)),
-      host_(host),
-      followed_(context.bus, service::kTracker),
+      source_{.followed = {context.bus, service::kTracker}},
       receiver_(order),
       requests_([&context, process] {
         return topics::advertise(context.bus, topics::kTransferRequests, process);
-      }),
-      offers_(mailbox_, kMostOffers),
-      chunks_(mailbox_, kMostChunks) {
+      }) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kTransferOffers, process,
                                              [this](Offers offers, const bus::ParticipantId& writer) {
-                                               if (owners_.owns(writer, offers->instance()))
-                                                 offers_.push(std::move(offers));
+    if (owners_.owns(writer, offers->instance())) inboxes_.offers.push(std::move(offers));
                                              }));
   subscriptions_.push_back(topics::subscribe(context.bus, topics::transfer_to(process), process,
                                              [this](Chunks chunk, const bus::ParticipantId& writer) {
                                                if (chunk->reader() == context_.instance &&
                                                    owners_.owns(writer, chunk->instance()))
-                                                 chunks_.push(std::move(chunk));
+                                                 inboxes_.chunks.push(std::move(chunk));
                                              }));
-  context.diagnostics.gauge("transfer items lacking", [this] { return lacking_.load(); });
-  context.diagnostics.gauge("transfer round trip us", [this] { return round_trip_us_.load(); });
-  context.diagnostics.gauge("transfer chunks asked again", [this] { return asked_again_.load(); });
-  context.diagnostics.gauge("transfer chunks impossible", [this] { return impossible_.load(); });
+  tell(context.diagnostics);
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
+void ItemClient::tell(service::Diagnostics& diagnostics) {
+  diagnostics.gauge("transfer items lacking", [this] { return figures_.backlog.items(); });
+  diagnostics.gauge("transfer round trip us", [this] { return figures_.round_trip_us.load(); });
+  diagnostics.gauge("transfer chunks asked again", [this] { return figures_.asked_again.load(); });
+  diagnostics.gauge("transfer chunks impossible", [this] { return figures_.impossible.load(); });
+  diagnostics.warning("transfer", [this]() -> std::optional<std::string> {
+    const auto behind = figures_.backlog.behind(now());
+    if (!behind) return std::nullopt;
+    return fmt::format("behind: {} items of the tracker have not come yet", *behind);
+  });
+}
+
 void ItemClient::run(const std::stop_token& stop) {
-  started_ = now();
   while (!stop.stop_requested()) {
     const auto due = receiver_.next_due();
     const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
     const auto longest = receiver_.lacking() > 0 && !callbacks_.has_room() ? kWaitForRoom : kLongestWait;
-    mailbox_.wait_for(stop, std::clamp(wait, milliseconds(0), longest),
-                      [this] { return !offers_.locked_empty() || !chunks_.locked_empty(); });
+    inboxes_.mailbox.wait_for(stop, std::clamp(wait, milliseconds(0), longest), [this] {
+      return !inboxes_.offers.locked_empty() || !inboxes_.chunks.locked_empty();
+    });
     try {
       step();
     } catch (const std::exception& e) {
@@ -74,10 +77,10 @@ void ItemClient::run(const std::stop_token& stop) {
 }
 
 void ItemClient::step() {
-  while (const auto offers = offers_.try_pop()) take(**offers);
-  while (const auto chunk = chunks_.try_pop()) take(**chunk, now());
-  if (where_ == Where::kUnknown && now() - started_ > kPatience) be(Where::kHere);
-  if (where_ == Where::kElsewhere) ask(now());
+  while (const auto offers = inboxes_.offers.try_pop()) take(**offers);
+  while (const auto chunk = inboxes_.chunks.try_pop()) take(**chunk, now());
+  if (source_.where == Where::kUnknown && now() - source_.started > kPatience) be(Where::kHere);
+  if (source_.where == Where::kElsewhere) ask(now());
 }
 
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
@@ -85,33 +88,34 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   if (offers.oldest().size() != rows || offers.newest().size() != rows)
     return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kInvalid,
                                        "rows of different lengths");
-  if (!followed_.accept(offers.instance(), offers.map_epoch() == map_epoch_ && map_epoch_ != 0))
+  if (!source_.followed.accept(offers.instance(),
+                               offers.map_epoch() == source_.map_epoch && source_.map_epoch != 0))
     return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kForeign,
                                        "another service");
   follow(offers);
   for (std::size_t i = 0; i < rows; ++i)
-    if (static_cast<Stream>(offers.streams()[i]) == stream_)
+    if (static_cast<Stream>(offers.streams()[i]) == self_.stream)
       receiver_.offer({offers.oldest()[i], offers.newest()[i]});
 }
 
 void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
-  const bool new_map = offers.map_epoch() != map_epoch_ || writer_ == 0;
-  writer_ = offers.instance();
-  map_epoch_ = offers.map_epoch();
-  if (new_map) receiver_ = Receiver(order_);
-  be(offers.host() == host_ ? Where::kHere : Where::kElsewhere);
+  const bool new_map = offers.map_epoch() != source_.map_epoch || source_.instance == 0;
+  source_.instance = offers.instance();
+  source_.map_epoch = offers.map_epoch();
+  if (new_map) receiver_ = Receiver(self_.order);
+  be(offers.host() == self_.host ? Where::kHere : Where::kElsewhere);
 }
 
 void ItemClient::be(Where where) {
-  if (std::exchange(where_, where) != where) callbacks_.where(where);
+  if (std::exchange(source_.where, where) != where) callbacks_.where(where);
 }
 
 void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
-  if (chunk.instance() != writer_ || chunk.map_epoch() != map_epoch_ ||
-      static_cast<Stream>(chunk.stream()) != stream_)
+  if (chunk.instance() != source_.instance || chunk.map_epoch() != source_.map_epoch ||
+      static_cast<Stream>(chunk.stream()) != self_.stream)
     return;
   auto item = receiver_.take({chunk.number(), chunk.item_bytes(), chunk.index(), chunk.data()}, now);
-  if (item) callbacks_.item(map_epoch_, std::move(*item));
+  if (item) callbacks_.item(source_.map_epoch, std::move(*item));
 }
 
 void ItemClient::ask(Time now) {
@@ -120,20 +124,22 @@ void ItemClient::ask(Time now) {
     send(std::span(due).subspan(i, std::min(kMostRows, due.size() - i)));
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
   if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
-  lacking_ = receiver_.lacking();
-  asked_again_ = receiver_.statistics().asked_again;
-  impossible_ = receiver_.statistics().impossible;
-  round_trip_us_ = static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
+  figures_.backlog.set(receiver_.lacking(), now);
+  figures_.asked_again = receiver_.statistics().asked_again;
+  figures_.impossible = receiver_.statistics().impossible;
+  figures_.round_trip_us =
+      static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
 }
 
 void ItemClient::send(std::span<const Request> requests) {
   rds_msgs::msg::TransferRequest message;
   message.instance(context_.instance);
-  message.writer(writer_);
-  message.map_epoch(map_epoch_);
-  message.reader(static_cast<std::uint8_t>(process_));
+  message.writer(source_.instance);
+  message.map_epoch(source_.map_epoch);
+  message.lacking(static_cast<std::uint32_t>(receiver_.lacking()));
+  message.reader(static_cast<std::uint8_t>(self_.process));
   for (const Request& request : requests) {
-    message.streams().push_back(static_cast<std::uint8_t>(stream_));
+    message.streams().push_back(static_cast<std::uint8_t>(self_.stream));
     message.numbers().push_back(request.number);
     message.firsts().push_back(request.first);
     message.counts().push_back(request.count);

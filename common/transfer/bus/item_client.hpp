@@ -13,6 +13,7 @@
 #include "common/service/peers/instance_owners.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
+#include "common/transfer/bus/backlog.hpp"
 #include "common/transfer/bus/host.hpp"
 #include "common/transfer/bus/lanes.hpp"
 #include "common/transfer/receiver.hpp"
@@ -42,6 +43,35 @@ class ItemClient {
   using Offers = std::shared_ptr<const rds_msgs::msg::TransferOffer>;
   using Chunks = std::shared_ptr<const rds_msgs::msg::TransferChunk>;
 
+  struct Self {
+    topics::Process process;
+    Stream stream;
+    Order order;
+    std::uint64_t host;
+  };
+  /// Whose offers are followed.
+  struct Source {
+    service::FollowedWriter followed;
+    std::uint64_t instance = 0;
+    std::uint64_t map_epoch = 0;
+    Where where = Where::kUnknown;
+    Time started = now();
+  };
+  /// For diagnostics.
+  struct Figures {
+    Backlog backlog;
+    std::atomic<std::uint64_t> round_trip_us = 0;
+    std::atomic<std::uint64_t> asked_again = 0;
+    std::atomic<std::uint64_t> impossible = 0;
+  };
+  struct Inboxes {
+    concurrency::Mailbox mailbox;
+    concurrency::Inbox<Offers> offers;
+    concurrency::Inbox<Chunks> chunks;
+    Inboxes();
+  };
+
+  void tell(service::Diagnostics& diagnostics);
   void run(const std::stop_token& stop);
   void step();
   void take(const rds_msgs::msg::TransferOffer& offers);
@@ -52,27 +82,15 @@ class ItemClient {
   void send(std::span<const Request> requests);
 
   service::ServiceContext& context_;
-  topics::Process process_;
-  Stream stream_;
-  Order order_;
+  Self self_;
   Callbacks callbacks_;
-  std::uint64_t host_;
   service::InstanceOwners owners_;
-  service::FollowedWriter followed_;
-  std::uint64_t writer_ = 0;  // instance
-  std::uint64_t map_epoch_ = 0;
-  Where where_ = Where::kUnknown;
-  Time started_{};
+  Source source_;
   Receiver receiver_;
   Time last_hello_{};
-  std::atomic<std::size_t> lacking_ = 0;  // these are read by diagnostics
-  std::atomic<std::uint64_t> round_trip_us_ = 0;
-  std::atomic<std::uint64_t> asked_again_ = 0;
-  std::atomic<std::uint64_t> impossible_ = 0;
+  Figures figures_;
   Lanes<rds_msgs::msg::TransferRequest> requests_;
-  concurrency::Mailbox mailbox_;
-  concurrency::Inbox<Offers> offers_;
-  concurrency::Inbox<Chunks> chunks_;
+  Inboxes inboxes_;
   std::vector<bus::Subscription> subscriptions_;
   std::jthread thread_;
 };

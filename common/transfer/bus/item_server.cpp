@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/concurrency/priority.hpp"
 #include "common/topics/topics.hpp"
 
@@ -22,15 +24,13 @@ constexpr std::chrono::seconds kOfferPeriod{1};
 ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
                        std::uint64_t host)
     : context_(context),
-      memory_bytes_(memory_bytes),
       host_(host),
+      items_(memory_bytes),
       offers_(topics::advertise(context.bus, topics::kTransferOffers, process)),
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {
   for (const topics::Process reader : {topics::kDetector, topics::kMapper, topics::kLoopCloser})
-    chunks_.emplace(reader, [&context, reader, process] {
-      return topics::advertise(context.bus, topics::transfer_to(reader), process);
-    });
+    add_reader(reader, process);
   subscription_ =
       topics::subscribe(context.bus, topics::kTransferRequests, process, [this](const Request& request) {
         if (request->writer() == context_.instance) requests_.push(request);
@@ -39,9 +39,22 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
+void ItemServer::add_reader(topics::Process process, topics::Process own) {
+  const auto& topic = topics::transfer_to(process);
+  Reader& reader =
+      readers_
+          .try_emplace(process, [this, &topic, own] { return topics::advertise(context_.bus, topic, own); })
+          .first->second;
+  context_.diagnostics.warning(topic.name, [&reader, &topic]() -> std::optional<std::string> {
+    const auto behind = reader.backlog.behind(now());
+    if (!behind) return std::nullopt;
+    return fmt::format("{}: the reader is behind by {} items", topic.name, *behind);
+  });
+}
+
 void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t number,
                        std::function<Bytes()> make) {
-  if (has_readers_) shared_.push({map_epoch, {stream, number}, std::move(make)});
+  if (has_readers_) shared_.push({map_epoch, stream, number, std::move(make)});
 }
 
 void ItemServer::run(const std::stop_token& stop) {
@@ -56,35 +69,13 @@ void ItemServer::run(const std::stop_token& stop) {
 }
 
 void ItemServer::take(const Shared& shared) {
-  if (shared.map_epoch != map_epoch_) {
-    items_.clear();
-    bytes_ = 0;
-    map_epoch_ = shared.map_epoch;
-  }
+  if (std::exchange(map_epoch_, shared.map_epoch) != shared.map_epoch) items_.clear();
   try {
-    if (shared.make) keep(shared.id, shared.make());
+    if (shared.make) items_.put(shared.stream, shared.number, shared.make());
   } catch (const std::exception& e) {
     context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
   }
   offer();
-}
-
-void ItemServer::keep(const Id& id, Bytes item) {
-  if (item.empty() || item.size() > kMaxItemBytes) return;
-  Bytes& kept = items_[id];
-  bytes_ += item.size() - kept.size();
-  kept = std::move(item);
-  while (bytes_ > memory_bytes_ && items_.size() > 1) forget_most();
-}
-
-/// The oldest item of the stream that takes most memory.
-void ItemServer::forget_most() {
-  std::map<Stream, std::size_t> sizes;
-  for (const auto& [id, item] : items_) sizes[id.first] += item.size();
-  const auto most = std::ranges::max_element(sizes, {}, [](const auto& entry) { return entry.second; });
-  const auto oldest = items_.lower_bound({most->first, 0});
-  bytes_ -= oldest->second.size();
-  items_.erase(oldest);
 }
 
 void ItemServer::offer() {
@@ -92,38 +83,36 @@ void ItemServer::offer() {
   offer.instance(context_.instance);
   offer.host(host_);
   offer.map_epoch(map_epoch_);
-  for (auto it = items_.begin(); it != items_.end();) {
-    const Stream stream = it->first.first;
-    const auto end = std::find_if(it, items_.end(), [&](const auto& e) { return e.first.first != stream; });
+  for (const auto& [stream, range] : items_.offers()) {
     offer.streams().push_back(static_cast<std::uint8_t>(stream));
-    offer.oldest().push_back(it->first.second);
-    offer.newest().push_back(std::prev(end)->first.second);
-    it = end;
+    offer.oldest().push_back(range.oldest);
+    offer.newest().push_back(range.newest);
   }
   offers_.write(offer);
 }
 
 void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
   has_readers_ = true;
-  const auto to = chunks_.find(static_cast<topics::Process>(request.reader()));
+  const auto to = readers_.find(static_cast<topics::Process>(request.reader()));
   const std::size_t rows = request.streams().size();
-  if (to == chunks_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
+  if (to == readers_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
+  to->second.backlog.set(request.lacking(), now());
   for (std::size_t i = 0; i < rows; ++i) {
     const auto stream = static_cast<Stream>(request.streams()[i]);
     const std::uint64_t number = request.numbers()[i];
     const std::uint64_t first = request.firsts()[i];
-    const auto item = items_.find({stream, number});
-    if (item == items_.end()) {
-      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second);
+    const Bytes* item = items_.find(stream, number);
+    if (item == nullptr) {
+      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second.chunks);
       continue;
     }
-    const std::uint64_t end = std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks),
-                                                      chunks_in(item->second.size()));
+    const std::uint64_t end =
+        std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks), chunks_in(item->size()));
     for (std::uint64_t k = first; k < end; ++k)
-      send(chunk_of(number, item->second, static_cast<std::uint32_t>(k)), stream, request.instance(),
-           to->second);
+      send(chunk_of(number, *item, static_cast<std::uint32_t>(k)), stream, request.instance(),
+           to->second.chunks);
   }
 }
 

@@ -69,13 +69,16 @@ ServiceReport report_on(std::vector<Peer> present, std::span<const std::string> 
 }
 
 std::string as_table(const ServiceReport& report) {
-  std::string table = fmt::format("{:<16} {:<8} {:<8} {:<8} {:>10} {:<5} {}\n", "service", "instance", "role",
-                                  "version", "silent [s]", "level", "message");
+  std::string table =
+      fmt::format("{:<16} {:<8} {:<8} {:<8} {:<16} {:>9} {:>10} {:<5} {}\n", "service", "instance", "role",
+                  "version", "machine", "clock [s]", "silent [s]", "level", "message");
   for (const Peer& peer : report.services) {
     const auto& s = peer.status;
-    table += fmt::format("{:<16} {:<8} {:<8} {:<8} {:>10.1f} {:<5} {}\n", service::printable(s.service(), 32),
-                         short_instance(peer), role_name(s.role()), service::printable(s.version(), 16),
-                         s.worker_silent_s(), level_name(s.level()), service::printable(s.message()));
+    table += fmt::format("{:<16} {:<8} {:<8} {:<8} {:<16} {:>+9.1f} {:>10.1f} {:<5} {}\n",
+                         service::printable(s.service(), 32), short_instance(peer), role_name(s.role()),
+                         service::printable(s.version(), 16), service::printable(s.machine(), 32),
+                         peer.clock_ahead_s, s.worker_silent_s(), level_name(s.level()),
+                         service::printable(s.message()));
   }
   return table;
 }
@@ -88,6 +91,8 @@ nlohmann::ordered_json as_json(const ServiceReport& report) {
                                 {"instance", fmt::format("{:016x}", s.instance())},
                                 {"role", role_name(s.role())},
                                 {"version", s.version()},
+                                {"machine", s.machine()},
+                                {"clock_ahead_s", peer.clock_ahead_s},
                                 {"active_s", s.active_s()},
                                 {"worker_silent_s", s.worker_silent_s()},
                                 {"level", level_name(s.level())},

@@ -86,12 +86,12 @@ class OnTheBus : public ::testing::Test {
   }
 
   std::optional<std::uint8_t> role_of(std::uint64_t instance) {
-    for (const auto& [status, heard] : peers_.present())
+    for (const auto& [status, heard, clock_ahead_s] : peers_.present())
       if (status.instance() == instance) return status.role();
     return std::nullopt;
   }
   std::uint8_t level_of(std::uint64_t instance) {
-    for (const auto& [status, heard] : peers_.present())
+    for (const auto& [status, heard, clock_ahead_s] : peers_.present())
       if (status.instance() == instance) return status.level();
     return kOk;
   }

@@ -50,6 +50,7 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
       : Endpoint(std::move(state), std::move(topic), type, false),
         callback_(std::move(callback)),
         pool_(type),
+        counts_lost_(qos.counts_lost),
         reader_(state_->backend->make_reader(kRosPrefix + topic_, type, qos)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
     state_->announcer.add_reader(guid());
@@ -67,7 +68,7 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
  private:
   [[nodiscard]] Guid guid() const override { return reader_->guid(); }
-  [[nodiscard]] std::uint64_t lost() const override { return reader_->lost(); }
+  [[nodiscard]] std::uint64_t lost() const override { return counts_lost_ ? reader_->lost() : 0; }
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -107,6 +108,7 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
   Callback callback_;
   MessagePool pool_;
+  bool counts_lost_;
   std::unique_ptr<BackendReader> reader_;
   std::jthread thread_;  // last: it uses the others
 };

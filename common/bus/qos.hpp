@@ -11,6 +11,9 @@ struct Qos {
   bool transient_local = false;
   int depth = 10;
   int max_samples = 5000;
+  /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces the
+  /// ones before: what was replaced before it was sent is no loss.
+  bool counts_lost = true;
 };
 
 // The profiles of the topic table (see common/bus/README.md).
@@ -27,7 +30,10 @@ inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 
 /// What the reader itself asks for again.
 inline constexpr Qos kDatagrams{.reliable = false, .depth = 256};
 inline constexpr Qos kDelta{.reliable = true, .depth = 64};
-inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1};
+inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1, .counts_lost = false};
+/// For a reader of the newest message of each of many writers.
+inline constexpr Qos kLatchedOfEach{
+    .reliable = true, .transient_local = true, .depth = 100, .counts_lost = false};
 /// For a reader of a latched topic that must see every message, not only the newest; so must one of a topic
 /// with two writers, whose newest messages displace each other in a history of one.
 inline constexpr Qos kLatchedEvery{.reliable = true, .transient_local = true, .depth = 100};

@@ -129,7 +129,7 @@ inline constexpr Topic<rds_msgs::msg::CommandResult> kCommandResult{
 inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
     "rds/services",
     {{kServices, bus::kLatched}},
-    {{kServices | kPlayer, bus::kLatchedEvery}, {kTool, bus::kStream}}};  // rds status: what is said now
+    {{kServices | kPlayer, bus::kLatchedOfEach}, {kTool, bus::kStream}}};  // rds status: what is said now
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
     "diagnostics", {{kServices, bus::kStream}}, {}};
 

@@ -41,7 +41,7 @@ class Peers {
   /// @param changed  called on a bus thread after each status that tells of another role; may be empty.
   /// @param qos  kStream: only what is said from now on counts, not a last status that a service has left.
   explicit Peers(bus::Participant& bus, std::function<void()> changed = {},
-                 const bus::Qos& qos = bus::kLatchedEvery);
+                 const bus::Qos& qos = bus::kLatchedOfEach);
 
   /// Whether an active service of this instance has been heard of lately.
   [[nodiscard]] bool is_there(std::uint64_t instance) const;

@@ -23,7 +23,7 @@ class HangWatch {
   }
 
  private:
-  static constexpr double kLongestLookS = 1;  // [s]; looks are ten in a second
+  static constexpr double kLongestLookS = 0.2;  // [s]; looks are ten in a second
   double limit_s_;
   double seen_silent_s_ = 0;
 };

@@ -35,6 +35,13 @@ TEST(HangWatch, TimeInWhichTheWholeProcessWasStoppedDoesNotCount) {
   EXPECT_TRUE(look_through(watch, 63, 66)) << "but it still says nothing";
 }
 
+TEST(HangWatch, AShortLimitHoldsForAThreadThatSpeaksOnceInASecond) {
+  HangWatch watch(2);
+  EXPECT_FALSE(look_through(watch, 0, 1)) << "it was about to speak";
+  EXPECT_FALSE(watch.look(5, 4)) << "when all were stopped";
+  EXPECT_FALSE(look_through(watch, 5.1, 5.5));
+}
+
 TEST(HangWatch, WithoutALimitNothingHangs) {
   HangWatch watch(0);
   EXPECT_FALSE(look_through(watch, 0, 100));

@@ -56,6 +56,7 @@ class IdTable {
     return block->objects[id % kBlock].emplace(std::move(object));
   }
 
+  /// For who will change the object: several threads at a time may only look at a const table.
   [[nodiscard]] T* find(Id id) {
     T* object = look_up(id);
     if (object != nullptr) touched_[id / kBlock] = 1;

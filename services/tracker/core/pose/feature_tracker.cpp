@@ -105,7 +105,7 @@ LocalMap FeatureTracker::local_map_of_last(const TrackingContext& context) {
   LocalMap around = select_local_map(context.map, seen, ++mark_);
   LocalMap all{std::move(around.keyframes), {}, around.reference};
   std::ranges::copy_if(seen, std::back_inserter(all.points),
-                       [&](PointId id) { return context.map.point(id) != nullptr; });
+                       [&](PointId id) { return std::as_const(context.map).point(id) != nullptr; });
   all.points.insert(all.points.end(), around.points.begin(), around.points.end());
   return all;
 }

@@ -21,7 +21,7 @@ Pose PointFollower::align(const TrackingContext& context, const LastFrame& last)
   const Pose last_camera_from_map = last_map_from_camera.inverse();
   std::vector<SeenPoint> seen;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
-    const MapPoint* point = context.map.point(last.frame.points[i]);
+    const MapPoint* point = std::as_const(context.map).point(last.frame.points[i]);
     if (point == nullptr || (last.frame.movable_in_view && point->observations.size() < 2)) continue;
     const Feature& f = (*last.frame.features)[i];
     const Eigen::Vector3d p = last_camera_from_map * point->position;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <openssl/sha.h>
 
-#include "common/map_file/atomic_file.hpp"
 #include "common/map_file/byte_reader.hpp"
 
 namespace rds::map_file {
@@ -83,10 +82,6 @@ tl::expected<Sections, std::string> sections_from_bytes(std::span<const std::uin
     sections[entry.name] = Bytes(part.begin(), part.end());
   }
   return sections;
-}
-
-tl::expected<void, std::string> write_map_file(const fs::path& file, const Sections& sections) {
-  return write_atomically(file, to_bytes(sections));
 }
 
 tl::expected<Sections, std::string> read_map_file(const fs::path& file, const FileLimits& limits) {

@@ -18,18 +18,13 @@ using Sections = std::map<std::string, Bytes>;
 
 inline constexpr std::uint32_t kFormatVersion = 2;
 
-/// The file that write_map_file() makes, as bytes: magic, version, table of sections (name, size, SHA-256 of
+/// The file as bytes: magic, version, table of sections (name, size, SHA-256 of
 /// the payload), SHA-256 of all that, payloads in the order of the table. Numbers are little-endian.
 Bytes to_bytes(const Sections& sections);
 
 /// @return the sections, or what is wrong in words that can follow "the file ": "is torn: …", "is damaged:
 /// …".
 tl::expected<Sections, std::string> sections_from_bytes(std::span<const std::uint8_t> bytes);
-
-/// Writes beside the target, flushes to the disk and renames: whatever happens, the file is the old one or
-/// the new.
-/// @return or one sentence naming the file.
-tl::expected<void, std::string> write_map_file(const std::filesystem::path& file, const Sections& sections);
 
 /// Reads a regular file.
 /// @return the sections; or one sentence naming the file and what was expected, for a file that cannot be

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <type_traits>
+#include <utility>
 
 #include "common/bus/participant.hpp"
 #include "common/topics/topics.hpp"
@@ -16,20 +14,11 @@ bus::Publisher<Message> advertise(bus::Participant& bus, const Topic<Message>& t
   return bus.advertise<Message>(topic.name, qos_of(process, topic.writers, topic.name));
 }
 
-/// Reads a topic as this process does. @throws bus::BusError; std::logic_error if it is no reader of it.
-template <class Message>
-bus::Subscription subscribe(
-    bus::Participant& bus, const Topic<Message>& topic, Process process,
-    std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
-  return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
-}
-
-/// For readers that ask who wrote a message.
-template <class Message>
-bus::Subscription subscribe(
-    bus::Participant& bus, const Topic<Message>& topic, Process process,
-    std::type_identity_t<std::function<void(std::shared_ptr<const Message>, const bus::ParticipantId&)>>
-        callback) {
+/// Reads a topic as this process does; the callback as for bus::Participant::subscribe().
+/// @throws bus::BusError; std::logic_error if it is no reader of it.
+template <class Message, class Callback>
+bus::Subscription subscribe(bus::Participant& bus, const Topic<Message>& topic, Process process,
+                            Callback callback) {
   return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `rds simulate` as a program of its own: simulate_scene --out DIR [options].
-#include "tools/rds/simulate_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Renders a recording"};

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/eval_command.hpp"
-
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "tools/evaluation/run_score.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 #include "tools/evaluation/trajectory_plot.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 
 namespace rds::tools {

@@ -2,16 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "tools/rds/doctor/doctor_command.hpp"
-#include "tools/rds/eval_command.hpp"
-#include "tools/rds/map/map_command.hpp"
-#include "tools/rds/models_command.hpp"
-#include "tools/rds/play/play_command.hpp"
-#include "tools/rds/run/run_command.hpp"
-#include "tools/rds/secure/secure_command.hpp"
-#include "tools/rds/simulate_command.hpp"
-#include "tools/rds/status/status_command.hpp"
-#include "tools/rds/topic/topic_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 
 int main(int argc, char** argv) {
   constexpr int kBadUsage = 2;

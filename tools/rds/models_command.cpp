@@ -7,6 +7,7 @@
 
 #include <fmt/ostream.h>
 
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/network_script.hpp"
 
 namespace rds::tools {

@@ -5,16 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "services/detector/models/model_store.hpp"
 
 namespace rds::tools {
-
-/// Adds `rds models list|fetch|check`, the detector's networks.
-///
-/// The callbacks print to stdout and throw std::runtime_error (one sentence) if they fail.
-void add_models_command(CLI::App& rds);
 
 /// One line per shipped network: default marker, name, its file's place or "missing", licence.
 void list_models(std::ostream& out, const detector::ModelFolders& folders);

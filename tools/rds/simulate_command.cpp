@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/simulate_command.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/simulator/dataset_writer.hpp"
 #include "tools/simulator/rendering/lens.hpp"

@@ -6,16 +6,10 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include "common/service/process/stop_signals.hpp"
+
 namespace rds {
 namespace {
-
-sigset_t interrupt_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  return signals;
-}
 
 constexpr int kKilledBy = 128;  // exit status of a process that a signal has ended, without the signal's number
 constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 100'000'000};
@@ -23,7 +17,7 @@ constexpr timespec kPollInterval{.tv_sec = 0, .tv_nsec = 100'000'000};
 }  // namespace
 
 Interrupt::Interrupt() {
-  const sigset_t signals = interrupt_signals();
+  const sigset_t signals = service::stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   waiter_ = std::jthread([this, signals](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -38,7 +32,7 @@ Interrupt::Interrupt() {
 Interrupt::~Interrupt() {
   waiter_.request_stop();
   waiter_.join();
-  const sigset_t signals = interrupt_signals();
+  const sigset_t signals = service::stop_signals();
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 

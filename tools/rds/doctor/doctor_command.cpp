@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/doctor/doctor_command.hpp"
-
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/doctor/checks/dataset_check.hpp"
 #include "tools/rds/doctor/host_check.hpp"

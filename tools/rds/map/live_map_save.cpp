@@ -2,7 +2,6 @@
 #include "tools/rds/map/live_map_save.hpp"
 
 #include <algorithm>
-#include <random>
 #include <system_error>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "common/map_file/atomic_file.hpp"
 #include "common/map_file/saved_map.hpp"
+#include "common/service/random_id.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/commander/topology.hpp"
 
@@ -24,8 +24,7 @@ constexpr std::chrono::milliseconds kStatusTime{300};
 constexpr std::chrono::seconds kCommandTime{90};  // longer than a service takes to give up
 
 std::string random_id() {
-  std::random_device device;
-  return fmt::format("{:08x}{:08x}", device(), device());
+  return fmt::format("{:016x}", service::random_id());
 }
 
 /// The services with a part of the map that answer before the deadline; all three end the wait.

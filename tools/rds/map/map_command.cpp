@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/map/map_command.hpp"
-
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/messages/json.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/map/map_diff_command.hpp"
 #include "tools/rds/map/map_export.hpp"

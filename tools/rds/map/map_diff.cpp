@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/map/map_diff.hpp"
 
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -34,7 +33,7 @@ Rgb color_of(const ColorOcTreeNode& node) {
 
 class Comparison {
  public:
-  Comparison(const ComparedMap& a, const ComparedMap& b, std::vector<DifferencePoint>* points)
+  Comparison(const ComparedMap& a, const ComparedMap& b, std::vector<ColoredPoint>* points)
       : a_(a), b_(b), labels_of_a_(a.labels), labels_of_b_(b.labels), points_(points) {}
 
   MapDifference compare() {
@@ -94,7 +93,7 @@ class Comparison {
   const ComparedMap& b_;
   mapper::ColorLabels labels_of_a_;
   mapper::ColorLabels labels_of_b_;
-  std::vector<DifferencePoint>* points_;
+  std::vector<ColoredPoint>* points_;
   MapDifference difference_;
 };
 
@@ -115,7 +114,7 @@ bool MapDifference::is_equal() const {
   return has_same_states() && other_value == 0 && other_color == 0 && relabelled.empty();
 }
 
-MapDifference compare_maps(const ComparedMap& a, const ComparedMap& b, std::vector<DifferencePoint>* points) {
+MapDifference compare_maps(const ComparedMap& a, const ComparedMap& b, std::vector<ColoredPoint>* points) {
   return Comparison(a, b, points).compare();
 }
 
@@ -150,21 +149,6 @@ std::string describe(const MapDifference& d, bool states_only) {
                         d.bounds.min().x(), d.bounds.min().y(), d.bounds.min().z(), d.bounds.max().x(),
                         d.bounds.max().y(), d.bounds.max().z());
   return text;
-}
-
-std::string to_ply(std::span<const DifferencePoint> points) {
-  std::string ply = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment red: only in A, green: only in B, blue: another label\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      points.size());
-  for (const DifferencePoint& point : points) {
-    std::array<char, 15> row{};
-    std::memcpy(row.data(), point.center.data(), 12);
-    std::memcpy(&row[12], point.rgb.data(), 3);
-    ply.append(row.data(), row.size());
-  }
-  return ply;
 }
 
 }  // namespace rds::tools

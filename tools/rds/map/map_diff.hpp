@@ -12,6 +12,8 @@
 #include <Eigen/Geometry>
 #include <octomap/ColorOcTree.h>
 
+#include "tools/rds/map/map_export.hpp"
+
 namespace rds::tools {
 
 enum class VoxelState : std::uint8_t { kUnknown, kFree, kOccupied };
@@ -40,21 +42,12 @@ struct MapDifference {
   [[nodiscard]] bool is_equal() const;
 };
 
-/// An occupied voxel of either map, for a picture of the difference.
-struct DifferencePoint {
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();  // [m]
-  std::array<std::uint8_t, 3> rgb{};
-};
-
 /// @pre both of one resolution.
-/// @param points  appended unless nullptr: occupied only in A red, only in B green, with another label blue,
-/// the rest grey.
-MapDifference compare_maps(const ComparedMap& a, const ComparedMap& b, std::vector<DifferencePoint>* points);
+/// @param points  what is occupied in either is appended unless nullptr: only in A red, only in B green, with
+/// another label blue, the rest grey.
+MapDifference compare_maps(const ComparedMap& a, const ComparedMap& b, std::vector<ColoredPoint>* points);
 
 /// The difference in words and figures, several lines.
 std::string describe(const MapDifference& difference, bool states_only);
-
-/// The points as a binary PLY file.
-std::string to_ply(std::span<const DifferencePoint> points);
 
 }  // namespace rds::tools

@@ -38,10 +38,12 @@ void diff(const DiffOptions& options) {
                                          b.tree->getResolution(), a.tree->getResolution(), options.a));
   const bool states_only = options.states_only || mapper::looks_like_binary_tree(options.a) ||
                            mapper::looks_like_binary_tree(options.b.file);
-  std::vector<DifferencePoint> points;
+  std::vector<ColoredPoint> points;
   const MapDifference difference =
       compare_maps({*a.tree, a.labels}, {*b.tree, b.labels}, options.output.empty() ? nullptr : &points);
-  if (!options.output.empty()) value_or_exit(map_file::write_atomically(options.output, to_ply(points)));
+  if (!options.output.empty())
+    value_or_exit(map_file::write_atomically(
+        options.output, to_ply(points, "red: only in A, green: only in B, blue: another label")));
   print_summary("A", options.a, a);
   print_summary("B", options.b.name(), b);
   fmt::print("{}", describe(difference, states_only));

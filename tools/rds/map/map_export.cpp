@@ -2,9 +2,8 @@
 #include "tools/rds/map/map_export.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -36,54 +35,28 @@ double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf
   return side * side * side;
 }
 
-template <class Value>
-void append(std::string& bytes, Value value) {
-  std::array<char, sizeof(Value)> raw;
-  std::memcpy(raw.data(), &value, sizeof(Value));
-  bytes.append(raw.data(), raw.size());
-}
-
-struct Points {
-  std::string bytes;
-  std::size_t count = 0;
-};
-
-/// Centres of occupied leaves as three floats, each followed by what `append_color` writes.
-template <class AppendColor>
-Points occupied_points(const ColorOcTree& tree, AppendColor append_color) {
-  Points points;
+std::vector<ColoredPoint> occupied_points(const ColorOcTree& tree) {
+  std::vector<ColoredPoint> points;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     if (!is_occupied(*leaf)) continue;
-    for (const double coordinate : {leaf.getX(), leaf.getY(), leaf.getZ()})
-      append(points.bytes, static_cast<float>(coordinate));
-    append_color(points.bytes, leaf->getColor());
-    ++points.count;
+    const auto color = leaf->getColor();
+    points.push_back({Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>(),
+                      {color.r, color.g, color.b}});
   }
   return points;
 }
 
-std::string to_ply(const ColorOcTree& tree) {
-  const Points points = occupied_points(tree, [](std::string& bytes, const ColorOcTreeNode::Color& color) {
-    for (const std::uint8_t channel : {color.r, color.g, color.b}) append(bytes, channel);
-  });
-  return fmt::format(
-             "ply\nformat binary_little_endian 1.0\ncomment occupied voxels of {} m\nelement vertex {}\n"
-             "property float x\nproperty float y\nproperty float z\n"
-             "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-             tree.getResolution(), points.count) +
-         points.bytes;
-}
-
-std::string to_pcd(const ColorOcTree& tree) {
-  const Points points = occupied_points(tree, [](std::string& bytes, const ColorOcTreeNode::Color& color) {
-    append(bytes, static_cast<std::uint32_t>(color.r << 16 | color.g << 8 | color.b));
-  });
-  return fmt::format(
-             "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
-             "{0}\n"
-             "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
-             points.count) +
-         points.bytes;
+std::string to_pcd(std::span<const ColoredPoint> points) {
+  std::string pcd = fmt::format(
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH {0}\n"
+      "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+      points.size());
+  for (const ColoredPoint& point : points) {
+    const auto rgb = static_cast<std::uint32_t>(point.rgb[0] << 16 | point.rgb[1] << 8 | point.rgb[2]);
+    pcd.append(reinterpret_cast<const char*>(point.center.data()), 12);
+    pcd.append(reinterpret_cast<const char*>(&rgb), 4);
+  }
+  return pcd;
 }
 
 /// Nodes of the tree that binary bytes describe: the root, and two bits that are not 0 for every other.
@@ -114,6 +87,19 @@ Result write_pgm(const ColorOcTree& tree, const std::filesystem::path& file, con
 
 }  // namespace
 
+std::string to_ply(std::span<const ColoredPoint> points, const std::string& comment) {
+  std::string ply = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+      comment, points.size());
+  for (const ColoredPoint& point : points) {
+    ply.append(reinterpret_cast<const char*>(point.center.data()), 12);
+    ply.append(reinterpret_cast<const char*>(point.rgb.data()), 3);
+  }
+  return ply;
+}
+
 std::string format_of(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   for (const char* format : kMapFormats)
@@ -125,8 +111,9 @@ Result export_map(const ColorOcTree& tree, const std::string& format, const std:
                   const std::string& up) {
   if (format == "ot") return mapper::write_tree(file, tree);
   if (format == "bt") return map_file::write_atomically(file, to_bt(tree));
-  if (format == "ply") return map_file::write_atomically(file, to_ply(tree));
-  if (format == "pcd") return map_file::write_atomically(file, to_pcd(tree));
+  if (format == "ply") return map_file::write_atomically(
+        file, to_ply(occupied_points(tree), fmt::format("occupied voxels of {} m", tree.getResolution())));
+  if (format == "pcd") return map_file::write_atomically(file, to_pcd(occupied_points(tree)));
   if (format == "pgm") return write_pgm(tree, file, up);
   return tl::unexpected(fmt::format("{}: format '{}', expected one of {}", file.string(), format,
                                     fmt::join(std::begin(kMapFormats), std::end(kMapFormats), ", ")));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -11,6 +13,13 @@
 #include <tl/expected.hpp>
 
 namespace rds::tools {
+
+struct ColoredPoint {
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();  // [m]
+  std::array<std::uint8_t, 3> rgb{};
+};
+/// A binary PLY file.
+std::string to_ply(std::span<const ColoredPoint> points, const std::string& comment);
 
 /// Formats a map can be written in: ot (OctoMap with colours and probabilities), bt (OctoMap, occupied or
 /// free only), ply and pcd (centres of occupied voxels with colour), pgm (2-D grid of map_server, with its

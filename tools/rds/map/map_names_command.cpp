@@ -11,25 +11,10 @@
 #include "common/map_file/named_map.hpp"
 #include "common/store/maps_folder.hpp"
 #include "tools/rds/cli/exit.hpp"
-#include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/map/live_map_save.hpp"
 
 namespace rds::tools {
 namespace {
-
-/// Calls `act` with the bus that running services are on.
-template <class Act>
-auto on_the_bus(const MapSource& source, Act act) {
-  const Interrupt interrupt;
-  try {
-    const auto participant = bus::Participant::create(source.bus.participant("rds_map"));
-    auto done = act(*participant, std::chrono::duration<double>(source.timeout_s), interrupt.token());
-    if (!done) exit_with(kExitFault, done.error());
-    return done;
-  } catch (const bus::BusError& e) {
-    exit_with(kExitFault, e.what());
-  }
-}
 
 void list(const std::string& folder) {
   const auto maps = value_or_exit(store::maps_folder({.maps_dir = folder}));

@@ -3,26 +3,8 @@
 
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/io/map_files.hpp"
-#include "tools/rds/cli/exit.hpp"
-#include "tools/rds/cli/interrupt.hpp"
 
 namespace rds::tools {
-namespace {
-
-LiveMap load_live(const MapSource& source) {
-  const Interrupt interrupt;
-  try {
-    const auto participant = bus::Participant::create(source.bus.participant("rds_map"));
-    auto map =
-        take_live_map(*participant, std::chrono::duration<double>(source.timeout_s), interrupt.token());
-    if (!map) exit_with(kExitFault, map.error());
-    return std::move(*map);
-  } catch (const bus::BusError& e) {
-    exit_with(kExitFault, e.what());
-  }
-}
-
-}  // namespace
 
 void add_live_options(CLI::App& command, MapSource& source) {
   command.add_option("--timeout", source.timeout_s, "Wait so long for the live map [s]")
@@ -42,7 +24,7 @@ LiveMap load_file(const std::filesystem::path& path) {
 }
 
 LiveMap load(const MapSource& source) {
-  return source.is_live() ? load_live(source) : load_file(source.file);
+  return source.is_live() ? std::move(*on_the_bus(source, take_live_map)) : load_file(source.file);
 }
 
 }  // namespace rds::tools

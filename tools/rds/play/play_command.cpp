@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/play/play_command.hpp"
-
 #include <chrono>
 #include <memory>
 
@@ -12,6 +10,7 @@
 #include "common/topics/endpoints.hpp"
 #include "rds_msgs/msg/TrackingState.h"
 #include "tools/rds/cli/bus_options.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/play/player.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/run/run_command.hpp"
-
 #include <csignal>
 #include <memory>
 #include <thread>
@@ -11,6 +9,7 @@
 #include "common/config/config_reader.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/io/map_files.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/commander/topology.hpp"

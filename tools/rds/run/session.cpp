@@ -40,29 +40,32 @@ Session::Session(const RunOptions& options, const image::TumDataset& dataset)
     : options_(options),
       dataset_(dataset),
       folder_(options.out, options.force),
-      domain_(options.domain ? *options.domain : domain_lock_.emplace().domain()),
-      bus_(join(options, domain_)),
+      domain_(options.domain),
+      bus_(join(options, domain_.domain())),
       recorder_(*bus_),
       commander_(*bus_),
       player_(*bus_, dataset,
               {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
-      fleet_(std::make_unique<Fleet>(service_commands(options, domain_, folder_.path()))),
+      fleet_(std::make_unique<Fleet>(service_commands(options, domain_.domain(), folder_.path()))),
       overlay_(
-          std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())) {}
+          std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),
+      progress_(player_.frame_count()) {}
 
 int Session::run(const std::stop_token& stop) {
   wait_until_connected(stop);
-  started_ = last_progress_ = Clock::now();
-  if (!stop.stop_requested()) play(stop);
-  if (!stop.stop_requested()) drain(stop);
+  progress_.start();
+  play::PlayerReport report;
+  Answers answers;
+  if (!stop.stop_requested()) report = play(stop);
+  if (!stop.stop_requested()) answers = drain(stop);
   Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
   fleet_->stop(kStopLimit);
   overlay_->finish();
   if (stop.stop_requested()) {
-    fmt::print(stderr, "stopped after {} frames, nothing is written\n", played_);
+    fmt::print(stderr, "stopped after {} frames, nothing is written\n", progress_.played());
     return 1;
   }
-  write_results(std::move(recording));
+  write_results(std::move(recording), report, answers);
   return fleet_->healthy() && complete_ ? 0 : 1;
 }
 
@@ -83,15 +86,16 @@ void Session::wait_until_connected(const std::stop_token& stop) {
   }
 }
 
-void Session::play(const std::stop_token& stop) {
-  report_ = player_.run(stop, [&](const image::RgbdFrame& frame, std::size_t index) {
+play::PlayerReport Session::play(const std::stop_token& stop) {
+  play::PlayerReport report = player_.run(stop, [&](const image::RgbdFrame& frame, std::size_t index) {
     return after_frame(frame, index, stop);
   });
-  if (report_.played == 0 && report_.unreadable > 0)
-    throw std::runtime_error(fmt::format("no frame can be read: {}", report_.first_error));
-  if (report_.unreadable > 0)
-    fmt::print(stderr, "{} frames could not be read and were skipped: {}\n", report_.unreadable,
-               report_.first_error);
+  if (report.played == 0 && report.unreadable > 0)
+    throw std::runtime_error(fmt::format("no frame can be read: {}", report.first_error));
+  if (report.unreadable > 0)
+    fmt::print(stderr, "{} frames could not be read and were skipped: {}\n", report.unreadable,
+               report.first_error);
+  return report;
 }
 
 bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
@@ -103,23 +107,14 @@ bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, cons
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
   fleet_->watch();
-  show_progress(++played_);
+  progress_.add_frame(recorder_.keyframes());
   return true;
-}
-
-void Session::show_progress(std::size_t played) {
-  const auto now = Clock::now();
-  if (now - last_progress_ < seconds(1) && played < player_.frame_count()) return;
-  last_progress_ = now;
-  const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-  fmt::print(stderr, "\rframe {}/{}  {:.1f} frames/s  {} keyframes ", played, player_.frame_count(),
-             static_cast<double>(played) / elapsed_s, recorder_.keyframes());
-  if (played == player_.frame_count()) fmt::print(stderr, "\n");
 }
 
 /// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing
 /// left to do.
-void Session::drain(const std::stop_token& stop) {
+Session::Answers Session::drain(const std::stop_token& stop) {
+  Answers answers;
   const Recording so_far = recorder_.recording();
   if (!so_far.frames.empty())
     recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
@@ -131,11 +126,12 @@ void Session::drain(const std::stop_token& stop) {
            fmt::format("the final keyframe poses (revision {}) did not arrive within {} s", revision,
                        kAcknowledgeLimit.count()),
            stop);
-    keyframes_in_map_ = json.value("keyframes_in_map", std::uint64_t{0});
+    answers.keyframes_in_map = json.value("keyframes_in_map", std::uint64_t{0});
   }
-  map_description_ = ask(kMapper, "finish", final_poses, stop);
+  answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
-  status_ = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
+  answers.status = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
+  return answers;
 }
 
 /// Every service that has a part of the map writes it; together they are map.rds.
@@ -174,17 +170,17 @@ std::string Session::ask(const std::string& service, const std::string& verb, co
   return {};
 }
 
-void Session::write_results(Recording recording) {
-  const double wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
-  recording.keyframes_in_map = keyframes_in_map_;
+void Session::write_results(Recording recording, const play::PlayerReport& report, const Answers& answers) {
+  const double wall_s = progress_.elapsed_s();
+  recording.keyframes_in_map = answers.keyframes_in_map;
   write_all_results({options_,
                      recording,
-                     report_,
+                     report,
                      fleet_->usage(),
-                     status_,
+                     answers.status,
                      player_.frame_count(),
                      wall_s,
-                     map_description_,
+                     answers.map_description,
                      {},
                      {}},
                     dataset_, folder_.path());

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/output/output_folder.hpp"
+#include "tools/rds/run/progress.hpp"
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
 #include "tools/rds/run/services/domain_lock.hpp"
@@ -29,36 +31,34 @@ class Session {
   int run(const std::stop_token& stop);
 
  private:
+  /// What the services answered when all frames were played.
+  struct Answers {
+    std::map<std::string, std::string> status;
+    std::string map_description;
+    std::uint64_t keyframes_in_map = 0;
+  };
   void wait_until_connected(const std::stop_token& stop);
-  void play(const std::stop_token& stop);
+  play::PlayerReport play(const std::stop_token& stop);
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
-  void show_progress(std::size_t played);
-  void drain(const std::stop_token& stop);
+  Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
-  void write_results(Recording recording);
+  void write_results(Recording recording, const play::PlayerReport& report, const Answers& answers);
 
   const RunOptions& options_;
   const image::TumDataset& dataset_;
   OutputFolder folder_;
-  std::optional<DomainLock> domain_lock_;  // unless the user chose a domain
-  int domain_;
+  DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   Recorder recorder_;
   Commander commander_;
   play::Player player_;
   std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<OverlayWriter> overlay_;
-  play::PlayerReport report_;
-  std::map<std::string, std::string> status_;
-  std::string map_description_;
-  std::uint64_t keyframes_in_map_ = 0;
-  std::chrono::steady_clock::time_point started_;
-  std::chrono::steady_clock::time_point last_progress_;
-  std::size_t played_ = 0;
+  Progress progress_;
   bool complete_ = true;  // nothing timed out
 };
 

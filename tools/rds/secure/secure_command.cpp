@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/secure/secure_command.hpp"
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/secure/secure_folder.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/status/status_command.hpp"
-
 #include <chrono>
 #include <memory>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "common/messages/json.hpp"
 #include "tools/rds/cli/bus_options.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/wait.hpp"

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/map_file/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::map_file {
@@ -21,7 +22,7 @@ void write_bytes(const std::filesystem::path& file, const Bytes& bytes) {
 
 TEST(MapFile, ComesBackAsItWasWritten) {
   const test::TemporaryFolder place;
-  ASSERT_TRUE(write_map_file(place / "map.rds", kSections));
+  ASSERT_TRUE(write_atomically(place / "map.rds", to_bytes(kSections)));
   const auto read = read_map_file(place / "map.rds");
   ASSERT_TRUE(read) << read.error();
   EXPECT_EQ(*read, kSections);
@@ -75,7 +76,7 @@ TEST(MapFile, SaysWhichFileAndWhatWasExpected) {
 TEST(MapFile, LeavesTheOldFileWhenItCannotBeWritten) {
   const test::TemporaryFolder place;
   test::write_text(place / "map.rds/occupied", "a folder in the way");
-  const auto written = write_map_file(place / "map.rds", kSections);
+  const auto written = write_atomically(place / "map.rds", to_bytes(kSections));
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error(), HasSubstr("map.rds: cannot be written"));
   EXPECT_TRUE(exists(place / "map.rds/occupied"));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/map_file/atomic_file.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -42,7 +43,7 @@ TEST_F(NamedMap, IsOpenedBelowTheFolderOfMapsAndNeverThroughALink) {
 
 TEST_F(NamedMap, AreListedByNameWithTheirParts) {
   fs::create_directories(maps / "kitchen");
-  ASSERT_TRUE(write_map_file(maps / "kitchen" / kMapFile, {{kTracker, {1}}, {kMapper, {2}}, {kKeyframePoses, {}}}));
+  ASSERT_TRUE(write_atomically(maps / "kitchen" / kMapFile, to_bytes(Sections{{kTracker, {1}}, {kMapper, {2}}, {kKeyframePoses, {}}})));
   test::write_text(maps / "broken" / kMapFile, "broken");
   test::write_text(maps / "checkpoints" / kMapFile, "");
   test::write_text(maps / "no_map" / "file", "");

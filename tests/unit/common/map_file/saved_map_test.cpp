@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/map_file/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::map_file {
@@ -12,7 +13,7 @@ using ::testing::HasSubstr;
 
 class SavedMap : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_TRUE(write_map_file(place_ / kMapFile, all_)); }
+  void SetUp() override { ASSERT_TRUE(write_atomically(place_ / kMapFile, to_bytes(all_))); }
   const Sections all_{{kTracker, {1}}, {kKeyframePoses, {2}}, {kMapper, {3}}};
   test::TemporaryFolder place_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/eval_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

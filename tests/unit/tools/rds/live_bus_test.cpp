@@ -11,7 +11,7 @@
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/rds/map/live_map.hpp"
-#include "tools/rds/map/map_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/topic/topic_reader.hpp"
 
 namespace rds::tools {

@@ -6,7 +6,7 @@
 #include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/map/map_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/map/map_export.hpp"
 
 namespace rds::tools {
@@ -33,7 +33,7 @@ class MapDiff : public testing::Test {
       set(*tree, 0.15, -0.4F);
     }
   }
-  MapDifference difference(std::vector<DifferencePoint>* points = nullptr) {
+  MapDifference difference(std::vector<ColoredPoint>* points = nullptr) {
     return compare_maps({a, kLabels}, {b, kLabels}, points);
   }
   /// Exit status of `rds map diff` with the two maps as files.
@@ -102,7 +102,7 @@ TEST_F(MapDiff, TellsValuesColorsAndLabels) {
 TEST_F(MapDiff, DrawsWhatDiffers) {
   set(a, 0.25, 0.85F);
   set(b, 0.35, 0.85F);
-  std::vector<DifferencePoint> points;
+  std::vector<ColoredPoint> points;
   difference(&points);
   ASSERT_EQ(points.size(), 3U);
   EXPECT_NEAR(points[1].center.x(), 0.25, 1e-5);

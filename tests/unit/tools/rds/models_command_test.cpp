@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tools/rds/cli/commands.hpp"
 #include "tools/rds/network_script.hpp"
 
 namespace rds::tools {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/simulate_command.hpp"
+#include "tools/rds/cli/commands.hpp"
 
 #include <filesystem>
 

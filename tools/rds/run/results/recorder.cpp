@@ -75,9 +75,7 @@ void Recorder::subscribe(bus::Participant& bus, const topics::Topic<Message>& to
                          void (Recorder::*take)(const Message&)) {
   subscriptions_.push_back(
       topics::subscribe(bus, topic, topics::kPlayer,
-                        [this, take](std::shared_ptr<const Message> m, const bus::ParticipantId& writer) {
-                          if (owners_.owns(writer, m->instance())) (this->*take)(*m);
-                        }));
+                        owners_.only_owned([this, take](const auto& m) { (this->*take)(*m); }, [] {})));
 }
 
 void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "tools/evaluation/statistics.hpp"
+
 namespace rds::run {
 namespace {
 
+using evaluation::percentile;
 using nlohmann::ordered_json;
 
 double rounded(double value) {
@@ -17,11 +20,12 @@ double rounded(double value) {
 ordered_json distribution(const Recording& recording, double FrameRecord::*field) {
   std::vector<double> values;
   for (const auto& [stamp, frame] : recording.frames) values.push_back(frame.*field);
+  if (values.empty()) values.push_back(0);
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  return {{"mean", rounded(values.empty() ? 0 : sum / static_cast<double>(values.size()))},
-          {"median", rounded(quantile(values, 0.5))},
-          {"p95", rounded(quantile(values, 0.95))},
-          {"p99", rounded(quantile(values, 0.99))}};
+  return {{"mean", rounded(sum / static_cast<double>(values.size()))},
+          {"median", rounded(percentile(values, 50))},
+          {"p95", rounded(percentile(values, 95))},
+          {"p99", rounded(percentile(values, 99))}};
 }
 
 ordered_json frames_json(const SummaryInput& in) {
@@ -86,15 +90,6 @@ ordered_json topics_json(const SummaryInput& in) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const double rank = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (rank - static_cast<double>(below)) * (values[above] - values[below]);
-}
 
 ordered_json summarize(const SummaryInput& in) {
   ordered_json json{

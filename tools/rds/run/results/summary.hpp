@@ -34,7 +34,4 @@ struct SummaryInput {
 /// process; traffic per topic; ATE.
 nlohmann::ordered_json summarize(const SummaryInput& input);
 
-/// Quantile (0 … 1) by linear interpolation between ranks; 0 for no values.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace rds::run

@@ -17,7 +17,8 @@ constexpr int kFirst = 30;
 constexpr int kLast = 100;
 }  // namespace
 
-DomainLock::DomainLock() {
+DomainLock::DomainLock(std::optional<int> chosen) : domain_(chosen.value_or(-1)) {
+  if (chosen) return;
   const auto folder = std::filesystem::temp_directory_path();
   for (int domain = kFirst; domain <= kLast; ++domain) {
     const auto path = folder / fmt::format("rds-slam-domain-{}.lock", domain);
@@ -33,7 +34,7 @@ DomainLock::DomainLock() {
 }
 
 DomainLock::~DomainLock() {
-  close(fd_);
+  if (fd_ >= 0) close(fd_);
 }
 
 }  // namespace rds::run

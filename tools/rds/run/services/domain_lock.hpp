@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 namespace rds::run {
 
-/// A DDS domain that no other `rds run` on this machine uses, held until destruction.
+/// The DDS domain of a run: the user's choice, or one that no other `rds run` on this machine uses, held until
+/// destruction.
 class DomainLock {
  public:
   /// @throws std::runtime_error if all are taken.
-  DomainLock();
+  explicit DomainLock(std::optional<int> chosen = {});
   ~DomainLock();
   DomainLock(const DomainLock&) = delete;
   DomainLock& operator=(const DomainLock&) = delete;

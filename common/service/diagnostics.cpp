@@ -13,8 +13,8 @@ namespace rds::service {
 namespace {
 
 constexpr std::chrono::seconds kLogInterval{10};
-constexpr std::array<std::string_view, kRejections> kNames{"invalid", "foreign", "outdated", "unexpected",
-                                                           "failed"};
+constexpr std::array<std::string_view, kRejections> kNames{"invalid",  "foreign",    "forged",
+                                                           "outdated", "unexpected", "failed"};
 
 }  // namespace
 

@@ -33,13 +33,14 @@ class LatencyWindow {
 /// Why a message was not used. The codes are few and fixed, so that what a service keeps and publishes about
 /// rejected messages never grows with what others send.
 enum class Rejection : std::uint8_t {
-  kInvalid,      // its contents are impossible: sizes, encodings, numbers that are not finite
-  kForeign,      // of another tracker or loop closer than the one that is followed
-  kOutdated,     // of a map epoch that is over, or older than what is known
-  kUnexpected,   // nobody waits for it (any more)
-  kFailed,       // processing it failed with an exception
+  kInvalid,     // its contents are impossible: sizes, encodings, numbers that are not finite
+  kForeign,     // of another tracker or loop closer than the one that is followed
+  kForged,      // written in another one's name: an instance has one writer
+  kOutdated,    // of a map epoch that is over, or older than what is known
+  kUnexpected,  // nobody waits for it (any more)
+  kFailed,      // processing it failed with an exception
 };
-inline constexpr std::size_t kRejections = 5;
+inline constexpr std::size_t kRejections = 6;
 std::string_view name_of(Rejection rejection);
 
 /// What a process tells about itself once a second on `diagnostics`: counters, latencies, queue depths.

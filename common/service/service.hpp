@@ -116,7 +116,7 @@ class Service {
       std::type_identity_t<std::function<void(std::shared_ptr<const Message>)>> callback) {
     return topics::subscribe(
         context_.bus, topic, process, owners_.only_owned(std::move(callback), [this, name = topic.name] {
-          context_.diagnostics.reject(name, Rejection::kForeign, "written in another one's name");
+          context_.diagnostics.reject(name, Rejection::kForged, "written in another one's name");
         }));
   }
 

@@ -17,7 +17,7 @@ using PointId = std::uint64_t;
 inline constexpr std::uint64_t kNoId = std::numeric_limits<std::uint64_t>::max();
 /// Ids from here on are no keyframe's or point's: files that name them are wrong.
 inline constexpr KeyframeId kMaxKeyframes = 100'000'000;
-inline constexpr PointId kMaxPoints = 2'000'000'000;
+inline constexpr PointId kMaxPoints = 100'000'000'000;
 
 /// A feature of a keyframe that sees a map point.
 struct Observation {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/map/slam_map.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "services/tracker/core/map/covisibility.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
@@ -141,6 +144,33 @@ TEST(IdTable, FindsWhatIsThereAndFreesWhatIsNot) {
   EXPECT_EQ(table.find(12345), nullptr);
   EXPECT_NE(table.find(999), nullptr);
   EXPECT_EQ(table.next_id(), 1000U);
+}
+
+TEST(IdTable, IdsThatAreLeftOutCostNextToNothing) {
+  constexpr std::uint64_t kLeftOut = 10'000'000;  // with each restart
+  constexpr std::uint64_t kRestarts = 1000;
+  const auto allocated = [] {
+    const auto heap = mallinfo2();
+    return heap.uordblks + heap.hblkhd;
+  };
+  const std::size_t before = allocated();
+  IdTable<int> table;
+  for (std::uint64_t restart = 0; restart < kRestarts; ++restart) {
+    table.skip_to(table.next_id() + kLeftOut);
+    table.emplace(static_cast<int>(restart));
+  }
+  EXPECT_LE(allocated() - before, 20'000'000U);
+  std::vector<int> seen;
+  const IdTable<int> copy = table;
+  copy.for_each([&](int restart) { seen.push_back(restart); }, 500 * kLeftOut);
+  EXPECT_EQ(seen.size(), kRestarts - 499);
+  EXPECT_TRUE(std::ranges::is_sorted(seen));
+  ASSERT_NE(copy.find(kLeftOut), nullptr);
+  EXPECT_EQ(*copy.find(kLeftOut), 0);
+  EXPECT_EQ(table.take_touched().size(), kRestarts);
+  EXPECT_TRUE(table.take_touched().empty());
+  table.erase(kLeftOut);
+  EXPECT_EQ(table.take_touched(), std::vector<std::size_t>{kLeftOut / IdTable<int>::kBlock});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
+#include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
 #include "common/service/service_process.hpp"
 
@@ -86,6 +87,7 @@ int start(const std::string& name, const Options& options,
 }  // namespace
 
 void give_way(int nice) {
+  if (nice > 0) share_freed_memory();
   if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
 }
 

@@ -139,7 +139,8 @@ using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&)>;
 int run_service(const std::string& name, int argc, char** argv,
                 const std::function<ServiceFactory(config::ConfigReader&)>& read);
 
-/// Lowers the priority of the process; says so where that is not allowed.
+/// Lowers the priority of the process, and lets its threads share freed memory if that is above 0; says so
+/// where the priority is not allowed. Call before there are threads.
 void give_way(int nice);
 
 /// run_service() for a service whose configuration is read by `read(ConfigReader&, Config&)`; the process

@@ -13,6 +13,10 @@ constexpr std::size_t kMuch = 32ULL * 1024 * 1024;  // bytes
 
 }  // namespace
 
+void share_freed_memory() {
+  mallopt(M_ARENA_MAX, 1);
+}
+
 void FreedMemory::look() {
   if (++calls_ % kPeriod != 0) return;
   const bool is_much = mallinfo2().fordblks > kMuch;

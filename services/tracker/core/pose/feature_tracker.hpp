@@ -49,7 +49,6 @@ class FeatureTracker {
   bool estimate_from_keyframe(const TrackingContext& context, TrackedFrame& frame) const;
 
   std::unique_ptr<FeatureExtractor> extractor_;
-  int min_keyframe_matches_;
   std::optional<LastFrame> last_;
   KeyframeId reference_ = kNoId;
   KeyframeId newest_keyframe_ = kNoId;

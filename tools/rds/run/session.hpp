@@ -10,6 +10,7 @@
 #include "common/image/tum_dataset.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
+#include "tools/rds/run/far/far_machines.hpp"
 #include "tools/rds/run/output/output_folder.hpp"
 #include "tools/rds/run/progress.hpp"
 #include "tools/rds/run/results/overlay_writer.hpp"
@@ -20,12 +21,19 @@
 
 namespace rds::run {
 
+/// The other machines of a run.
+struct Elsewhere {
+  hosts::HostsFile hosts;
+  std::string here;  // the name of this one
+};
+
 /// One `rds run`: starts the services, plays the recording, waits until everything has drained, writes the
 /// results.
 class Session {
  public:
   /// @throws std::runtime_error with one sentence when the run cannot start.
-  Session(const RunOptions& options, const image::TumDataset& dataset);
+  Session(const RunOptions& options, const image::TumDataset& dataset,
+          const std::optional<Elsewhere>& elsewhere = {});
 
   /// @return the process's exit status: 0 if every service stayed healthy, 1 otherwise.
   int run(const std::stop_token& stop);
@@ -43,10 +51,15 @@ class Session {
   Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
+  std::map<std::string, ServiceUsage> stop_services(const std::stop_token& stop);
+  void watch();
+  [[nodiscard]] std::set<std::string> services() const;
+  [[nodiscard]] bool alive(const std::string& service) const;
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
-  void write_results(Recording recording, const play::PlayerReport& report, const Answers& answers);
+  void write_results(Recording recording, const play::PlayerReport& report, const Answers& answers,
+                     const std::map<std::string, ServiceUsage>& usage);
 
   const RunOptions& options_;
   const image::TumDataset& dataset_;
@@ -56,6 +69,7 @@ class Session {
   Recorder recorder_;
   Commander commander_;
   play::Player player_;
+  std::optional<FarMachines> far_;
   std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;

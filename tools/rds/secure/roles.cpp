@@ -37,7 +37,7 @@ std::vector<Role> roles(const Topics& camera_topics) {
       {"reader",
        {},
        Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
-      {"player", camera_topics, {topics::kTrackingState.name}},
+      {"player", camera_topics, {topics::kTrackingState.name, topics::kServiceStatus.name}},
       {"camera", camera_topics, {}},
   };
 }

@@ -2,7 +2,6 @@
 #include "services/tracker/tracker_service.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -17,20 +16,12 @@
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
+#include "services/tracker/steady_time.hpp"
 
 namespace rds::tracker {
 namespace {
 
 constexpr std::uint8_t kLoop = 1;
-
-std::int64_t now_us() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
-
-std::uint32_t microseconds_since(std::int64_t start_us) {
-  return static_cast<std::uint32_t>(now_us() - start_us);
-}
 
 /// On the calling thread, the worker, and on a helper of its own.
 Executor executor_with_helper() {
@@ -122,16 +113,15 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   const std::int64_t project_started_us = now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += microseconds_since(project_started_us);
-  const std::uint32_t total_us = microseconds_since(started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   outputs_.publish(
-      {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), objects_.observed()});
+      {frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(), objects_.observed()});
   if (result.keyframe) {
     publish_poses();
     epoch_.note_keyframe();
   }
   start_mapping();
-  context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
+  context_.diagnostics.latency("frame").add_ms(microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();
 }
@@ -140,7 +130,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes().size() > 0) result.state = State::kLost;
-  outputs_.publish({frame, result, {}, frame_index_, 0, 0, input_.dropped(), objects_.observed()});
+  outputs_.publish({frame, result, {}, frame_index_, 0, now_us(), input_.dropped(), objects_.observed()});
   ++frame_index_;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,6 +49,7 @@ class Session {
   void wait_until_connected(const std::stop_token& stop);
   play::PlayerReport play(const std::stop_token& stop);
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
+  void wait_for_frames(std::size_t left, const std::stop_token& stop);
   Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
@@ -73,7 +75,8 @@ class Session {
   std::unique_ptr<Fleet> fleet_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;
-  bool complete_ = true;  // nothing timed out
+  std::deque<std::int64_t> under_way_;  // stamps of frames that are not known to be acknowledged, in lockstep
+  bool complete_ = true;                // nothing timed out
 };
 
 }  // namespace rds::run

@@ -13,10 +13,10 @@
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/possible_poses.hpp"
+#include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
-#include "services/tracker/steady_time.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -36,7 +36,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               executor_with_helper(), now_us),
+               executor_with_helper(), time::now_us),
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, epoch_.id()),
@@ -103,16 +103,16 @@ void TrackerService::begin_after_break() {
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (epoch_.is_of_another_camera(frame)) reset();
   answers_.await(frame_index_, epoch_.id(), stop_, [this] { beat(); });
-  const std::int64_t started_us = now_us();
+  const std::int64_t started_us = time::now_us();
   apply_answers();
-  const std::int64_t predict_started_us = now_us();
+  const std::int64_t predict_started_us = time::now_us();
   const auto regions =
       objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
-  std::uint32_t predict_us = microseconds_since(predict_started_us);
+  std::uint32_t predict_us = time::microseconds_since(predict_started_us);
   const FrameResult result = tracker_.track(frame, regions);
-  const std::int64_t project_started_us = now_us();
+  const std::int64_t project_started_us = time::now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
-  predict_us += microseconds_since(project_started_us);
+  predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   outputs_.publish(
       {frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(), objects_.observed()});
@@ -121,7 +121,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
     epoch_.note_keyframe();
   }
   start_mapping();
-  context_.diagnostics.latency("frame").add_ms(microseconds_since(started_us) / 1e3);
+  context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();
 }
@@ -130,7 +130,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes().size() > 0) result.state = State::kLost;
-  outputs_.publish({frame, result, {}, frame_index_, 0, now_us(), input_.dropped(), objects_.observed()});
+  outputs_.publish({frame, result, {}, frame_index_, 0, time::now_us(), input_.dropped(), objects_.observed()});
   ++frame_index_;
 }
 

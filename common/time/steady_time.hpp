@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace rds::tracker {
+namespace rds::time {
 
 /// Of a clock that never steps.
 inline std::int64_t now_us() {
@@ -16,4 +16,4 @@ inline std::uint32_t microseconds_since(std::int64_t start_us) {
   return static_cast<std::uint32_t>(now_us() - start_us);
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::time

@@ -26,7 +26,6 @@ constexpr seconds kAcknowledgeLimit{30};
 constexpr std::size_t kFramesUnderWay = 2;    // the camera's topics hold 5
 constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
 constexpr seconds kFinishLimit{120};
-constexpr milliseconds kStopLimit{2500};
 const std::string kMapName = "map";
 const std::string kPartsFolder = kMapsFolder + "/.saving";  // of the map, until all are there
 
@@ -43,15 +42,14 @@ Session::Session(const RunOptions& options, const image::TumDataset& dataset,
       commander_(*bus_),
       player_(*bus_, dataset,
               {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
-      fleet_(std::make_unique<Fleet>(service_commands(options, domain_.domain(), folder_.path()))),
+      services_(
+          std::make_unique<RunServices>(options, domain_.domain(), folder_.path(), *bus_, elsewhere)),
       overlay_(
           std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),
-      progress_(player_.frame_count()) {
-  if (elsewhere) far_.emplace(*bus_, options, elsewhere->hosts, elsewhere->here);
-}
+      progress_(player_.frame_count()) {}
 
 int Session::run(const std::stop_token& stop) {
-  if (far_) far_->begin(stop);
+  services_->begin_elsewhere(stop);
   wait_until_connected(stop);
   progress_.start();
   play::PlayerReport report;
@@ -59,7 +57,7 @@ int Session::run(const std::stop_token& stop) {
   if (!stop.stop_requested()) report = play(stop);
   if (!stop.stop_requested()) answers = drain(stop);
   Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
-  const auto usage = stop_services(stop);
+  const auto usage = services_->stop(stop);
   overlay_->finish();
   if (stop.stop_requested()) {
     fmt::print(stderr, "stopped after {} frames, nothing is written\n", progress_.played());
@@ -70,43 +68,17 @@ int Session::run(const std::stop_token& stop) {
   return complete_ && std::ranges::none_of(usage, failed) ? 0 : 1;
 }
 
-/// On all machines; what the services of others leave is brought here.
-std::map<std::string, ServiceUsage> Session::stop_services(const std::stop_token& stop) {
-  fleet_->stop(kStopLimit);
-  auto usage = fleet_->usage();
-  if (!far_ || stop.stop_requested()) return usage;
-  usage.merge(far_->stop_services(stop));
-  for (const char* folder : {"log", "config"}) far_->fetch(folder, folder_.path(), stop);
-  far_->leave(stop);
-  return usage;
-}
-
-void Session::watch() {
-  fleet_->watch();
-  if (far_) far_->watch();
-}
-
-std::set<std::string> Session::services() const {
-  std::set<std::string> all = fleet_->names();
-  if (far_) all.merge(far_->services());
-  return all;
-}
-
-bool Session::alive(const std::string& service) const {
-  return fleet_->alive(service) || (far_ && far_->alive(service));
-}
-
 void Session::wait_until_connected(const std::stop_token& stop) {
-  std::set<std::string> running = services();
+  std::set<std::string> running = services_->names();
   const std::size_t services = running.size();
   running.insert(kPlayer);
-  const std::set<std::string> far = far_ ? far_->services() : std::set<std::string>{};
   const auto deadline = Clock::now() + kConnectLimit;
   std::vector<std::string> missing;
   while (!stop.stop_requested()) {
-    watch();
+    services_->watch();
     const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
-    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only, far);
+    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only,
+                            services_->elsewhere());
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
@@ -131,10 +103,10 @@ bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, cons
   if (options_.lockstep()) {
     under_way_.push_back(frame.stamp_ns);
     wait_for_frames(kFramesUnderWay, stop);
-    if (alive(kMapper) && !options_.localize_only)
+    if (services_->alive(kMapper) && !options_.localize_only)
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
-  watch();
+  services_->watch();
   progress_.add_frame(recorder_.keyframes());
   return true;
 }
@@ -174,7 +146,7 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   }
   answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
-  answers.status = commander_.ask_status(services().size(), stop, seconds(2));
+  answers.status = commander_.ask_status(services_->names().size(), stop, seconds(2));
   return answers;
 }
 
@@ -184,10 +156,10 @@ void Session::save_map(const std::stop_token& stop) {
   nlohmann::json order{{"name", kMapName}, {"id", "run"}, {"parts", nlohmann::json::array()}};
   std::vector<std::string> services;
   for (const std::string& service : {kMapper, kLoopCloser, kTracker})
-    if (alive(service)) services.push_back(service);
+    if (services_->alive(service)) services.push_back(service);
   for (const std::string& service : services) order["parts"].push_back(part_of(service));
   for (const std::string& service : services) {
-    if (far_ && service == kTracker) far_->fetch(kPartsFolder, folder_.path(), stop);
+    if (service == kTracker) services_->fetch(kPartsFolder, stop);
     ask(service, "save", order.dump(), stop);
   }
   if (!stop.stop_requested()) take_map_files();
@@ -211,7 +183,7 @@ void Session::expect(bool holds, const std::string& otherwise, const std::stop_t
 /// @return the answer; empty, and the run is not complete, if the command failed.
 std::string Session::ask(const std::string& service, const std::string& verb, const std::string& argument,
                          const std::stop_token& stop) {
-  watch();
+  services_->watch();
   const auto reply = commander_.ask(service, verb, argument, stop, kFinishLimit);
   if (reply && reply->success) return reply->message;
   expect(false, fmt::format("{} {}: {}", service, verb, reply ? reply->message : "no answer"), stop);

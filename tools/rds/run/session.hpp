@@ -11,22 +11,14 @@
 #include "common/image/tum_dataset.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
-#include "tools/rds/run/far/far_machines.hpp"
 #include "tools/rds/run/output/output_folder.hpp"
 #include "tools/rds/run/progress.hpp"
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
 #include "tools/rds/run/services/domain_lock.hpp"
-#include "tools/rds/run/services/fleet.hpp"
-#include "tools/rds/run/services/run_options.hpp"
+#include "tools/rds/run/run_services.hpp"
 
 namespace rds::run {
-
-/// The other machines of a run.
-struct Elsewhere {
-  hosts::HostsFile hosts;
-  std::string here;  // the name of this one
-};
 
 /// One `rds run`: starts the services, plays the recording, waits until everything has drained, writes the
 /// results.
@@ -53,10 +45,6 @@ class Session {
   Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
-  std::map<std::string, ServiceUsage> stop_services(const std::stop_token& stop);
-  void watch();
-  [[nodiscard]] std::set<std::string> services() const;
-  [[nodiscard]] bool alive(const std::string& service) const;
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
@@ -71,8 +59,7 @@ class Session {
   Recorder recorder_;
   Commander commander_;
   play::Player player_;
-  std::optional<FarMachines> far_;
-  std::unique_ptr<Fleet> fleet_;
+  std::unique_ptr<RunServices> services_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;
   std::deque<std::int64_t> under_way_;  // stamps of frames that are not known to be acknowledged, in lockstep

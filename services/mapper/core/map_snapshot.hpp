@@ -35,6 +35,10 @@ struct MapPoints {
 /// @param tree  of the snapshot's nodes.
 MapPoints points_of(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
+/// All voxels as a delta from revision 0; what it says of map, revision and keyframe is left open.
+/// @param tree  of the snapshot's nodes.
+MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
+
 /// What MapInfo says of a tree.
 struct MapExtent {
   std::uint64_t occupied = 0;                     // voxels

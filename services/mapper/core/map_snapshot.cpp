@@ -81,8 +81,8 @@ MapPoints points_of(const ColorOcTree& tree, const MapSnapshot& snapshot) {
   return points;
 }
 
-MapDelta whole_map(const ColorOcTree& tree, const MapSnapshot& snapshot) {
-  MapDelta delta;
+MapDelta whole_map(const ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head) {
+  MapDelta delta = head;
   delta.resolution = snapshot.resolution;
   std::size_t row = 0;
   for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {

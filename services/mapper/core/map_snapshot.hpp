@@ -35,9 +35,9 @@ struct MapPoints {
 /// @param tree  of the snapshot's nodes.
 MapPoints points_of(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
-/// All voxels as a delta from revision 0; what it says of map, revision and keyframe is left open.
-/// @param tree  of the snapshot's nodes.
-MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
+/// All voxels as a delta from revision 0.
+/// @param tree  of the snapshot's nodes. @param head  a delta without arrays that says map, revision, keyframe.
+MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head);
 
 /// What MapInfo says of a tree.
 struct MapExtent {

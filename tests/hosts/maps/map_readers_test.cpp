@@ -13,7 +13,7 @@ namespace {
 std::vector<MapRow> rows() {
   std::vector<MapRow> rows;
   for (const bus::Vendor vendor : {bus::Vendor::kFastDds, bus::Vendor::kCycloneDds})
-    for (const SlowReaders readers : {SlowReaders::kNone, SlowReaders::kTopics})
+    for (const SlowReaders readers : {SlowReaders::kNone, SlowReaders::kTopics, SlowReaders::kTransfer})
       rows.push_back({.vendor = vendor, .readers = readers});
   return rows;
 }

@@ -28,6 +28,10 @@ constexpr double kReadersComeS = 6;  // of the recording
 const std::string kSlow = "D";
 const std::string kFast = "A";
 
+std::string name_of(SlowReaders readers) {
+  return readers == SlowReaders::kNone ? "nobody" : readers == SlowReaders::kTopics ? "topics" : "transfer";
+}
+
 /// Of all threads of a process [s].
 double cpu_s(pid_t process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
@@ -42,8 +46,7 @@ double cpu_s(pid_t process) {
 }  // namespace
 
 std::string MapRow::label() const {
-  const std::string who = readers == SlowReaders::kNone ? "nobody" : "topics";
-  return fmt::format("{}_{}_mbit_{}", who, rate_mbit, bus::name_of(vendor));
+  return fmt::format("{}_{}_mbit_{}", name_of(readers), rate_mbit, bus::name_of(vendor));
 }
 
 void PrintTo(const MapRow& row, std::ostream* out) {
@@ -135,7 +138,7 @@ void MapTrial::start_readers() {
   if (row_.readers == SlowReaders::kNone) return;
   while (followers_.size() < kFollowers)
     followers_.push_back(std::make_unique<Process>(network_.on(
-        kSlow, {RDS_MAP_FOLLOWER, bus::name_of(row_.vendor), std::to_string(domain_.domain())})));
+        kSlow, {RDS_MAP_FOLLOWER, bus::name_of(row_.vendor), std::to_string(domain_.domain()), name_of(row_.readers)})));
 }
 
 }  // namespace rds::test

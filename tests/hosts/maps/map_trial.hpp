@@ -18,7 +18,7 @@
 namespace rds::test {
 
 /// Who reads the map on the slow machine: two of these.
-enum class SlowReaders { kNone, kTopics };
+enum class SlowReaders { kNone, kTopics, kTransfer };
 
 struct MapRow {
   bus::Vendor vendor = bus::Vendor::kFastDds;

@@ -29,6 +29,15 @@ std::vector<std::uint8_t> pack(const MapUpdate& update);
 /// kBytesPerByte times that of the frame; the arrays fit each other, and no voxel comes twice.
 tl::expected<MapUpdate, std::string> unpack_update(std::span<const std::uint8_t> bytes);
 
+/// What an update is to bring a reader from one revision to another, or further.
+struct UpdateSpan {
+  std::uint64_t since = 0;  // 0: the reader has nothing
+  std::uint64_t until = 0;
+};
+/// The revisions in one number: the first one in its upper half. Revisions below 2^32.
+constexpr std::uint64_t update_number(const UpdateSpan& span) { return span.since << 32U | span.until; }
+constexpr UpdateSpan span_of(std::uint64_t number) { return {number >> 32U, number & 0xFFFFFFFFU}; }
+
 inline constexpr std::size_t kFreeBytes = std::size_t{16} << 20U;
 inline constexpr std::size_t kBytesPerByte = 64;
 

@@ -18,10 +18,10 @@ using test::RandomKeyframes;
 
 /// What the service begins with, of a map as it is.
 MapDelta whole(const SemanticMapper& mapper) {
-  MapDelta delta = whole_map(mapper.map().tree(), take_snapshot(mapper));
-  delta.map_epoch = mapper.map().epoch;
-  delta.revision = mapper.map().revision;
-  return delta;
+  MapDelta head;
+  head.map_epoch = mapper.map().epoch;
+  head.revision = mapper.map().revision;
+  return whole_map(mapper.map().tree(), take_snapshot(mapper), head);
 }
 
 MapDelta over_the_wire(const MapDelta& delta, const std::vector<std::string>& labels) {

@@ -89,11 +89,11 @@ inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
 inline constexpr Topic<rds_msgs::msg::OctreeDelta> kMapDelta{
     "rds/map/delta", {{kMapper, bus::kDelta}}, {{kTool, bus::kDelta}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapFull{
-    "rds/map/full", {{kMapper, bus::kLatched}}, {{kTool, bus::kLatched}}};
+    "rds/map/full", {{kMapper, bus::kLatchedLarge}}, {{kTool, bus::kLatched}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapBinary{
-    "rds/map/binary", {{kMapper, bus::kLatched}}, {}};
+    "rds/map/binary", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<sensor_msgs::msg::PointCloud2> kMapPoints{
-    "rds/map/points", {{kMapper, bus::kLatched}}, {}};
+    "rds/map/points", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<rds_msgs::msg::MapInfo> kMapInfo{
     "rds/map/info", {{kMapper, bus::kLatchedEvery}}, {{kPlayer, bus::kLatched}, {kTool, bus::kLatchedEvery}}};
 inline constexpr Topic<vision_msgs::msg::Detection3DArray> kMapObjects{

@@ -133,7 +133,10 @@ void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
   if (chunk.instance() != source_.instance || chunk.map_epoch() != source_.map_epoch ||
       static_cast<Stream>(chunk.stream()) != self_.stream)
     return;
+  const std::uint64_t impossible = receiver_.statistics().impossible;
   auto item = receiver_.take({chunk.number(), chunk.item_bytes(), chunk.index(), chunk.data()}, now);
+  if (callbacks_.next && receiver_.statistics().impossible > impossible)
+    receiver_ = Receiver(self_.order);  // the item was made anew, and is another one
   if (!item) return;
   callbacks_.item(source_.map_epoch, std::move(*item));
   if (callbacks_.next) want();

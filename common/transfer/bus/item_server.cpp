@@ -80,7 +80,11 @@ ItemServer::Reader* ItemServer::reader_of(const rds_msgs::msg::TransferRequest& 
   if (!is_tool && std::ranges::find(kServices, process) == kServices.end()) return nullptr;
   const std::string topic = chunk_topic(process, request.instance());
   if (const auto known = readers_.find(topic); known != readers_.end()) return &known->second;
-  if (!is_tool || readers_.size() >= kMostReaders) return nullptr;
+  if (!is_tool) return nullptr;
+  if (readers_.size() >= kMostReaders) {
+    context_.diagnostics.reject(channel_.requests.name, service::Rejection::kUnexpected, "too many readers");
+    return nullptr;
+  }
   Reader& reader = add_reader(process, topic);
   reader.chunks.open();
   return &reader;

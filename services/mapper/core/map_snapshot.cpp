@@ -86,7 +86,8 @@ MapDelta whole_map(const ColorOcTree& tree, const MapSnapshot& snapshot, const M
   delta.resolution = snapshot.resolution;
   std::size_t row = 0;
   for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {
-    delta.add(key, node, tree.isNodeOccupied(node) ? snapshot.labels_of_occupied.at(row++) : std::uint16_t{0});
+    const bool occupied = tree.isNodeOccupied(node);
+    delta.add(key, node, occupied ? snapshot.labels_of_occupied.at(row++) : std::uint16_t{0});
   });
   return delta;
 }

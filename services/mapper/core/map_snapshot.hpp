@@ -36,7 +36,7 @@ struct MapPoints {
 MapPoints points_of(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
 /// All voxels as a delta from revision 0.
-/// @param tree  of the snapshot's nodes. @param head  a delta without arrays that says map, revision, keyframe.
+/// @param tree  of the snapshot's nodes. @param head  without arrays: what it says of map, revision, keyframe.
 MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head);
 
 /// What MapInfo says of a tree.

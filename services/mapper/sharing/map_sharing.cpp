@@ -81,14 +81,18 @@ const MapSharing::Bytes* MapSharing::find(transfer::Stream stream, std::uint64_t
   if (stream != transfer::Stream::kMapUpdates || !voxels_) return nullptr;
   auto found = made_.find(number);
   if (found == made_.end()) {
-    if (made_.size() >= kMostMade) return nullptr;
     auto item = make(span_of(number));
     if (!item) return nullptr;
     ++made_count_;
+    if (made_.size() >= kMostMade) made_.erase(longest_unasked());
     found = made_.emplace(number, Made{std::move(*item)}).first;
   }
   found->second.asked = transfer::now();
   return &found->second.bytes;
+}
+
+std::map<std::uint64_t, MapSharing::Made>::const_iterator MapSharing::longest_unasked() const {
+  return std::ranges::min_element(made_, {}, [](const auto& made) { return made.second.asked; });
 }
 
 /// To the newest revision, which may have gone on since it was offered.

@@ -58,6 +58,7 @@ class MapSharing : private transfer::ItemMaker {
   const Bytes* find(transfer::Stream stream, std::uint64_t number) override;
   void take_inbox();
   void close();
+  [[nodiscard]] std::map<std::uint64_t, Made>::const_iterator longest_unasked() const;
   [[nodiscard]] std::optional<Bytes> make(const UpdateSpan& span) const;
 
   std::mutex mutex_;

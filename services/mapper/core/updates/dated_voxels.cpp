@@ -49,7 +49,9 @@ void DatedVoxels::set(const MapDelta& delta) {
          delta.labels[row],
          {delta.colors[3 * row], delta.colors[3 * row + 1], delta.colors[3 * row + 2]}});
   for (std::size_t row = 0; row < delta.deleted_keys.size() / 3; ++row)
-    put({.morton = morton_of(key_at(delta.deleted_keys, row)), .revision = delta.revision, .is_deleted = true});
+    put({.morton = morton_of(key_at(delta.deleted_keys, row)),
+         .revision = delta.revision,
+         .is_deleted = true});
   insert_new();
   forget_deleted();
 }

@@ -18,9 +18,9 @@ struct MapUpdate {
   std::vector<std::string> labels;  // label table; index 0 is ""
 };
 
-/// An update for a slow link: one zstd frame that says its size and has a checksum. It holds the voxels in the
-/// order of their Morton codes, as distances from one to the next, and their values byte by byte (all lowest
-/// bytes, the next ones, and so on).
+/// An update for a slow link: one zstd frame that says its size and has a checksum. It holds the voxels in
+/// the order of their Morton codes, as distances from one to the next, and their values byte by byte (all
+/// lowest bytes, the next ones, and so on).
 /// @throws std::invalid_argument for voxels in another order, or arrays that do not fit each other.
 std::vector<std::uint8_t> pack(const MapUpdate& update);
 

@@ -7,7 +7,7 @@
 
 namespace rds::mapper {
 
-/// A key's bits interleaved: voxels in this order are those of for_each_voxel(), neighbours mostly follow each
+/// A key's bits interleaved: in this order, which is that of for_each_voxel(), neighbours mostly follow each
 /// other.
 inline std::uint64_t morton_of(const octomap::OcTreeKey& key) {
   const auto spread = [](std::uint64_t v) {

@@ -14,6 +14,9 @@ struct Qos {
   /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces the
   /// ones before: what was replaced before it was sent is no loss.
   bool counts_lost = true;
+  /// Whether a writer may take half a second before it sends again what readers lack. For what is large and
+  /// soon replaced: readers behind a slow link ask for the same again and again while it is on its way.
+  bool repairs_slowly = false;
 };
 
 // The profiles of the topic table (see common/bus/README.md).
@@ -29,8 +32,10 @@ inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true
 inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 100};
 /// What the reader itself asks for again.
 inline constexpr Qos kDatagrams{.reliable = false, .depth = 256};
-inline constexpr Qos kDelta{.reliable = true, .depth = 64};
+inline constexpr Qos kDelta{.reliable = true, .depth = 64, .repairs_slowly = true};
 inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1, .counts_lost = false};
+inline constexpr Qos kLatchedLarge{
+    .reliable = true, .transient_local = true, .depth = 1, .counts_lost = false, .repairs_slowly = true};
 /// For a reader of the newest message of each of many writers.
 inline constexpr Qos kLatchedOfEach{
     .reliable = true, .transient_local = true, .depth = 100, .counts_lost = false};

@@ -18,7 +18,7 @@ constexpr std::size_t kMemoryBytes = std::size_t{100} << 20U;
 
 KeyframeSharing::KeyframeSharing(service::ServiceContext& context, std::uint64_t map_epoch)
     : compressor_(std::make_shared<keyframe_codec::KeyframeCompressor>()),
-      server_(context, topics::kTracker, kMemoryBytes) {
+      server_(context, topics::kTracker, transfer::kKeyframes, kMemoryBytes) {
   begin(map_epoch);
 }
 

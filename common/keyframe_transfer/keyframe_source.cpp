@@ -45,7 +45,7 @@ KeyframeSource<Message>::KeyframeSource(service::ServiceContext& context, topics
     : context_(context),
       subscribe_(std::move(subscribe)),
       callback_(std::move(callback)),
-      far_(context, process,
+      far_(context, process, transfer::kKeyframes,
            kIsImages<Message> ? transfer::Stream::kKeyframeImages : transfer::Stream::kKeyframeFeatures,
            kIsImages<Message> ? transfer::Order::kNewest : transfer::Order::kNumber,
            {.item = [this](std::uint64_t epoch, const transfer::Item& item) { take(epoch, item); },

@@ -86,15 +86,16 @@ inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
     {{kTracker, bus::kStream}, {kMapper, bus::kBoxes}}};  // old boxes are of no use to a tracker
 
 // The map.
-inline constexpr Topic<rds_msgs::msg::OctreeDelta> kMapDelta{"rds/map/delta", {{kMapper, bus::kDelta}}, {}};
+inline constexpr Topic<rds_msgs::msg::OctreeDelta> kMapDelta{
+    "rds/map/delta", {{kMapper, bus::kDelta}}, {{kTool, bus::kDelta}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapFull{
-    "rds/map/full", {{kMapper, bus::kLatched}}, {{kTool, bus::kLatched}}};
+    "rds/map/full", {{kMapper, bus::kLatchedLarge}}, {{kTool, bus::kLatched}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapBinary{
-    "rds/map/binary", {{kMapper, bus::kLatched}}, {}};
+    "rds/map/binary", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<sensor_msgs::msg::PointCloud2> kMapPoints{
-    "rds/map/points", {{kMapper, bus::kLatched}}, {}};
+    "rds/map/points", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<rds_msgs::msg::MapInfo> kMapInfo{
-    "rds/map/info", {{kMapper, bus::kLatchedEvery}}, {{kPlayer | kTool, bus::kLatched}}};
+    "rds/map/info", {{kMapper, bus::kLatchedEvery}}, {{kPlayer, bus::kLatched}, {kTool, bus::kLatchedEvery}}};
 inline constexpr Topic<vision_msgs::msg::Detection3DArray> kMapObjects{
     "rds/map/objects", {{kMapper, bus::kLatched}}, {}};
 inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
@@ -114,11 +115,20 @@ inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToMapper{
     "rds/transfer/mapper", {{kTracker, bus::kDatagrams}}, {{kMapper, bus::kDatagrams}}};
 inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToLoopCloser{
     "rds/transfer/loop_closer", {{kTracker, bus::kDatagrams}}, {{kLoopCloser, bus::kDatagrams}}};
+// To readers of the map on other machines, in place of rds/map/full, rds/map/info and rds/map/delta.
+inline constexpr Topic<rds_msgs::msg::TransferOffer> kMapOffers{
+    "rds/map/offers", {{kMapper, bus::kLatched}}, {{kTool, bus::kLatched}}};
+inline constexpr Topic<rds_msgs::msg::TransferRequest> kMapRequests{
+    "rds/map/requests", {{kTool, bus::kDatagrams}}, {{kMapper, bus::kDatagrams}}};
+/// Each reader has one of its own: this name, a slash and the reader's instance.
+inline constexpr Topic<rds_msgs::msg::TransferChunk> kMapChunks{
+    "rds/map/chunks", {{kMapper, bus::kDatagrams}}, {{kTool, bus::kDatagrams}}};
 /// The one that a reader hears alone, so that none has to take what another one asks for.
 inline const Topic<rds_msgs::msg::TransferChunk>& transfer_to(Process reader) {
-  return reader == kDetector ? kTransferToDetector
-         : reader == kMapper ? kTransferToMapper
-                             : kTransferToLoopCloser;
+  return reader == kTool       ? kMapChunks
+         : reader == kDetector ? kTransferToDetector
+         : reader == kMapper   ? kTransferToMapper
+                               : kTransferToLoopCloser;
 }
 
 // A run on several machines: between rds run where the camera is and rds run on each of the others.
@@ -167,6 +177,9 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kTransferToLoopCloser,
                                        kRunRequest,
                                        kRunReply,
+                                       kMapOffers,
+                                       kMapRequests,
+                                       kMapChunks,
                                        kCommand,
                                        kCommandResult,
                                        kServiceStatus,

@@ -21,13 +21,15 @@ inline constexpr std::size_t kChunkBytes = 1200;
 inline constexpr std::size_t kMaxItemBytes = std::size_t{256} << 20U;
 
 /// Kinds of items, as on the wire.
-enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures };
+enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures, kMapUpdates };
 
 /// The numbers that a writer can send of a stream, where they count up. One between them may be absent: its
 /// chunk then says so.
 struct Offer {
   std::uint64_t oldest = 0;
   std::uint64_t newest = 0;
+
+  bool operator==(const Offer&) const = default;
 };
 
 /// Asks for chunks first … first + count - 1 of an item; those beyond its end are not answered.

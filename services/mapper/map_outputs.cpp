@@ -32,10 +32,12 @@ MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid,
               topics::advertise(context.bus, topics::kMapObjects, topics::kMapper),
               topics::advertise(context.bus, topics::kMapMarkers, topics::kMapper),
               topics::advertise(context.bus, topics::kMapGrid, topics::kMapper)},
-      full_map_latency_(context.diagnostics.latency("full map")) {}
+      full_map_latency_(context.diagnostics.latency("full map")),
+      sharing_(context) {}
 
 void MapOutputs::begin_map() {
   map_id_ = service::random_id();
+  sharing_.begin_map();
   keyframe_.id = 0;  // the stamp stays: those of full maps never go back
 }
 
@@ -52,10 +54,12 @@ bool MapOutputs::has_new_reader() {
   return more;
 }
 
-void MapOutputs::publish_delta(MapDelta delta) {
-  if (delta.is_noop()) return;
-  delta.map_id = map_id_;
-  sender_.send([this, delta = std::make_shared<MapDelta>(std::move(delta))] {
+void MapOutputs::publish_delta(MapDelta step, const SemanticMapper& mapper) {
+  if (step.is_noop()) return;
+  step.map_id = map_id_;
+  const auto delta = std::make_shared<const MapDelta>(std::move(step));
+  sharing_.add(delta, mapper.map().labels.names());
+  sender_.send([this, delta] {
     auto message = to_message(*delta);
     message.instance(instance_);
     topics_.delta.write(message);
@@ -83,8 +87,25 @@ rds_msgs::msg::MapInfo MapOutputs::info_of(const SemanticMapper& mapper, std::si
   return info;
 }
 
+void MapOutputs::share_map(const SemanticMapper& mapper) {
+  if (!sharing_.wants_map() || mapper.map().revision == 0) return;
+  const auto snapshot = std::make_shared<const MapSnapshot>(take_snapshot(mapper));
+  MapDelta head;
+  head.map_epoch = mapper.map().epoch;
+  head.map_id = map_id_;
+  head.revision = mapper.map().revision;
+  head.keyframe_id = keyframe_.id;
+  head.stamp_ns = keyframe_.stamp_ns;
+  sharing_.start(
+      [snapshot, head] {
+        const auto tree = tree_from_bytes(snapshot->nodes, snapshot->resolution).value();
+        return whole_map(*tree, *snapshot, head);
+      },
+      snapshot->labels);
+}
+
 void MapOutputs::publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting) {
-  publish_delta(std::move(delta));
+  publish_delta(std::move(delta), mapper);
   if (since_full_ >= full_map_every_ && !is_busy()) return publish_all(mapper, keyframes_waiting);
   sender_.send(
       [this, info = info_of(mapper, keyframes_waiting, keyframe_.stamp_ns)] { topics_.info.write(info); });

@@ -8,6 +8,7 @@
 #include "rds_msgs/msg/MapInfo.h"
 #include "services/mapper/map_messages.hpp"
 #include "services/mapper/sender.hpp"
+#include "services/mapper/sharing/map_sharing.hpp"
 
 namespace rds::mapper {
 
@@ -40,13 +41,15 @@ class MapOutputs {
   /// The newest keyframe that is in the map.
   void note_keyframe(std::uint64_t id, std::int64_t stamp_ns);
 
-  void publish_delta(MapDelta delta);
+  void publish_delta(MapDelta delta, const SemanticMapper& mapper);
   /// A delta, and after it the full map where that is due, else the MapInfo alone.
   /// @param keyframes_waiting  MapInfo tells how far the mapper is.
   void publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting);
   /// Full map, its MapInfo, objects, markers and grid; binary map and points where somebody reads them.
   void publish_all(const SemanticMapper& mapper, std::size_t keyframes_waiting);
 
+  /// Where readers on other machines wait for the map: shares it as it is.
+  void share_map(const SemanticMapper& mapper);
   /// True once after somebody new has subscribed to the map in any form.
   bool has_new_reader();
   /// True while a full map is on its way.
@@ -75,6 +78,7 @@ class MapOutputs {
   std::atomic<int> full_maps_under_way_ = 0;
   MapPublishers topics_;
   service::LatencyWindow& full_map_latency_;
+  MapSharing sharing_;
   Sender sender_;  // last: its thread uses the members above
 };
 

@@ -82,7 +82,7 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   const std::uint64_t keyframes = count("keyframes");
   wait_for_rest(revision, keyframes);
   while (!queue_.empty()) integrate(queue_.take_oldest());
-  outputs_.publish_delta(mapper_.settle(poses_.poses()));
+  outputs_.publish_delta(mapper_.settle(poses_.poses()), mapper_);
   outputs_.publish_all(mapper_, queue_.size());
   outputs_.flush();
   const bool complete =

@@ -40,6 +40,11 @@ std::size_t Arrivals::keyframes() const {
   return keyframes_.size();
 }
 
+std::map<std::int64_t, Arrivals::Time> Arrivals::keyframe_times() const {
+  const std::lock_guard lock(mutex_);
+  return keyframes_;
+}
+
 std::vector<double> Arrivals::answer_times_ms() const {
   const std::lock_guard lock(mutex_);
   std::vector<double> times;

@@ -18,14 +18,17 @@ class Arrivals {
  public:
   explicit Arrivals(bus::Participant& bus);
 
+  using Time = std::chrono::steady_clock::time_point;
+
   [[nodiscard]] std::size_t keyframes() const;
+  /// When their tracking states came, by stamp.
+  [[nodiscard]] std::map<std::int64_t, Time> keyframe_times() const;
   /// From the tracking state that tells of a keyframe, which follows its publication at once, to its boxes
   /// [ms], sorted; of those keyframes that were answered.
   [[nodiscard]] std::vector<double> answer_times_ms() const;
   [[nodiscard]] double longest_gap_s() const;
 
  private:
-  using Time = std::chrono::steady_clock::time_point;
   void take(const rds_msgs::msg::TrackingState& state);
   void take(const vision_msgs::msg::Detection3DArray& boxes);
 

@@ -21,6 +21,11 @@ double per(double part, std::size_t whole) {
 
 }  // namespace
 
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
 void add_transfer(const std::map<std::string, std::string>& statuses, HostFigures& figures) {
   std::size_t chunks = 0;
   double again = 0;

@@ -49,6 +49,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HostFigures, frames, localized, keyframes, an
                                    longest_gap_s, ate_live_m, ate_final_m, recall, residue, missing,
                                    link_bytes, reader_bytes, repeats, idle_kbit_s, p99_total_ms, faults)
 
+/// The value below which this share of them lies; 0 of none.
+double quantile(const std::vector<double>& sorted, double share);
+
 /// Bytes and repeats of the transfer to readers on other machines, as these tell in their status.
 /// @param statuses  answers to the command `status`, by service.
 void add_transfer(const std::map<std::string, std::string>& statuses, HostFigures& figures);

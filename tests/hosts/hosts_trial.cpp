@@ -67,11 +67,6 @@ bool may_be_missing(const std::string& link, bool on_one_machine) {
          (!on_one_machine && (is_of(topics::kKeyframeImages.name) || is_of(topics::kKeyframeFeatures.name)));
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
 }  // namespace
 
 HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)

@@ -22,6 +22,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 constexpr std::uint32_t kSocketBuffer = 4U << 20U;  // two and a half pictures of 1.5 MB
 constexpr double kHeartbeatPeriodS = 0.2;           // default 3: a late joiner would wait that long
 constexpr double kNackResponseDelayS = 0.001;
+constexpr double kSlowNackResponseDelayS = 0.5;
 constexpr int kLivelinessLeaseS = 100'000'000;  // three years
 constexpr int kAnnouncementsAtStart = 10;
 constexpr std::uint32_t kAnnouncementAtStartPeriodNs = 100'000'000;
@@ -120,7 +121,8 @@ dds::DataWriterQos fastdds_writer_qos(const TypeOps& type, const Qos& qos) {
   writer.liveliness().lease_duration = {kLivelinessLeaseS, 0};
   writer.liveliness().announcement_period = {kLivelinessLeaseS / 2, 0};
   writer.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(kHeartbeatPeriodS);
-  writer.reliable_writer_qos().times.nackResponseDelay = eprosima::fastrtps::Duration_t(kNackResponseDelayS);
+  writer.reliable_writer_qos().times.nackResponseDelay = eprosima::fastrtps::Duration_t(
+      qos.repairs_slowly ? kSlowNackResponseDelayS : kNackResponseDelayS);
   return writer;
 }
 

@@ -20,6 +20,7 @@ namespace rds::service {
 
 /// Kinds of services whose messages are followed.
 inline constexpr std::string_view kTracker = "rds-tracker";
+inline constexpr std::string_view kMapper = "rds-mapper";
 inline constexpr std::string_view kLoopCloser = "rds-loop-closer";
 
 /// A service on the bus, as it tells about itself.

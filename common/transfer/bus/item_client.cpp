@@ -24,21 +24,23 @@ constexpr std::size_t kMostRows = 40;  // in one datagram
 
 ItemClient::Inboxes::Inboxes() : offers(mailbox, kMostOffers), chunks(mailbox, kMostChunks) {}
 
-ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, Stream stream, Order order,
-                       Callbacks callbacks, std::uint64_t host)
+ItemClient::ItemClient(service::ServiceContext& context, topics::Process process, const Channel& channel,
+                       Stream stream, Order order, Callbacks callbacks, std::uint64_t host)
     : context_(context),
+      channel_(channel),
       self_{process, stream, order, host},
       callbacks_(std::move(callbacks)),
-      source_{.followed = {context.bus, service::kTracker}},
+      source_{.followed = {context.bus, channel.writer}},
       receiver_(order),
-      requests_([&context, process] {
-        return topics::advertise(context.bus, topics::kTransferRequests, process);
+      requests_(channel.lanes, [this, process] {
+        return topics::advertise(context_.bus, channel_.requests, process);
       }) {
-  subscriptions_.push_back(topics::subscribe(context.bus, topics::kTransferOffers, process,
+  subscriptions_.push_back(topics::subscribe(context.bus, channel.offers, process,
                                              [this](Offers offers, const bus::ParticipantId& writer) {
     if (owners_.owns(writer, offers->instance())) inboxes_.offers.push(std::move(offers));
                                              }));
-  subscriptions_.push_back(topics::subscribe(context.bus, topics::transfer_to(process), process,
+  const std::string topic = chunk_topic(process, context.instance);
+  subscriptions_.push_back(topics::subscribe(context.bus, topics::transfer_to(process).named(topic), process,
                                              [this](Chunks chunk, const bus::ParticipantId& writer) {
                                                if (chunk->reader() == context_.instance &&
                                                    owners_.owns(writer, chunk->instance()))
@@ -56,7 +58,7 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
   diagnostics.warning("transfer", [this]() -> std::optional<std::string> {
     const auto behind = figures_.backlog.behind(now());
     if (!behind) return std::nullopt;
-    return fmt::format("behind: {} items of the tracker have not come yet", *behind);
+    return fmt::format("behind: {} items of {} have not come yet", *behind, channel_.writer);
   });
 }
 
@@ -71,7 +73,7 @@ void ItemClient::run(const std::stop_token& stop) {
     try {
       step();
     } catch (const std::exception& e) {
-      context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
+      context_.diagnostics.reject(channel_.offers.name, service::Rejection::kFailed, e.what());
     }
   }
 }
@@ -86,23 +88,40 @@ void ItemClient::step() {
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   const std::size_t rows = offers.streams().size();
   if (offers.oldest().size() != rows || offers.newest().size() != rows)
-    return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kInvalid,
+    return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kInvalid,
                                        "rows of different lengths");
   if (!source_.followed.accept(offers.instance(),
                                offers.map_epoch() == source_.map_epoch && source_.map_epoch != 0))
-    return context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kForeign,
+    return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kForeign,
                                        "another service");
   follow(offers);
+  source_.offer.reset();
   for (std::size_t i = 0; i < rows; ++i)
     if (static_cast<Stream>(offers.streams()[i]) == self_.stream)
-      receiver_.offer({offers.oldest()[i], offers.newest()[i]});
+      source_.offer = Offer{offers.oldest()[i], offers.newest()[i]};
+  want();
+}
+
+/// All that is offered, or one item after the other.
+void ItemClient::want() {
+  if (!source_.offer) return;
+  if (!callbacks_.next) return receiver_.offer(*source_.offer);
+  if (receiver_.lacking() > 0) return;
+  const auto next = callbacks_.next(source_.map_epoch, *source_.offer);
+  if (!next) return;
+  if (*next <= last_wanted_) receiver_ = Receiver(self_.order);  // the numbers of one go up
+  last_wanted_ = *next;
+  receiver_.offer({*next, *next});
 }
 
 void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
   const bool new_map = offers.map_epoch() != source_.map_epoch || source_.instance == 0;
   source_.instance = offers.instance();
   source_.map_epoch = offers.map_epoch();
-  if (new_map) receiver_ = Receiver(self_.order);
+  if (new_map) {
+    receiver_ = Receiver(self_.order);
+    last_wanted_ = 0;
+  }
   be(offers.host() == self_.host ? Where::kHere : Where::kElsewhere);
 }
 
@@ -114,8 +133,13 @@ void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
   if (chunk.instance() != source_.instance || chunk.map_epoch() != source_.map_epoch ||
       static_cast<Stream>(chunk.stream()) != self_.stream)
     return;
+  const std::uint64_t impossible = receiver_.statistics().impossible;
   auto item = receiver_.take({chunk.number(), chunk.item_bytes(), chunk.index(), chunk.data()}, now);
-  if (item) callbacks_.item(source_.map_epoch, std::move(*item));
+  if (callbacks_.next && receiver_.statistics().impossible > impossible)
+    receiver_ = Receiver(self_.order);  // the item was made anew, and is another one
+  if (!item) return;
+  callbacks_.item(source_.map_epoch, std::move(*item));
+  if (callbacks_.next) want();
 }
 
 void ItemClient::ask(Time now) {

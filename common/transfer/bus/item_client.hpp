@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/backlog.hpp"
+#include "common/transfer/bus/channel.hpp"
 #include "common/transfer/bus/host.hpp"
 #include "common/transfer/bus/lanes.hpp"
 #include "common/transfer/receiver.hpp"
@@ -33,11 +35,15 @@ class ItemClient {
     std::function<void(Where)> where = [](Where) {};          // on the client's thread, when it changes
     /// Whether kMostBegun more items can be taken; else no further ones are asked for. On the client's thread.
     std::function<bool()> has_room = [] { return true; };
+    /// For items that are made when they are asked for: the number of the next one, if any is wanted. Called
+    /// with each offer, and when an item has come; never while one is on its way. Empty: all are fetched that
+    /// are offered.
+    std::function<std::optional<std::uint64_t>(std::uint64_t map_epoch, const Offer&)> next = {};
   };
 
   /// @param stream  that is wanted. @param host  for tests.
-  ItemClient(service::ServiceContext& context, topics::Process process, Stream stream, Order order,
-             Callbacks callbacks, std::uint64_t host = this_host());
+  ItemClient(service::ServiceContext& context, topics::Process process, const Channel& channel, Stream stream,
+             Order order, Callbacks callbacks, std::uint64_t host = this_host());
 
  private:
   using Offers = std::shared_ptr<const rds_msgs::msg::TransferOffer>;
@@ -54,6 +60,7 @@ class ItemClient {
     service::FollowedWriter followed;
     std::uint64_t instance = 0;
     std::uint64_t map_epoch = 0;
+    std::optional<Offer> offer = {};
     Where where = Where::kUnknown;
     Time started = now();
   };
@@ -76,17 +83,20 @@ class ItemClient {
   void step();
   void take(const rds_msgs::msg::TransferOffer& offers);
   void follow(const rds_msgs::msg::TransferOffer& offers);
+  void want();
   void take(const rds_msgs::msg::TransferChunk& chunk, Time now);
   void be(Where where);
   void ask(Time now);
   void send(std::span<const Request> requests);
 
   service::ServiceContext& context_;
+  Channel channel_;
   Self self_;
   Callbacks callbacks_;
   service::InstanceOwners owners_;
   Source source_;
   Receiver receiver_;
+  std::uint64_t last_wanted_ = 0;  // number that the receiver has been told to fetch
   Time last_hello_{};
   Figures figures_;
   Lanes<rds_msgs::msg::TransferRequest> requests_;

@@ -2,6 +2,7 @@
 #include "common/transfer/bus/item_server.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -19,39 +20,81 @@ constexpr std::size_t kMostSpilledBytes = std::size_t{2} << 30U;  // of keyframe
 /// Of one request; a reader's window is smaller.
 constexpr std::uint32_t kMostChunks = 4096;
 constexpr int kNice = 10;  // tracking has the processor first
-constexpr std::chrono::seconds kOfferPeriod{1};
+constexpr std::chrono::milliseconds kOfferPeriod{1000};
+constexpr std::chrono::milliseconds kMakingPeriod{250};  // of what is made for readers that are there
+constexpr std::size_t kMostReaders = 32;
+constexpr std::array kServices{topics::kDetector, topics::kMapper, topics::kLoopCloser};
 
 }  // namespace
 
-ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
-                       std::uint64_t host)
+ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+                       std::size_t memory_bytes, std::uint64_t host)
+    : ItemServer(context, process, channel, memory_bytes, nullptr, host) {}
+
+ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+                       ItemMaker& maker, std::uint64_t host)
+    : ItemServer(context, process, channel, 0, &maker, host) {}
+
+ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+                       std::size_t memory_bytes, ItemMaker* maker, std::uint64_t host)
     : context_(context),
+      process_(process),
+      channel_(channel),
+      maker_(maker),
       host_(host),
       items_(memory_bytes, std::make_unique<ItemFile>(), kMostSpilledBytes),
-      offers_(topics::advertise(context.bus, topics::kTransferOffers, process)),
+      offers_(topics::advertise(context.bus, channel.offers, process)),
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {
-  for (const topics::Process reader : {topics::kDetector, topics::kMapper, topics::kLoopCloser})
-    add_reader(reader, process);
+  for (const topics::Process reader : kServices)
+    if (contains(channel.readers, reader)) warn_of(reader);
   subscription_ =
-      topics::subscribe(context.bus, topics::kTransferRequests, process, [this](const Request& request) {
+      topics::subscribe(context.bus, channel.requests, process, [this](const Request& request) {
         if (request->writer() == context_.instance) requests_.push(request);
       });
-  context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
+  if (maker == nullptr)
+    context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-void ItemServer::add_reader(topics::Process process, topics::Process own) {
-  const auto& topic = topics::transfer_to(process);
-  Reader& reader =
-      readers_
-          .try_emplace(process, [this, &topic, own] { return topics::advertise(context_.bus, topic, own); })
-          .first->second;
-  context_.diagnostics.warning(topic.name, [&reader, &topic]() -> std::optional<std::string> {
+ItemServer::Reader& ItemServer::add_reader(topics::Process process, const std::string& topic) {
+  const auto advertise = [this, process, topic] {
+    return topics::advertise(context_.bus, topics::transfer_to(process).named(topic), process_);
+  };
+  return readers_.try_emplace(topic, channel_.lanes, advertise).first->second;
+}
+
+/// A service that is behind is told of; how far a reader of the map is behind is its own affair.
+void ItemServer::warn_of(topics::Process process) {
+  const std::string topic = chunk_topic(process, 0);
+  const Reader& reader = add_reader(process, topic);
+  context_.diagnostics.warning(topic, [&reader, topic]() -> std::optional<std::string> {
     const auto behind = reader.backlog.behind(now());
     if (!behind) return std::nullopt;
-    return fmt::format("{}: the reader is behind by {} items", topic.name, *behind);
+    return fmt::format("{}: the reader is behind by {} items", topic, *behind);
   });
+}
+
+/// nullptr for one that has no place here.
+ItemServer::Reader* ItemServer::reader_of(const rds_msgs::msg::TransferRequest& request) {
+  const auto process = static_cast<topics::Process>(request.reader());
+  const bool is_tool = process == topics::kTool && contains(channel_.readers, process);
+  if (!is_tool && std::ranges::find(kServices, process) == kServices.end()) return nullptr;
+  const std::string topic = chunk_topic(process, request.instance());
+  if (const auto known = readers_.find(topic); known != readers_.end()) return &known->second;
+  if (!is_tool) return nullptr;
+  if (readers_.size() >= kMostReaders) {
+    context_.diagnostics.reject(channel_.requests.name, service::Rejection::kUnexpected, "too many readers");
+    return nullptr;
+  }
+  Reader& reader = add_reader(process, topic);
+  reader.chunks.open();
+  return &reader;
+}
+
+void ItemServer::forget_silent() {
+  if (!contains(channel_.readers, topics::kTool)) return;
+  std::erase_if(readers_, [](const auto& entry) { return now() - entry.second.heard > kSilent; });
 }
 
 void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t number,
@@ -62,30 +105,43 @@ void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t num
 void ItemServer::run(const std::stop_token& stop) {
   concurrency::give_way(kNice);
   while (!stop.stop_requested()) {
-    const bool woken = mailbox_.wait_for(
-        stop, kOfferPeriod, [this] { return !shared_.locked_empty() || !requests_.locked_empty(); });
-    while (const auto request = requests_.try_pop()) answer(**request);
-    if (const auto shared = shared_.try_pop()) take(*shared);
-    if (!woken) offer();
+    const auto wait = maker_ != nullptr && was_asked() ? kMakingPeriod : kOfferPeriod;
+    mailbox_.wait_for(stop, wait, [this] { return !shared_.locked_empty() || !requests_.locked_empty(); });
+    try {
+      while (const auto request = requests_.try_pop()) answer(**request);
+      if (const auto shared = shared_.try_pop()) take(*shared);
+      if (now() - looked_ >= wait) look();
+    } catch (const std::exception& e) {
+      context_.diagnostics.reject(channel_.offers.name, service::Rejection::kFailed, e.what());
+    }
   }
 }
 
 void ItemServer::take(const Shared& shared) {
   if (std::exchange(map_epoch_, shared.map_epoch) != shared.map_epoch) items_.clear();
-  try {
-    if (shared.make) items_.put(shared.stream, shared.number, shared.make());
-  } catch (const std::exception& e) {
-    context_.diagnostics.reject(topics::kTransferOffers.name, service::Rejection::kFailed, e.what());
-  }
-  offer();
+  looked_ = {};
+  if (shared.make) items_.put(shared.stream, shared.number, shared.make());
 }
 
-void ItemServer::offer() {
+/// Offers what is there, if that has changed or was not said for a while.
+void ItemServer::look() {
+  looked_ = now();
+  forget_silent();
+  ItemMaker::Offers offers{map_epoch_, items_.offers()};
+  if (maker_ != nullptr) offers = maker_->offers(was_asked());
+  map_epoch_ = offers.map_epoch;
+  if (offers == offered_ && now() - offered_at_ < kOfferPeriod) return;
+  offered_ = offers;
+  offered_at_ = now();
+  write(offers);
+}
+
+void ItemServer::write(const ItemMaker::Offers& offers) {
   rds_msgs::msg::TransferOffer offer;
   offer.instance(context_.instance);
   offer.host(host_);
-  offer.map_epoch(map_epoch_);
-  for (const auto& [stream, range] : items_.offers()) {
+  offer.map_epoch(offers.map_epoch);
+  for (const auto& [stream, range] : offers.streams) {
     offer.streams().push_back(static_cast<std::uint8_t>(stream));
     offer.oldest().push_back(range.oldest);
     offer.newest().push_back(range.newest);
@@ -94,28 +150,34 @@ void ItemServer::offer() {
 }
 
 void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
+  Reader* to = reader_of(request);
+  if (to == nullptr) return;
   has_readers_ = true;
-  const auto to = readers_.find(static_cast<topics::Process>(request.reader()));
+  asked_ = to->heard = now();
   const std::size_t rows = request.streams().size();
-  if (to == readers_.end() || request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
+  if (request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
-  to->second.backlog.set(request.lacking(), now());
+  to->backlog.set(request.lacking(), now());
   for (std::size_t i = 0; i < rows; ++i) {
     const auto stream = static_cast<Stream>(request.streams()[i]);
     const std::uint64_t number = request.numbers()[i];
     const std::uint64_t first = request.firsts()[i];
-    const Bytes* item = items_.find(stream, number);
+    const Bytes* item = find(stream, number);
     if (item == nullptr) {
-      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->second.chunks);
+      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->chunks);
       continue;
     }
     const std::uint64_t end =
         std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks), chunks_in(item->size()));
     for (std::uint64_t k = first; k < end; ++k)
       send(chunk_of(number, *item, static_cast<std::uint32_t>(k)), stream, request.instance(),
-           to->second.chunks);
+           to->chunks);
   }
+}
+
+const ItemServer::Bytes* ItemServer::find(Stream stream, std::uint64_t number) {
+  return maker_ != nullptr ? maker_->find(stream, number) : items_.find(stream, number);
 }
 
 void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader,

@@ -6,13 +6,16 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "common/concurrency/mailbox.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/backlog.hpp"
+#include "common/transfer/bus/channel.hpp"
 #include "common/transfer/bus/host.hpp"
 #include "common/transfer/bus/lanes.hpp"
+#include "common/transfer/item_maker.hpp"
 #include "common/transfer/item_store.hpp"
 #include "rds_msgs/msg/TransferChunk.h"
 #include "rds_msgs/msg/TransferOffer.h"
@@ -22,14 +25,18 @@ namespace rds::transfer {
 
 /// What a service has for readers on other machines, and the thread that answers them. Nothing is made before
 /// the first of them says that it is there; what is offered is told every second, in case nobody listened.
+/// Items are shared, or made by an ItemMaker when they are asked for.
 class ItemServer {
  public:
   using Bytes = ItemStore::Bytes;
 
   /// @param memory_bytes  of items.
   /// @param host  for tests.
-  ItemServer(service::ServiceContext& context, topics::Process process, std::size_t memory_bytes,
-             std::uint64_t host = this_host());
+  ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+             std::size_t memory_bytes, std::uint64_t host = this_host());
+  /// @param maker  outlives this.
+  ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+             ItemMaker& maker, std::uint64_t host = this_host());
 
   /// Another map: its items are told apart by its epoch, those of before are forgotten. Of any thread.
   void begin(std::uint64_t map_epoch) { shared_.push({map_epoch, {}, 0, {}}); }
@@ -46,27 +53,46 @@ class ItemServer {
   };
   /// The readers of a topic.
   struct Reader {
-    explicit Reader(Lanes<rds_msgs::msg::TransferChunk>::Advertise advertise)
-        : chunks(std::move(advertise)) {}
+    Reader(std::size_t lanes, Lanes<rds_msgs::msg::TransferChunk>::Advertise advertise)
+        : chunks(lanes, std::move(advertise)) {}
     Lanes<rds_msgs::msg::TransferChunk> chunks;
     Backlog backlog;  // as it says
+    Time heard{};
   };
   using Request = std::shared_ptr<const rds_msgs::msg::TransferRequest>;
 
-  void add_reader(topics::Process process, topics::Process own);
+  ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
+             std::size_t memory_bytes, ItemMaker* maker, std::uint64_t host);
+  Reader& add_reader(topics::Process process, const std::string& topic);
+  void warn_of(topics::Process process);
+  [[nodiscard]] Reader* reader_of(const rds_msgs::msg::TransferRequest& request);
+  void forget_silent();
+  [[nodiscard]] bool was_asked() const { return now() - asked_ < kSilent; }
   void run(const std::stop_token& stop);
   void take(const Shared& shared);
-  void offer();
+  void look();
+  void write(const ItemMaker::Offers& offers);
   void answer(const rds_msgs::msg::TransferRequest& request);
+  [[nodiscard]] const Bytes* find(Stream stream, std::uint64_t number);
   void send(const Chunk& chunk, Stream stream, std::uint64_t reader,
             Lanes<rds_msgs::msg::TransferChunk>& to);
 
+  /// Who says nothing for so long is gone: readers say every second that they are there.
+  static constexpr std::chrono::seconds kSilent{10};
+
   service::ServiceContext& context_;
+  topics::Process process_;
+  Channel channel_;
+  ItemMaker* maker_;  // nullptr: items are shared
   std::uint64_t host_;
   std::atomic<bool> has_readers_ = false;
+  Time asked_{-kSilent};  // for the last time
+  Time looked_{};         // for something new
+  ItemMaker::Offers offered_;
+  Time offered_at_{};
   std::uint64_t map_epoch_ = 0;
   ItemStore items_;
-  std::map<topics::Process, Reader> readers_;
+  std::map<std::string, Reader> readers_;  // by topic
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Shared> shared_;

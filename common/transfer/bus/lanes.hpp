@@ -18,17 +18,20 @@ class Lanes {
  public:
   using Advertise = std::function<bus::Publisher<Message>()>;
 
-  explicit Lanes(Advertise advertise) : advertise_(std::move(advertise)) {}
+  /// @param count  at least 1: as many chunks as may overtake each other.
+  Lanes(std::size_t count, Advertise advertise) : count_(count), advertise_(std::move(advertise)) {}
 
   void write(const Message& message) {
-    while (lanes_.size() < kLanes) lanes_.push_back(advertise_());
-    lanes_[next_++ % kLanes].write(message);
+    open();
+    lanes_[next_++ % count_].write(message);
+  }
+  /// Makes the writers, so that readers learn of them before the first message.
+  void open() {
+    while (lanes_.size() < count_) lanes_.push_back(advertise_());
   }
 
  private:
-  /// 1.2 kB each: on 20 Mbit/s what 15 ms carry.
-  static constexpr std::size_t kLanes = 32;
-
+  std::size_t count_;
   Advertise advertise_;
   std::vector<bus::Publisher<Message>> lanes_;
   std::size_t next_ = 0;

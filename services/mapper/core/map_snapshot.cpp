@@ -81,6 +81,17 @@ MapPoints points_of(const ColorOcTree& tree, const MapSnapshot& snapshot) {
   return points;
 }
 
+MapDelta whole_map(const ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head) {
+  MapDelta delta = head;
+  delta.resolution = snapshot.resolution;
+  std::size_t row = 0;
+  for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {
+    const bool occupied = tree.isNodeOccupied(node);
+    delta.add(key, node, occupied ? snapshot.labels_of_occupied.at(row++) : std::uint16_t{0});
+  });
+  return delta;
+}
+
 MapExtent extent_of(const ColorOcTree& tree) {
   MapExtent extent;
   if (tree.getRoot() == nullptr) return extent;

@@ -35,6 +35,10 @@ struct MapPoints {
 /// @param tree  of the snapshot's nodes.
 MapPoints points_of(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
+/// All voxels as a delta from revision 0.
+/// @param tree  of the snapshot's nodes. @param head  without arrays: what it says of map, revision, keyframe.
+MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head);
+
 /// What MapInfo says of a tree.
 struct MapExtent {
   std::uint64_t occupied = 0;                     // voxels

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/map/live_map.hpp"
 
+#include <algorithm>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "octomap_msgs/msg/Octomap.h"
 #include "rds_msgs/msg/MapInfo.h"
 #include "services/mapper/core/octree/tree_bytes.hpp"
+#include "services/mapper/reader/map_follower.hpp"
 #include "tools/rds/cli/wait.hpp"
 
 namespace rds::tools {
@@ -17,7 +20,8 @@ namespace {
 using Octomap = octomap_msgs::msg::Octomap;
 using MapInfo = rds_msgs::msg::MapInfo;
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kInfoTime{1500};  // in which a mapper that is there sends both anew
+constexpr std::chrono::milliseconds kInfoTime{1500};   // in which a mapper that is there sends both anew
+constexpr std::chrono::milliseconds kOfferTime{2000};  // … says on which machine it is
 
 /// The newest message of a topic.
 template <class Message>
@@ -55,17 +59,37 @@ bool belong_together(const Octomap& full, const MapInfo* info) {
   return info != nullptr && info->describes_full() && info->header().stamp() == full.header().stamp();
 }
 
-}  // namespace
+/// False also for one that does not say where it is.
+bool is_mapper_elsewhere(bus::Participant& participant, Clock::time_point deadline,
+                         const std::stop_token& stop) {
+  const Newest offers(participant, topics::kMapOffers);
+  wait_until(std::min(deadline, Clock::now() + kOfferTime), stop, [&] { return offers.get() != nullptr; });
+  return offers.get() != nullptr && offers.get()->host() != transfer::this_host();
+}
 
-tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
-                                                 std::chrono::duration<double> timeout,
-                                                 const std::stop_token& stop) {
+tl::expected<LiveMap, std::string> take_from_afar(bus::Participant& participant, Clock::time_point deadline,
+                                                  const std::stop_token& stop) {
+  service::Diagnostics diagnostics;
+  service::ServiceContext context{"rds-map", participant, diagnostics};
+  const mapper::MapFollower follower(context);
+  std::optional<LiveMap> map;
+  const auto take = [&](const mapper::OctreeReplica& replica, const std::vector<std::string>& labels) {
+    map.emplace(LiveMap{std::make_unique<octomap::ColorOcTree>(replica.tree()), replica.map_epoch(),
+                        replica.revision(), labels});
+  };
+  if (!wait_until(deadline, stop, [&] { return follower.map().look(take); }))
+    return tl::unexpected(fmt::format("{}: no map in time from rds-mapper on another machine",
+                                      topics::kMapOffers.name));
+  return std::move(*map);
+}
+
+tl::expected<LiveMap, std::string> take_from_topics(bus::Participant& participant, Clock::time_point deadline,
+                                                    const std::stop_token& stop) {
   const Newest full(participant, topics::kMapFull);
   const Newest info(participant, topics::kMapInfo);
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
   if (!wait_until(deadline, stop, [&] { return full.get() != nullptr; }))
-    return tl::unexpected(fmt::format("{}: no map in {} s, expected a running rds-mapper",
-                                      topics::kMapFull.name, timeout.count()));
+    return tl::unexpected(
+        fmt::format("{}: no map in time, expected a running rds-mapper", topics::kMapFull.name));
   wait_until(Clock::now() + kInfoTime, stop, [&] { return belong_together(*full.get(), info.get().get()); });
   auto tree = decode(*full.get());
   if (!tree) return tl::unexpected(tree.error());
@@ -75,6 +99,19 @@ tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
     map.revision = told->revision();
     map.labels = told->labels();
   }
+  return map;
+}
+
+}  // namespace
+
+tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,
+                                                 std::chrono::duration<double> timeout,
+                                                 const std::stop_token& stop) {
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
+  const bool elsewhere = is_mapper_elsewhere(participant, deadline, stop);
+  auto map = elsewhere ? take_from_afar(participant, deadline, stop)
+                       : take_from_topics(participant, deadline, stop);
+  if (!map) return tl::unexpected(fmt::format("{} ({} s)", map.error(), timeout.count()));
   return map;
 }
 

@@ -23,7 +23,8 @@ struct LiveMap {
   std::vector<std::string> labels;  // label table; empty if nobody tells
 };
 
-/// Takes the map that rds/map/full holds ready, and what rds/map/info says of it.
+/// Takes the map that rds/map/full holds ready, and what rds/map/info says of it; from another machine by
+/// transfer, at the pace of the link.
 ///
 /// @return or one sentence: no map in time, a map that cannot be decoded.
 tl::expected<LiveMap, std::string> take_live_map(bus::Participant& participant,

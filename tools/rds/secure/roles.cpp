@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/secure/roles.hpp"
 
+#include <algorithm>
+
 #include "common/topics/table.hpp"
 #include "common/topics/topics.hpp"
 
@@ -14,10 +16,17 @@ Topics operator+(Topics left, const Topics& right) {
   return left;
 }
 
+/// On which readers of the map hear what they have asked for, each on one of its own.
+std::string map_chunks() {
+  return std::string(topics::kMapChunks.name) + "/*";
+}
+
 /// A service writes what the table of topics says, and reads all: services trust each other's pictures and
 /// maps, but none writes for another.
 Role service(const std::string& name, topics::Process process, const Topics& reads_besides = {}) {
-  return {name, topics::written_by(process), Topics{"rds/*", topics::kDiagnostics.name} + reads_besides};
+  Topics written = topics::written_by(process);
+  std::ranges::replace(written, topics::kMapChunks.name, map_chunks());
+  return {name, written, Topics{"rds/*", topics::kDiagnostics.name} + reads_besides};
 }
 
 }  // namespace
@@ -32,10 +41,11 @@ std::vector<Role> roles(const Topics& camera_topics) {
       service("mapper", topics::kMapper),
       service("loop-closer", topics::kLoopCloser),
       {"operator",
-       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name} + camera_topics,
+       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name, topics::kMapRequests.name} +
+           camera_topics,
        Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
       {"reader",
-       {},
+       {topics::kMapRequests.name},  // asks for what it lacks, where the mapper is on another machine
        Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
       {"player", camera_topics, {topics::kTrackingState.name, topics::kServiceStatus.name}},
       {"camera", camera_topics, {}},

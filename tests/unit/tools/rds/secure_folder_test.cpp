@@ -182,7 +182,14 @@ TEST(Roles, NobodyButAServiceWritesWhatItMakes) {
     EXPECT_EQ(publishes(role, "rds/odometry"), role.name == "tracker") << role.name;
     EXPECT_EQ(publishes(role, "rds/detections"), role.name == "detector") << role.name;
     EXPECT_EQ(publishes(role, "rds/boxes"), role.name == "transformer") << role.name;
+    EXPECT_EQ(publishes(role, "rds/map/chunks/reader_1"), role.name == "mapper") << role.name;
   }
+}
+
+TEST(Roles, WhoReadsTheMapMayAskForIt) {
+  for (const Role& role : roles({"camera/*"}))
+    EXPECT_EQ(publishes(role, "rds/map/requests"), role.name == "reader" || role.name == "operator")
+        << role.name;
 }
 
 TEST(Roles, TakeTheCamerasTopicsAsTheyAreGiven) {

@@ -44,7 +44,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
  protected:
   std::unique_ptr<ItemClient> make_client(std::uint64_t host) {
     return std::make_unique<ItemClient>(
-        there_.context, topics::kMapper, Stream::kKeyframeImages, Order::kNewest,
+        there_.context, topics::kMapper, kKeyframes, Stream::kKeyframeImages, Order::kNewest,
         ItemClient::Callbacks{
             .item = [this](std::uint64_t epoch, Item item) { take(epoch, std::move(item)); },
             .where = [this](ItemClient::Where where) { say(where); }},
@@ -81,7 +81,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
 };
 
 TEST_P(TransferBus, EveryItemComesOnce) {
-  ItemServer server(here_.context, topics::kTracker, kMemory, kRobot);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
   const auto client = make_client(kServerRoom);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kElsewhere; }));
   std::uint64_t number = 0;
@@ -100,7 +100,7 @@ TEST_P(TransferBus, EveryItemComesOnce) {
 }
 
 TEST_P(TransferBus, WhoComesLaterHasEverythingThatIsKept) {
-  ItemServer server(here_.context, topics::kTracker, 2'000'000, kRobot);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, 2'000'000, kRobot);
   {
     const auto first = make_client(kServerRoom);
     std::uint64_t number = 0;
@@ -124,7 +124,7 @@ TEST_P(TransferBus, ARestartedServerIsFollowed) {
   const auto client = make_client(kServerRoom);
   for (const std::uint64_t from : {0U, 1000U}) {
     Node node(GetParam(), "tracker" + std::to_string(from));  // another instance each time
-    ItemServer server(node.context, topics::kTracker, kMemory, kRobot);
+    ItemServer server(node.context, topics::kTracker, kKeyframes, kMemory, kRobot);
     server.begin(kEpoch);
     for (std::uint64_t number = from; number < from + 200; ++number) {
       if (wait_for([&] { return !arrived_.empty() && arrived_.rbegin()->first >= from; }, 0s)) break;
@@ -136,7 +136,7 @@ TEST_P(TransferBus, ARestartedServerIsFollowed) {
 }
 
 TEST_P(TransferBus, OnOneMachineNothingIsMade) {
-  ItemServer server(here_.context, topics::kTracker, kMemory, kRobot);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
   const auto client = make_client(kRobot);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kHere; }));
   std::atomic<bool> made = false;

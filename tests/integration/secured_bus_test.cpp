@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A secured domain, with real processes on either vendor: who has no certificate sees and changes nothing,
 // who has one does what its permissions say.
+#include <chrono>
+#include <thread>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "services/mapper/reader/map_follower.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
@@ -126,6 +130,25 @@ TEST_P(SecuredBus, AStrangerHearsNothingAndChangesNothing) {
   expect_all_alive();
   EXPECT_GT(report("status", {secured_, "reader"}, kEnough)["samples"]["rds/tracking_state"], 0)
       << "nobody has paused it";
+}
+
+TEST_P(SecuredBus, AReaderOnAnotherMachineAsksForTheMap) {
+  start({"--secure", secured_});
+  const auto bus = bus::Participant::create(
+      {.vendor = bus::vendor_from_name(GetParam()),
+       .domain = std::stoi(kDomain),
+       .node_name = "reader",
+       .loopback_only = true,
+       .credentials = bus::read_credentials(secured_, "reader").value()});
+  service::Diagnostics diagnostics;
+  service::ServiceContext context{"reader", *bus, diagnostics};
+  constexpr std::uint64_t kElsewhere = 1;
+  const mapper::MapFollower reader(context, kElsewhere);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(kEnough);
+  while (reader.map().place().revision == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(50ms);
+  EXPECT_GT(reader.map().place().revision, 0U);
+  EXPECT_EQ(reader.where(), mapper::MapFollower::Where::kElsewhere);
 }
 
 TEST_P(SecuredBus, AReaderReadsTheMapAndDoesNotCommand) {

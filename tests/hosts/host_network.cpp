@@ -54,17 +54,22 @@ std::uint64_t link_figure(int n) {
 std::string HostNetwork::why_not() {
   if (geteuid() != 0) return "network namespaces need root";
   const auto shell = [](const char* command) { return run_process({"sh", "-c", command}, kLimit).status; };
-  if (shell("for p in unshare nsenter ip tc sysctl; do command -v $p || exit 1; done") != 0)
-    return "unshare, nsenter, ip, tc or sysctl is missing";
-  if (shell("unshare --net ip link add name one type veth peer name other") != 0)
-    return "no network namespaces with veth can be made here";
+  if (shell("for p in unshare nsenter ip bridge tc sysctl; do command -v $p || exit 1; done") != 0)
+    return "unshare, nsenter, ip, bridge, tc or sysctl is missing";
+  const std::string trial = fmt::format(
+      "unshare --net sh -ec 'ip link add name one type veth peer name other; ip link add name b type bridge "
+      "mcast_snooping 0; ip link set one master b; bridge link set dev one mcast_flood off; "
+      "tc qdisc add dev other root tbf rate 40mbit {}'",
+      kQueue);
+  if (shell(trial.c_str()) != 0) return "no network namespaces with veth, a bridge and tbf can be made here";
   return "";
 }
 
-HostNetwork::HostNetwork(const std::vector<std::string>& hosts, const Link& link) {
+HostNetwork::HostNetwork(const std::vector<std::string>& hosts, const Link& link, bool multicast)
+    : multicast_(multicast) {
   holders_[kSwitch] = hold_namespace();
   run(kSwitch,
-      "sysctl -qw net.ipv6.conf.default.disable_ipv6=1; ip link add name bridge0 type bridge; "
+      "sysctl -qw net.ipv6.conf.default.disable_ipv6=1; ip link add name bridge0 type bridge mcast_snooping 0; "
       "ip link set bridge0 up");
   for (const std::string& host : hosts) add_host(host);
   limit_rate(hosts.front(), link.rate_mbit);
@@ -123,7 +128,9 @@ void HostNetwork::unplug(const std::string& host) {
 }
 
 void HostNetwork::plug(const std::string& host) {
-  run(kSwitch, fmt::format("ip link set {} master bridge0", ports_.at(host)));
+  const std::string& port = ports_.at(host);
+  run(kSwitch, fmt::format("ip link set {0} master bridge0; bridge link set dev {0} mcast_flood {1}", port,
+                           multicast_ ? "on" : "off"));
 }
 
 std::string HostNetwork::address(const std::string& host) const {

@@ -22,16 +22,16 @@ struct Link {
 };
 
 /// Hosts on a switch: network namespaces on one machine. Each is held by a process that dies with this one
-/// and has no name, so nothing is left behind, whatever happens, and two of these never meet. Multicast
-/// works.
+/// and has no name, so nothing is left behind, whatever happens, and two of these never meet.
 class HostNetwork {
  public:
   /// Why there can be none here, in one line; empty if there can.
   static std::string why_not();
 
   /// @param hosts  names. @param link  of the first one; the others' has no limit.
-  /// @throws std::runtime_error with what `ip` or `tc` said.
-  HostNetwork(const std::vector<std::string>& hosts, const Link& link);
+  /// @param multicast  whether the switch passes it on.
+  /// @throws std::runtime_error with what `ip`, `bridge` or `tc` said.
+  HostNetwork(const std::vector<std::string>& hosts, const Link& link, bool multicast = true);
 
   /// The command, to be run on a host.
   [[nodiscard]] std::vector<std::string> on(const std::string& host,
@@ -48,6 +48,8 @@ class HostNetwork {
   void add_host(const std::string& host);
   void limit_rate(const std::string& host, int rate_mbit) const;
   void add_wire(const std::string& host, const Impairment& impairment);
+
+  bool multicast_;
 
   std::map<std::string, std::unique_ptr<Process>> holders_;  // by host, and the switch
   std::map<std::string, std::string> addresses_;

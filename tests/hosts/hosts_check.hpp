@@ -8,6 +8,9 @@ namespace rds::test {
 /// Runs a row on one machine and keeps what others are compared with.
 void expect_baseline(const Row& row);
 
+/// Runs a row and expects that everything arrives; how soon, and how good the map is, is not looked at.
+void expect_complete(const Row& row);
+
 /// Runs a row, prints its line of the table and expects what its bounds say, compared with one machine.
 void expect_row(const Row& row);
 

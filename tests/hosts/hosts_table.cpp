@@ -41,6 +41,7 @@ std::vector<Row> kinds() {
           impaired("loss_5", 1000, {.loss = 0.05}, {.answered = 0.95, .p95_ms = 600}),
           impaired("jitter", 1000, {.delay_ms = 20, .jitter_ms = 10}, {.p95_ms = 300}),
           impaired("rate_40_loss_1", 40, {.delay_ms = 3, .loss = 0.01}, {.p95_ms = 500}),
+          Row{.name = "by_address", .has_multicast = false},
           Row{.name = "bystanders", .has_bystanders = true},
           absent("c_away", {.host = "C", .for_s = 10}, kLongS),
           absent("b_away", {.host = "B", .for_s = 20}, kLongS),
@@ -49,7 +50,7 @@ std::vector<Row> kinds() {
 }
 
 bool is_short(const Row& row) {
-  constexpr std::array kNames{"clean", "rate_40", "loss_1", "c_away"};
+  constexpr std::array kNames{"clean", "rate_40", "loss_1", "by_address", "c_away"};
   return std::ranges::find(kNames, row.name) != kNames.end();
 }
 

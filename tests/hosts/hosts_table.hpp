@@ -49,6 +49,7 @@ struct Row {
   Bounds bounds = {};
   /// So long to and fro, so that there are 30 s after an absence [s]; 0: the recording as it is.
   double length_s = 0;
+  bool has_multicast = true;    // without, the hosts know each other's addresses
   bool has_bystanders = false;  // a fourth host where nothing runs; a second reader of the camera on A
   Cores cores = Cores::kAny;    // what feeds the camera is on the second
 
@@ -63,7 +64,7 @@ void PrintTo(const Row& row, std::ostream* out);
 
 /// Each vendor and length on one machine.
 std::vector<Row> one_machine_rows();
-/// Clean, 40 Mbit/s, 1 % of loss, C away for 10 s.
+/// Clean, 40 Mbit/s, 1 % of loss, without multicast, C away for 10 s.
 std::vector<Row> short_rows();
 /// All.
 std::vector<Row> all_rows();

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/bus/peer_addresses.hpp"
 #include "common/topics/topics.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tools/rds/commander/topology.hpp"
@@ -73,11 +74,14 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
     : row_(row),
       out_(std::move(out)),
       dataset_(image::TumDataset::open(recording).value()),
-      network_(hosts_of(row), row.link),
+      network_(hosts_of(row), row.link, row.has_multicast),
       here_(network_, kA),
       core_(row.cores == Cores::kAny ? -1 : 1),
       bus_(bus::Participant::create(
-          {.vendor = row.vendor, .domain = domain_.domain(), .node_name = "hosts_trial"})),
+          {.vendor = row.vendor,
+           .domain = domain_.domain(),
+           .node_name = "hosts_trial",
+           .peers = bus::peer_addresses(peers_of(kA))})),
       recorder_(*bus_),
       commander_(*bus_),
       arrivals_(*bus_),
@@ -91,6 +95,7 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
     run::RunOptions options;
     options.default_vendor = row_.vendor;
     options.network = true;
+    if (!row_.has_multicast) options.here = {run::services_of(options), peers_of(host)};
     for (auto& command : run::service_commands(options, domain_.domain(), folder_of(host))) {
       if (placement().at(command.name) != host) continue;
       if (row_.cores == Cores::kOneForTracker && command.name != run::kTracker) continue;
@@ -101,6 +106,15 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
     }
   }
   return all;
+}
+
+/// Addresses that a program on this host is told, with commas.
+std::string HostsTrial::peers_of(const std::string& host) const {
+  std::string peers;
+  if (row_.has_multicast) return peers;
+  for (const std::string& other : hosts_of(row_))
+    if (other != host) peers += (peers.empty() ? "" : ",") + network_.address(other);
+  return peers;
 }
 
 HostFigures HostsTrial::run() {

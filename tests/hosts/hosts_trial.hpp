@@ -31,6 +31,7 @@ class HostsTrial {
 
  private:
   std::vector<run::ServiceCommand> commands() const;
+  [[nodiscard]] std::string peers_of(const std::string& host) const;
   void add_second_reader();
   [[nodiscard]] std::uint64_t idle_bytes() const;
   [[nodiscard]] std::filesystem::path folder_of(const std::string& host) const { return out_ / host; }

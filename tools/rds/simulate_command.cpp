@@ -40,8 +40,10 @@ struct SimulateOptions {
   std::string world = "room";
   std::optional<std::string> path;
   std::optional<int> rooms;
+  std::optional<int> visits;
   int people = 2;
   double seconds = 20;
+  std::optional<double> minutes;
   std::uint64_t seed = 1;
   std::string size = "640x480";
   double fps = 30;

@@ -66,8 +66,10 @@ Simulation::Simulation(const SimulationOptions& options)
       camera_at_(make_path(options, scene_)),
       color_sensor_(options.seed),
       depth_sensor_(options.seed, options.camera.fx, options.depth_units_per_metre) {
-  const FloorMap floor(scene_);
+  FloorMap floor(scene_);
+  if (options_.world == World::kFloor) floor.keep_connected_to(camera_at_(0).translation().head<2>());
   WalkPlanner planner(floor, options_.camera, camera_at_, options_.seconds);
+  if (options_.world == World::kFloor) planner.walk_through(scene_);
   for (int i = 0; i < options_.people; ++i) {
     Random random(options_.seed, kPeopleStream + static_cast<std::uint64_t>(i));
     Actor actor;

@@ -27,6 +27,7 @@ using simulator::Renderer;
 using simulator::Simulation;
 
 constexpr int kMostPeople = 8;
+constexpr int kMostVisits = 100;
 constexpr double kLongestS = 3600;
 constexpr int kShortestSide = 64;
 constexpr int kLongestSide = 4096;
@@ -40,8 +41,10 @@ struct SimulateOptions {
   std::string world = "room";
   std::optional<std::string> path;
   std::optional<int> rooms;
+  std::optional<int> visits;
   int people = 2;
   double seconds = 20;
+  std::optional<double> minutes;
   std::uint64_t seed = 1;
   std::string size = "640x480";
   double fps = 30;
@@ -79,6 +82,7 @@ void check_world(const SimulateOptions& options, simulator::SimulationOptions& c
     if (!path)
       exit_with(kExitBadInput, fmt::format("--path {}: expected {}", *options.path, simulator::path_names()));
     if (options.rooms) exit_with(kExitBadInput, "--rooms: expected together with --world floor");
+    if (options.visits) exit_with(kExitBadInput, "--visits: expected together with --world floor");
     checked.path = *path;
     return;
   }
@@ -91,6 +95,8 @@ void check_world(const SimulateOptions& options, simulator::SimulationOptions& c
   if (checked.rooms < simulator::kFewestRooms || checked.rooms > simulator::kMostRooms)
     exit_with(kExitBadInput, fmt::format("--rooms {}: expected {} … {}", checked.rooms,
                                          simulator::kFewestRooms, simulator::kMostRooms));
+  if (options.visits && (*options.visits < 1 || *options.visits > kMostVisits))
+    exit_with(kExitBadInput, fmt::format("--visits {}: expected 1 … {}", *options.visits, kMostVisits));
 }
 
 simulator::SimulationOptions checked(const SimulateOptions& options) {
@@ -98,9 +104,13 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
   check_world(options, checked);
   if (options.people < 0 || options.people > kMostPeople)
     exit_with(kExitBadInput, fmt::format("--people {}: expected 0 … {}", options.people, kMostPeople));
-  if (!(options.seconds > 0 && options.seconds <= kLongestS))
+  const double seconds = options.minutes ? 60 * *options.minutes : options.seconds;
+  if (!(seconds > 0 && seconds <= kLongestS))
     exit_with(kExitBadInput,
-              fmt::format("--seconds {}: expected more than 0 and at most {}", options.seconds, kLongestS));
+              options.minutes
+                  ? fmt::format("--minutes {}: expected more than 0 and at most {}", *options.minutes,
+                                kLongestS / 60)
+                  : fmt::format("--seconds {}: expected more than 0 and at most {}", seconds, kLongestS));
   if (options.threads < 0)
     exit_with(kExitBadInput, fmt::format("--threads {}: expected 0 (all cores) or more", options.threads));
   if (!(options.fps >= kSlowest && options.fps <= kFastest))
@@ -112,7 +122,7 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
   checked.rate_hz = options.fps;
   checked.depth_units_per_metre = options.depth_scale;
   checked.people = options.people;
-  checked.seconds = options.seconds;
+  checked.seconds = seconds;
   checked.seed = options.seed;
   return checked;
 }
@@ -161,18 +171,26 @@ std::string motion_of(const SimulateOptions& options) {
   return fmt::format("floor of {} rooms", options.rooms.value_or(simulator::SimulationOptions().rooms));
 }
 
+/// One recording in the folder `out`.
+void simulate_into(const std::string& out, const SimulateOptions& options,
+                   const simulator::SimulationOptions& what) {
+  simulator::prepare_folder(out, options.force);
+  const Simulation simulation(what);
+  DatasetWriter writer(simulation, out);
+  const int frames = simulation.frame_count();
+  fmt::print("{}: {} frames, {}, {} people, seed {}\n", out, frames, motion_of(options), options.people,
+             options.seed);
+  if (const auto fault = render_all(simulation, writer, thread_count(options, frames)))
+    exit_with(kExitBadInput, *fault);
+  writer.finish();
+}
+
 void simulate(const SimulateOptions& options) {
-  const auto what = checked(options);
+  auto what = checked(options);
   try {
-    simulator::prepare_folder(options.out, options.force);
-    const Simulation simulation(what);
-    DatasetWriter writer(simulation, options.out);
-    const int frames = simulation.frame_count();
-    fmt::print("{}: {} frames, {}, {} people, seed {}\n", options.out, frames, motion_of(options),
-               options.people, options.seed);
-    if (const auto fault = render_all(simulation, writer, thread_count(options, frames)))
-      exit_with(kExitBadInput, *fault);
-    writer.finish();
+    if (!options.visits) return simulate_into(options.out, options, what);
+    for (; what.day < *options.visits; ++what.day)
+      simulate_into(fmt::format("{}/visit_{}", options.out, what.day + 1), options, what);
   } catch (const std::runtime_error& e) {
     if (dynamic_cast<const CLI::Error*>(&e) != nullptr) throw;
     exit_with(kExitBadInput, e.what());
@@ -191,12 +209,16 @@ void add_simulate_command(CLI::App& rds) {
   simulate_app->add_option("--rooms", options->rooms,
                            fmt::format("How many rooms the floor has, {} … {}; 12 if left out",
                                        simulator::kFewestRooms, simulator::kMostRooms));
+  simulate_app->add_option("--visits", options->visits,
+                           "The same floor on so many days, in OUT/visit_1 …: on each some furniture has "
+                           "moved; people, light and the robot's way are others");
   simulate_app->add_option(
       "--path", options->path,
       fmt::format("How the camera moves in the room: {}; xyz if left out", simulator::path_names()));
   simulate_app->add_option("--people", options->people, "How many people walk; 0 = the static twin")
       ->capture_default_str();
-  simulate_app->add_option("--seconds", options->seconds, "Length")->capture_default_str();
+  auto* seconds = simulate_app->add_option("--seconds", options->seconds, "Length")->capture_default_str();
+  simulate_app->add_option("--minutes", options->minutes, "Length, in place of --seconds")->excludes(seconds);
   simulate_app->add_option("--fps", options->fps, "Frames a second")->capture_default_str();
   simulate_app
       ->add_option("--size", options->size, "WIDTHxHEIGHT [px]; the field of view is as wide at every size")

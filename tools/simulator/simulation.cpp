@@ -16,8 +16,9 @@ namespace rds::simulator {
 namespace {
 
 constexpr std::uint64_t kPeopleStream = 100;
-constexpr double kPersonReach = 0.7;      // of arms and legs, from the middle of a person [m]
-constexpr double kLeastSeen = 1.0 / 768;  // of the picture, that an object must fill (400 px of 640×480)
+constexpr std::uint64_t kDayStream = 3000;  // and the day
+constexpr double kPersonReach = 0.7;        // of arms and legs, from the middle of a person [m]
+constexpr double kLeastSeen = 1.0 / 768;    // of the picture, that an object must fill (400 px of 640×480)
 
 Eigen::Vector3d on_floor(const Motion& motion) {
   return {motion.position.x(), motion.position.y(), 0};
@@ -33,6 +34,12 @@ std::vector<Shadow> shadows_of(const PersonLook& look, const Motion& motion) {
   return shadows;
 }
 
+/// Of what is another on each day of a floor: people, the robot's way, the noise of the sensors.
+std::uint64_t seed_of_day(const SimulationOptions& options) {
+  if (options.day == 0) return options.seed;
+  return Random(options.seed, kDayStream + static_cast<std::uint64_t>(options.day)).next();
+}
+
 Scene make_scene(const SimulationOptions& options) {
   if (options.world == World::kRoom) return make_room(options.seed);
   return make_floor(options.seed, options.rooms, options.day);
@@ -43,8 +50,9 @@ WalkPlanner::CameraAt make_path(const SimulationOptions& options, const Scene& s
     return [path = CameraPath(options.path, options.seconds, options.seed)](double t) {
       return path.world_from_camera(t);
     };
-  return [path = RobotPath(scene, options.seconds, options.seed + static_cast<std::uint64_t>(options.day))](
-             double t) { return path.world_from_camera(t); };
+  return [path = RobotPath(scene, options.seconds, seed_of_day(options))](double t) {
+    return path.world_from_camera(t);
+  };
 }
 
 std::string motion_name(const Motion& motion, double turn_rad_s) {
@@ -64,12 +72,14 @@ Simulation::Simulation(const SimulationOptions& options)
     : options_(options),
       scene_(make_scene(options)),
       camera_at_(make_path(options, scene_)),
-      color_sensor_(options.seed),
-      depth_sensor_(options.seed, options.camera.fx, options.depth_units_per_metre) {
-  const FloorMap floor(scene_);
+      color_sensor_(seed_of_day(options)),
+      depth_sensor_(seed_of_day(options), options.camera.fx, options.depth_units_per_metre) {
+  FloorMap floor(scene_);
+  if (options_.world == World::kFloor) floor.keep_connected_to(camera_at_(0).translation().head<2>());
   WalkPlanner planner(floor, options_.camera, camera_at_, options_.seconds);
+  if (options_.world == World::kFloor) planner.walk_through(scene_);
   for (int i = 0; i < options_.people; ++i) {
-    Random random(options_.seed, kPeopleStream + static_cast<std::uint64_t>(i));
+    Random random(seed_of_day(options_), kPeopleStream + static_cast<std::uint64_t>(i));
     Actor actor;
     actor.look = make_person(scene_.appearance, random);
     actor.walk = planner.plan(static_cast<double>(actor.look.walking_speed), random);

@@ -14,10 +14,10 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 constexpr std::uint64_t kPlacesStream = 11;
-constexpr std::uint64_t kMovesStream = 12;
-constexpr double kGap = 0.04;              // between neighbours [m]
-constexpr double kHalfLane = 0.55;         // of the way from a door to the middle of the room [m]
-constexpr double kMoveProbability = 0.25;  // of a small piece per day
+constexpr std::uint64_t kMovesStream = 2000;  // and the day
+constexpr double kGap = 0.04;                 // between neighbours [m]
+constexpr double kHalfLane = 0.55;            // of the way from a door to the middle of the room [m]
+constexpr double kMoveProbability = 0.25;     // of a small piece per day
 constexpr int kAttempts = 60;
 
 /// Width along the wall and depth in front of it [m].
@@ -143,7 +143,7 @@ std::vector<Standing> furnish(const RoomPlan& room, const std::vector<DoorZone>&
     standing.push_back(*placed);
   }
   for (int today = 1; today <= day; ++today) {
-    Random moves(own + static_cast<std::uint64_t>(today), kMovesStream);
+    Random moves(own, kMovesStream + static_cast<std::uint64_t>(today));
     for (Standing& old : standing) {
       if (!is_small(old.piece) || !moves.chance(kMoveProbability)) continue;
       auto moved = furnisher.place(old.piece, moves);

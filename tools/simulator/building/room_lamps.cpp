@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr std::uint64_t kDayStream = 16;
-constexpr float kSpacing = 2.9F;  // of lamps [m]
+constexpr std::uint64_t kDayStream = 2000;  // and the day
+constexpr float kSpacing = 2.9F;            // of lamps [m]
 
 int lamps_along(float length) {
   return std::max(1, static_cast<int>(std::lround(length / kSpacing)));
@@ -31,7 +31,7 @@ float power_of_each(RoomKind kind, int count) {
 
 DayLight light_of_day(std::uint64_t seed, int day) {
   if (day == 0) return {1, kWindowColor};
-  Random random(seed + static_cast<std::uint64_t>(day), kDayStream);
+  Random random(seed, kDayStream + static_cast<std::uint64_t>(day));
   const auto f = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };
   const float lamps = f(0.75, 1.15);
   const float warmth = f(-0.12, 0.12);

@@ -15,6 +15,11 @@ constexpr double kCameraRoom = 0.95;   // people keep this far from the camera [
 constexpr double kPersonRoom = 0.6;    // and from each other
 constexpr double kWantedCover = 0.15;  // share of the picture
 constexpr double kPlanningStepS = 0.2;
+constexpr double kWhim = 0.25;              // added to a score: the best way is not always taken
+constexpr double kWhimOnFloor = 0.9;        // people have other things to do than to be seen
+constexpr double kInViewProbability = 0.4;  // of a goal, where people walk from room to room
+constexpr int kRoomsAround = 5;
+constexpr double kThinWall = 0.03;  // [m]
 
 double wrapped(double angle) {
   return std::remainder(angle, 2 * kPi);
@@ -99,7 +104,33 @@ Walk WalkPlanner::leg(const Motion& start, const Eigen::Vector2d& goal, double s
   return walk;
 }
 
-Eigen::Vector2d WalkPlanner::draw_goal(double time_s, Random& random) const {
+void WalkPlanner::walk_through(const Scene& scene) {
+  Scene empty;
+  for (const Room& room : scene.rooms) {
+    rooms_.push_back(room.box);
+    empty.rooms.push_back({room.box, {}, {}, {}});
+  }
+  empty.openings = scene.openings;
+  sight_.emplace(empty, kThinWall);
+}
+
+Eigen::Vector2d WalkPlanner::draw_goal(double time_s, const Eigen::Vector2d& from, Random& random) const {
+  if (rooms_.empty() || random.chance(kInViewProbability)) return goal_in_view(time_s, random);
+  return goal_in_a_room(from, random);
+}
+
+/// In one of the rooms around: through a door or two.
+Eigen::Vector2d WalkPlanner::goal_in_a_room(const Eigen::Vector2d& from, Random& random) const {
+  std::vector<geometry::Box3> rooms = rooms_;
+  std::ranges::sort(rooms, {},
+                    [&](const geometry::Box3& box) { return (box.center().head<2>() - from).norm(); });
+  const int choices = std::min(kRoomsAround, static_cast<int>(rooms.size()));
+  const geometry::Box3& room = rooms[static_cast<std::size_t>(random.integer(choices))];
+  const Eigen::Vector2d share(random.uniform(0.2, 0.8), random.uniform(0.2, 0.8));
+  return floor_.nearest_free(room.min.head<2>() + room.size().head<2>().cwiseProduct(share));
+}
+
+Eigen::Vector2d WalkPlanner::goal_in_view(double time_s, Random& random) const {
   const geometry::Pose camera = world_from_camera_(std::min(time_s + 3, seconds_));
   const Eigen::Vector2d forward = camera.linear().col(2).head<2>().normalized();
   const Eigen::Vector2d right(forward.y(), -forward.x());
@@ -135,7 +166,8 @@ double WalkPlanner::score(const Walk& walk, double start_s) const {
     const Eigen::Vector2d p = walk.at(t).position;
     const geometry::Pose camera = world_from_camera_(start_s + t);
     const geometry::Pose camera_from_world = camera.inverse();
-    const double cover = coverage(p, camera_from_world);
+    const bool hidden = sight_ && !sight_->is_clear(camera.translation().head<2>(), p);
+    const double cover = hidden ? 0 : coverage(p, camera_from_world);
     double together = cover;
     sum += std::min(cover, kWantedCover) / kWantedCover;
     sum -= 20 * std::max(0.0, kCameraRoom - (camera.translation().head<2>() - p).norm());
@@ -154,7 +186,7 @@ Motion WalkPlanner::enter(double speed, Random& random) const {
   double best_score = -1e9;
   for (int i = 0; i < 24; ++i) {
     Motion m;
-    m.position = draw_goal(-3, random);
+    m.position = draw_goal(-3, world_from_camera_(0).translation().head<2>(), random);
     m.heading_rad = random.uniform(-kPi, kPi);
     m.phase_rad = random.uniform(0, 2 * kPi);
     m.speed = speed * random.uniform(0, 0.5);
@@ -175,10 +207,12 @@ Walk WalkPlanner::plan(double speed, Random random) {
     Walk best;
     double best_score = -1e9;
     for (int i = 0; i < 10; ++i) {
-      const Eigen::Vector2d goal = i == 0 ? walk.last().position : draw_goal(walk.duration_s(), random);
+      const Eigen::Vector2d goal =
+          i == 0 ? walk.last().position : draw_goal(walk.duration_s(), walk.last().position, random);
       const double pause = i == 0 ? 0.8 : (random.chance(0.4) ? 0.0 : random.uniform(0.6, 3.0));
       const Walk candidate = leg(walk.last(), goal, speed * random.uniform(0.85, 1.1), pause, random);
-      const double value = score(candidate, walk.duration_s()) + random.uniform(0, 0.25);
+      const double value =
+          score(candidate, walk.duration_s()) + random.uniform(0, rooms_.empty() ? kWhim : kWhimOnFloor);
       if (value <= best_score) continue;
       best_score = value;
       best = candidate;

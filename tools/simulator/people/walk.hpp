@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/geometry/camera_model.hpp"
@@ -40,6 +41,10 @@ class WalkPlanner {
   WalkPlanner(const FloorMap& floor, const geometry::CameraModel& camera, CameraAt world_from_camera,
               double seconds);
 
+  /// From now on people go from room to room, too, and walls hide them from the camera. Without it they stay
+  /// where the camera looks.
+  void walk_through(const Scene& scene);
+
   /// Plans one more person, who minds those planned before.
   ///
   /// @param speed  of walking [m/s]
@@ -49,7 +54,9 @@ class WalkPlanner {
   /// One leg: walk to `goal`, then stand for `pause_s` looking towards `look_rad`.
   [[nodiscard]] Walk leg(const Motion& start, const Eigen::Vector2d& goal, double speed, double pause_s,
                          Random& random) const;
-  [[nodiscard]] Eigen::Vector2d draw_goal(double time_s, Random& random) const;
+  [[nodiscard]] Eigen::Vector2d draw_goal(double time_s, const Eigen::Vector2d& from, Random& random) const;
+  [[nodiscard]] Eigen::Vector2d goal_in_view(double time_s, Random& random) const;
+  [[nodiscard]] Eigen::Vector2d goal_in_a_room(const Eigen::Vector2d& from, Random& random) const;
   [[nodiscard]] double score(const Walk& walk, double start_s) const;
   [[nodiscard]] double coverage(const Eigen::Vector2d& position,
                                 const geometry::Pose& camera_from_world) const;
@@ -59,6 +66,8 @@ class WalkPlanner {
   geometry::CameraModel camera_;
   CameraAt world_from_camera_;
   double seconds_;
+  std::vector<geometry::Box3> rooms_;  // empty: people do not leave theirs
+  std::optional<FloorMap> sight_;      // free where no wall is
   std::vector<Walk> others_;
 };
 

@@ -18,6 +18,8 @@ class FloorMap {
   explicit FloorMap(const Scene& scene, double radius = kHalfPerson);
 
   [[nodiscard]] bool is_free(const Eigen::Vector2d& point) const;
+  /// Whether the straight line between two places is free.
+  [[nodiscard]] bool is_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   /// Takes away what cannot be reached from the free place nearest to `point`.
   void keep_connected_to(const Eigen::Vector2d& point);
   /// The free place nearest to `point`.
@@ -31,7 +33,6 @@ class FloorMap {
   [[nodiscard]] int cell(const Eigen::Vector2d& point) const;
   [[nodiscard]] Eigen::Vector2d center(int cell) const;
   [[nodiscard]] std::vector<int> cells_between(int from, int to) const;
-  [[nodiscard]] bool is_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
   Eigen::Vector2d corner_;
   int width_ = 0;

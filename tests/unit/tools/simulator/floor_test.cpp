@@ -8,6 +8,7 @@
 
 #include "tools/simulator/building/floor_layout.hpp"
 #include "tools/simulator/building/furnishing.hpp"
+#include "tools/simulator/people/walk.hpp"
 #include "tools/simulator/robot_path.hpp"
 
 namespace rds::simulator {
@@ -150,6 +151,31 @@ TEST(RobotPath, StaysClearOfWallsAndComesBackToRooms) {
   const std::set<std::size_t> different(rooms.begin(), rooms.end());
   EXPECT_GE(different.size(), 3U);
   EXPECT_LT(different.size(), rooms.size());
+}
+
+TEST(WalkPlanner, OnAFloorPeopleWalkThroughDoorsAndKeepClearOfTheCamera) {
+  constexpr double kSeconds = 60;
+  const Scene scene = empty_floor(lay_out_floor(6, 8));
+  const RobotPath path(scene, kSeconds, 6);
+  const auto camera_at = [&](double t) { return path.world_from_camera(t); };
+  const FloorMap floor(scene);
+  const FloorMap walked(scene, FloorMap::kHalfPerson - 0.05);  // a way may cut the corner of a cell
+  WalkPlanner planner(floor, {640, 480, 525, 525, 319.5, 239.5, {}}, camera_at, kSeconds);
+  planner.walk_through(scene);
+  for (const std::uint64_t person : {1U, 2U, 3U}) {
+    const Walk walk = planner.plan(1.0, Random(6, person));
+    std::set<std::size_t> rooms;
+    int near = 0;
+    int count = 0;
+    for (double t = 0; t < kSeconds; t += 0.1, ++count) {
+      const Eigen::Vector2d p = walk.at(t).position;
+      EXPECT_TRUE(walked.is_free(p)) << t;
+      rooms.insert(scene.room_at({p.x(), p.y(), 0}));
+      near += (camera_at(t).translation().head<2>() - p).norm() < 0.6 ? 1 : 0;
+    }
+    EXPECT_GE(rooms.size(), 2U);
+    EXPECT_LT(near, count / 50);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tools/simulator/truth_map.hpp"
+
 namespace rds::simulator {
 namespace {
 
@@ -22,7 +24,8 @@ constexpr std::array kEntries{"rgb",          "depth",
                               "masks",        "rgb.txt",
                               "depth.txt",    "groundtruth.txt",
                               "camera.yaml",  "people.json",
-                              "objects.json", "detections_truth.jsonl"};
+                              "objects.json", "detections_truth.jsonl",
+                              "truth.ot"};
 
 /// As short as it is exact, with a point: 525.0, 347.8125.
 std::string decimal(double value) {
@@ -174,6 +177,8 @@ std::string DatasetWriter::camera() const {
 }
 
 void DatasetWriter::finish() const {
+  if (simulation_.options().world == World::kFloor)
+    write_truth_map(simulation_.scene(), folder_ / "truth.ot");
   write_text("camera.yaml", camera());
   write_text("groundtruth.txt", groundtruth());
   write_text("people.json", people());

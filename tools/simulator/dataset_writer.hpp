@@ -17,8 +17,8 @@ void prepare_folder(const std::filesystem::path& folder, bool force);
 /// Writes a simulation as a TUM RGB-D folder with its truth.
 ///
 /// rgb/ depth/ masks/ rgb.txt depth.txt groundtruth.txt camera.yaml people.json objects.json
-/// detections_truth.jsonl. The lists come last, so that a folder that was not finished is not taken for a
-/// recording.
+/// detections_truth.jsonl; of a floor also truth.ot (write_truth_map()). The lists come last, so that a
+/// folder that was not finished is not taken for a recording.
 class DatasetWriter {
  public:
   /// @param folder  as prepare_folder() left it.

@@ -15,6 +15,8 @@ constexpr double kCameraRoom = 0.95;   // people keep this far from the camera [
 constexpr double kPersonRoom = 0.6;    // and from each other
 constexpr double kWantedCover = 0.15;  // share of the picture
 constexpr double kPlanningStepS = 0.2;
+constexpr int kWays = 10;                   // that are compared before each leg
+constexpr int kWaysOnFloor = 4;             // a way through a building takes long to find
 constexpr double kWhim = 0.25;              // added to a score: the best way is not always taken
 constexpr double kWhimOnFloor = 0.9;        // people have other things to do than to be seen
 constexpr double kInViewProbability = 0.4;  // of a goal, where people walk from room to room
@@ -206,7 +208,7 @@ Walk WalkPlanner::plan(double speed, Random random) {
   while (walk.duration_s() < seconds_ + 0.1) {
     Walk best;
     double best_score = -1e9;
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < (rooms_.empty() ? kWays : kWaysOnFloor); ++i) {
       const Eigen::Vector2d goal =
           i == 0 ? walk.last().position : draw_goal(walk.duration_s(), walk.last().position, random);
       const double pause = i == 0 ? 0.8 : (random.chance(0.4) ? 0.0 : random.uniform(0.6, 3.0));

@@ -130,11 +130,25 @@ try_vendor() {
   compose down --volumes --timeout 5 >/dev/null 2>&1
 }
 
+# What rds hosts compose writes starts on each machine what belongs there, and nothing else.
+check_machines() {
+  local folder machine
+  folder=$(mktemp -d)
+  printf 'machines: {robot: {services: [tracker]}, desk: {services: [detector, transformer]}, nas: {services: [mapper, loop_closer]}}' >"$folder/hosts.yaml"
+  "$rds" hosts compose "$folder/hosts.yaml" --out "$folder/machines" >/dev/null
+  for machine in robot:tracker desk:detector,transformer nas:loop-closer,mapper; do
+    expect "services of ${machine%:*}" "${machine#*:}" \
+      "$(docker compose -f "$root/compose/compose.yaml" -f "$folder/machines/${machine%:*}.yaml" config --services | sort | paste -sd ,)"
+  done
+  rm -r "$folder"
+}
+
 begun=$SECONDS
 mkdir -p "$root/build/compose" "$root/build/log"
 log=$root/build/log/compose-test.log
 start_engine
 provide_compose
+check_machines
 provide_base debian:bookworm-slim
 provide_input
 say "image ($RDS_IMAGE_STAGE)"

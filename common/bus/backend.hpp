@@ -81,7 +81,10 @@ inline constexpr const char* kParticipantUserData = "enclave=/;";
 // itself, and after which silence the others give it up. A loaded machine must not lose participants that
 // live.
 inline constexpr int kLoopbackParticipants = 60;
-inline constexpr int kAnnouncementPeriodS = 1;
+/// On the network every machine hears each announcement, also one that has no part in this.
+inline int announcement_period_s(const ParticipantOptions& options) {
+  return options.loopback_only ? 1 : 3;
+}
 inline constexpr int kLeaseDurationS = 10;
 
 /// History both vendors keep: "all" is the last `max_samples`, so that no writer ever waits for a reader.

@@ -31,6 +31,12 @@ void ConfigReader::choice(const std::string& key, std::string& target,
     target = read;
 }
 
+std::vector<std::string> ConfigReader::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& entry : node_) keys.push_back(entry.first.as<std::string>());
+  return keys;
+}
+
 ConfigReader& ConfigReader::section(const std::string& key) {
   known_.insert(key);
   const auto existing = sections_.find(key);

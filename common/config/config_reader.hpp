@@ -55,6 +55,9 @@ class ConfigReader {
   /// True if the configuration gives this key.
   [[nodiscard]] bool has(const std::string& key) const { return node_.IsMap() && node_[key]; }
 
+  /// Keys of the configuration, for maps whose keys are names.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
   /// Reader of the map below `key` (empty if absent); its violations are added to this reader's by finish().
   ConfigReader& section(const std::string& key);
 

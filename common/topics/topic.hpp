@@ -21,6 +21,7 @@ enum class Process : std::uint8_t {
   kServices = 31,
   kPlayer = 32,  // rds run, rds play
   kTool = 64,    // the other subcommands of rds
+  kFarRun = 128,  // rds run on a machine without the camera
 };
 using enum Process;
 

@@ -131,6 +131,12 @@ inline const Topic<rds_msgs::msg::TransferChunk>& transfer_to(Process reader) {
                                : kTransferToLoopCloser;
 }
 
+// A run on several machines: between rds run where the camera is and rds run on each of the others.
+inline constexpr Topic<rds_msgs::msg::Command> kRunRequest{
+    "rds/run/request", {{kPlayer, bus::kCommand}}, {{kFarRun, bus::kCommand}}};
+inline constexpr Topic<rds_msgs::msg::CommandResult> kRunReply{
+    "rds/run/reply", {{kFarRun, bus::kCommand}}, {{kPlayer, bus::kCommand}}};
+
 // Every service.
 inline constexpr Topic<rds_msgs::msg::Command> kCommand{
     "rds/command", {{kPlayer | kTool, bus::kCommand}}, {{kServices, bus::kCommand}}};
@@ -169,6 +175,8 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kTransferToDetector,
                                        kTransferToMapper,
                                        kTransferToLoopCloser,
+                                       kRunRequest,
+                                       kRunReply,
                                        kMapOffers,
                                        kMapRequests,
                                        kMapChunks,

@@ -6,6 +6,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::tracker {
@@ -158,7 +159,7 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   message.extract_us(static_cast<std::uint32_t>(result.times.extract_us));
   message.predict_us(report.predict_us);
   message.track_us(static_cast<std::uint32_t>(result.times.track_us));
-  message.total_us(report.total_us);
+  message.total_us(time::microseconds_since(report.started_us));
   message.frames_dropped(report.frames_dropped);
   message.box_sets_used(report.box_sets_used);
   state_.write(message);

@@ -29,7 +29,7 @@ struct FrameReport {
   std::span<const ImageObject> objects;
   std::uint64_t frame_index = 0;
   std::uint32_t predict_us = 0;
-  std::uint32_t total_us = 0;  // from when the frame was taken until its result is ready
+  std::int64_t started_us = 0;  // when the frame was taken [time::now_us()]
   std::uint64_t frames_dropped = 0;
   std::uint64_t box_sets_used = 0;
 };

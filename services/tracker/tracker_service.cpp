@@ -2,7 +2,6 @@
 #include "services/tracker/tracker_service.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -14,6 +13,7 @@
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/service/possible_poses.hpp"
+#include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
 #include "services/tracker/saved_start.hpp"
@@ -22,15 +22,6 @@ namespace rds::tracker {
 namespace {
 
 constexpr std::uint8_t kLoop = 1;
-
-std::int64_t now_us() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
-
-std::uint32_t microseconds_since(std::int64_t start_us) {
-  return static_cast<std::uint32_t>(now_us() - start_us);
-}
 
 /// On the calling thread, the worker, and on a helper of its own.
 Executor executor_with_helper() {
@@ -45,7 +36,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
     : Service(context),
       config_(config),
       tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               executor_with_helper(), now_us),
+               executor_with_helper(), time::now_us),
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, epoch_.id()),
@@ -112,26 +103,25 @@ void TrackerService::begin_after_break() {
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (epoch_.is_of_another_camera(frame)) reset();
   answers_.await(frame_index_, epoch_.id(), stop_, [this] { beat(); });
-  const std::int64_t started_us = now_us();
+  const std::int64_t started_us = time::now_us();
   apply_answers();
-  const std::int64_t predict_started_us = now_us();
+  const std::int64_t predict_started_us = time::now_us();
   const auto regions =
       objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
-  std::uint32_t predict_us = microseconds_since(predict_started_us);
+  std::uint32_t predict_us = time::microseconds_since(predict_started_us);
   const FrameResult result = tracker_.track(frame, regions);
-  const std::int64_t project_started_us = now_us();
+  const std::int64_t project_started_us = time::now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
-  predict_us += microseconds_since(project_started_us);
-  const std::uint32_t total_us = microseconds_since(started_us);
+  predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   outputs_.publish(
-      {frame, result, objects, frame_index_, predict_us, total_us, input_.dropped(), objects_.observed()});
+      {frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(), objects_.observed()});
   if (result.keyframe) {
     publish_poses();
     epoch_.note_keyframe();
   }
   start_mapping();
-  context_.diagnostics.latency("frame").add_ms(total_us / 1e3);
+  context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();
 }
@@ -140,7 +130,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes().size() > 0) result.state = State::kLost;
-  outputs_.publish({frame, result, {}, frame_index_, 0, 0, input_.dropped(), objects_.observed()});
+  outputs_.publish({frame, result, {}, frame_index_, 0, time::now_us(), input_.dropped(), objects_.observed()});
   ++frame_index_;
 }
 

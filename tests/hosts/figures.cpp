@@ -65,11 +65,12 @@ std::string to_line(const std::string& label, const HostFigures& f, const HostFi
   return fmt::format(
       "{:<28} answered {} of {} ({:.3f}), p50 {:.0f} p95 {:.0f} ms ({:.0f} {:.0f}), gap {:.2f} s ({:.2f}), "
       "ATE live {:.4f} ({:.4f}) final {:.4f} ({:.4f}) m, recall {:.3f} ({:.3f}), residue {:.4f} ({:.4f}), "
-      "missing {}, link {:.0f} kB, reader {:.0f} kB a keyframe, repeats {:.3f}, localised {} of {}",
+      "missing {}, link {:.0f} kB, reader {:.0f} kB a keyframe, repeats {:.3f}, localised {} of {}, total p99 "
+      "{:.1f} ms",
       label, f.answered, f.keyframes, f.share_answered(), f.p50_ms, f.p95_ms, one.p50_ms, one.p95_ms,
       f.longest_gap_s, one.longest_gap_s, f.ate_live_m, one.ate_live_m, f.ate_final_m, one.ate_final_m,
       f.recall, one.recall, f.residue, one.residue, f.missing, f.link_bytes / 1e3, f.reader_bytes / 1e3,
-      f.repeats, f.localized, f.frames);
+      f.repeats, f.localized, f.frames, f.p99_total_ms);
 }
 
 }  // namespace rds::test

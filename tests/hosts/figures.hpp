@@ -36,6 +36,8 @@ struct HostFigures {
   double link_bytes = 0;            // that A sent to its link while the camera ran, per keyframe
   double reader_bytes = 0;          // of them to the reader that took most, per keyframe
   double repeats = 0;               // chunks asked for again, per chunk that arrived
+  double idle_kbit_s = 0;           // that reach a host where nothing runs
+  double p99_total_ms = 0;          // of the tracker, for a frame
   std::vector<std::string> faults;  // sentences: what services did not do
 
   [[nodiscard]] double share_answered() const {
@@ -45,7 +47,7 @@ struct HostFigures {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HostFigures, frames, localized, keyframes, answered, p50_ms, p95_ms,
                                    longest_gap_s, ate_live_m, ate_final_m, recall, residue, missing,
-                                   link_bytes, reader_bytes, repeats, faults)
+                                   link_bytes, reader_bytes, repeats, idle_kbit_s, p99_total_ms, faults)
 
 /// The value below which this share of them lies; 0 of none.
 double quantile(const std::vector<double>& sorted, double share);

@@ -35,6 +35,20 @@ std::string namespace_of(pid_t pid) {
   return fmt::format("/proc/{}/ns/net", pid);
 }
 
+/// The n-th of the kernel's figures of this host's link.
+std::uint64_t link_figure(int n) {
+  std::ifstream interfaces("/proc/thread-self/net/dev");
+  for (std::string line; std::getline(interfaces, line);) {
+    const auto colon = line.find("eth0:");
+    if (colon == std::string::npos) continue;
+    std::istringstream fields(line.substr(colon + 5));
+    std::uint64_t field = 0;
+    for (int i = 0; i < n; ++i) fields >> field;
+    return field;
+  }
+  throw std::runtime_error("this host has no link");
+}
+
 }  // namespace
 
 std::string HostNetwork::why_not() {
@@ -132,17 +146,12 @@ OnHost::~OnHost() {
 }
 
 std::uint64_t bytes_sent() {
-  std::ifstream interfaces("/proc/thread-self/net/dev");
-  for (std::string line; std::getline(interfaces, line);) {
-    const auto colon = line.find("eth0:");
-    if (colon == std::string::npos) continue;
-    std::istringstream fields(line.substr(colon + 5));
-    std::uint64_t field = 0;
-    constexpr int kSentBytes = 9;  // eight of what was received come before
-    for (int i = 0; i < kSentBytes; ++i) fields >> field;
-    return field;
-  }
-  throw std::runtime_error("this host has no link");
+  constexpr int kSentBytes = 9;  // eight of what was received come before
+  return link_figure(kSentBytes);
+}
+
+std::uint64_t bytes_received() {
+  return link_figure(1);
 }
 
 }  // namespace rds::test

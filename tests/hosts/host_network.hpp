@@ -69,5 +69,7 @@ class OnHost {
 
 /// Bytes that the calling thread's host has sent to its link since it was made.
 std::uint64_t bytes_sent();
+/// … and that have come.
+std::uint64_t bytes_received();
 
 }  // namespace rds::test

@@ -22,7 +22,9 @@ constexpr double kMaxGapS = 0.1;       // longer than one machine's
 constexpr double kMaxRepeats = 0.1;
 constexpr double kMaxReaderBytes = 0.2e6;  // a keyframe
 constexpr double kTurnS = 15;
-constexpr double kLongS = 46;
+constexpr double kMaxIdleKbitS = 10;
+constexpr double kMaxLinkBytes = 0.8e6;  // a keyframe; one raw keyframe or camera frame has 1.5 MB
+constexpr double kMaxOfAlone = 1.1;      // p99 of a frame, of that of a tracker alone
 const std::string kFiguresFile = "figures.json";
 
 fs::path results_of(const std::string& label) {
@@ -42,9 +44,9 @@ RecordingPair recording_of(const Row& row, const fs::path& place) {
   const TestRecording people = recording_with_people();
   const RecordingPair whole{
       people.folder, people.rendered ? rendered_recording("room_empty") : shared() / "data/7scenes_kitchen"};
-  if (!row.is_long) return whole;
-  make_to_and_fro(whole.dataset, place / "recording", 0, kTurnS, kLongS);
-  make_to_and_fro(whole.background, place / "background", 0, kTurnS, kLongS);
+  if (row.length_s == 0) return whole;
+  make_to_and_fro(whole.dataset, place / "recording", 0, kTurnS, row.length_s + 1);
+  make_to_and_fro(whole.background, place / "background", 0, kTurnS, row.length_s + 1);
   link_masks(whole.dataset / "masks", place / "recording" / "masks");
   return {place / "recording", place / "background"};
 }
@@ -92,8 +94,24 @@ void expect_row(const Row& row) {
   if (row.absence) {
     EXPECT_EQ(figures.missing, 0U);
   }
+  if (row.has_bystanders) {
+    EXPECT_LE(figures.idle_kbit_s, kMaxIdleKbitS);
+    EXPECT_LE(figures.link_bytes, kMaxLinkBytes);
+  }
   EXPECT_LE(figures.repeats, kMaxRepeats);
   EXPECT_LE(figures.reader_bytes, kMaxReaderBytes);
+}
+
+void expect_split_cores(const CoreRows& rows) {
+  if (const auto reason = HostNetwork::why_not(); !reason.empty()) GTEST_SKIP() << reason;
+  const HostFigures alone = run_row(rows.alone);
+  const HostFigures split = run_row(rows.split);
+  const HostFigures shared = run_row(rows.shared);
+  fmt::print("{}: p99 of a frame {:.1f} ms split, {:.1f} ms shared, {:.1f} ms alone; medians of answers {:.0f} and {:.0f} ms\n",
+             bus::name_of(rows.split.vendor), split.p99_total_ms, shared.p99_total_ms, alone.p99_total_ms,
+             split.p50_ms, shared.p50_ms);
+  EXPECT_THAT(split.faults, testing::IsEmpty());
+  EXPECT_LE(split.p99_total_ms, kMaxOfAlone * alone.p99_total_ms);
 }
 
 }  // namespace rds::test

@@ -11,4 +11,7 @@ void expect_baseline(const Row& row);
 /// Runs a row, prints its line of the table and expects what its bounds say, compared with one machine.
 void expect_row(const Row& row);
 
+/// The tracker is as fast as alone where the other services run on other machines.
+void expect_split_cores(const CoreRows& rows);
+
 }  // namespace rds::test

@@ -6,13 +6,15 @@
 #include <iterator>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace rds::test {
 namespace {
 
-using Kind = Absence::Kind;
-
 constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds};
 constexpr double kAny = std::numeric_limits<double>::infinity();
+constexpr double kLongS = 55;     // 5 before an absence of 20, 30 after it
+constexpr double kLongestS = 95;  // and of 60
 constexpr double kAfterAbsence = 0.01;  // of recall and residue, 30 s later
 
 /// Of one vendor, and without name of it.
@@ -24,11 +26,11 @@ std::vector<Row> kinds() {
     return Row{
         .name = std::move(name), .link = {.rate_mbit = mbit, .impairment = impairment}, .bounds = bounds};
   };
-  const auto absent = [](std::string name, std::string host, Kind kind) {
+  const auto absent = [](std::string name, Absence absence, double length_s) {
     return Row{.name = std::move(name),
-               .absence = Absence{.host = std::move(host), .kind = kind},
+               .absence = std::move(absence),
                .bounds = {.p95_ms = kAny, .map_share = kAfterAbsence},
-               .is_long = true};
+               .length_s = length_s};
   };
   return {rate("clean", 1000, {.p95_ms = 150}),
           rate("rate_100", 100, {.p95_ms = 200}),
@@ -39,9 +41,11 @@ std::vector<Row> kinds() {
           impaired("loss_5", 1000, {.loss = 0.05}, {.answered = 0.95, .p95_ms = 600}),
           impaired("jitter", 1000, {.delay_ms = 20, .jitter_ms = 10}, {.p95_ms = 300}),
           impaired("rate_40_loss_1", 40, {.delay_ms = 3, .loss = 0.01}, {.p95_ms = 500}),
-          absent("c_away", "C", Kind::kUnplugged),
-          absent("b_away", "B", Kind::kUnplugged),
-          absent("c_replaced", "C", Kind::kReplaced)};
+          Row{.name = "bystanders", .has_bystanders = true},
+          absent("c_away", {.host = "C", .for_s = 10}, kLongS),
+          absent("b_away", {.host = "B", .for_s = 20}, kLongS),
+          absent("c_away_60", {.host = "C", .for_s = 60}, kLongestS),
+          absent("c_replaced", {.host = "C", .kind = Absence::Kind::kReplaced}, kLongS)};
 }
 
 bool is_short(const Row& row) {
@@ -52,10 +56,10 @@ bool is_short(const Row& row) {
 }  // namespace
 
 Row on_one_machine(const Row& row) {
-  return {.name = row.is_long ? "one_machine_long" : "one_machine",
+  return {.name = row.length_s > 0 ? fmt::format("one_machine_{:.0f}_s", row.length_s) : "one_machine",
           .vendor = row.vendor,
           .on_one_machine = true,
-          .is_long = row.is_long};
+          .length_s = row.length_s};
 }
 
 void PrintTo(const Row& row, std::ostream* out) {
@@ -65,8 +69,8 @@ void PrintTo(const Row& row, std::ostream* out) {
 std::vector<Row> one_machine_rows() {
   std::vector<Row> rows;
   for (const bus::Vendor vendor : kVendors)
-    for (const bool is_long : {false, true})
-      rows.push_back(on_one_machine({.vendor = vendor, .is_long = is_long}));
+    for (const double length_s : {0.0, kLongS, kLongestS})
+      rows.push_back(on_one_machine({.vendor = vendor, .length_s = length_s}));
   return rows;
 }
 
@@ -74,6 +78,12 @@ std::vector<Row> short_rows() {
   std::vector<Row> rows;
   std::ranges::copy_if(all_rows(), std::back_inserter(rows), is_short);
   return rows;
+}
+
+CoreRows core_rows(bus::Vendor vendor) {
+  return {{.name = "cores_split", .vendor = vendor, .cores = Cores::kOfEachHost},
+          {.name = "cores_shared", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOne},
+          {.name = "cores_alone", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOneForTracker}};
 }
 
 std::vector<Row> all_rows() {

@@ -30,6 +30,14 @@ struct Bounds {
   double map_share = 0.02;  // recall less, residue more than on one machine, at most
 };
 
+/// On which processor cores the hosts' programs may run.
+enum class Cores {
+  kAny,
+  kOfEachHost,     // A's on the first, those of B and C on the second
+  kOne,            // all on the first
+  kOneForTracker,  // the tracker on the first; no other service runs
+};
+
 /// One row: five services on three hosts, A (camera, tracker, recorder), B (detector, transformer) and
 /// C (mapper, loop closer), or all on A.
 struct Row {
@@ -39,8 +47,10 @@ struct Row {
   Link link = {};  // of A
   std::optional<Absence> absence = {};
   Bounds bounds = {};
-  /// To and fro for 45 s, so that there are 30 s after an absence; or the recording as it is.
-  bool is_long = false;
+  /// So long to and fro, so that there are 30 s after an absence [s]; 0: the recording as it is.
+  double length_s = 0;
+  bool has_bystanders = false;  // a fourth host where nothing runs; a second reader of the camera on A
+  Cores cores = Cores::kAny;    // what feeds the camera is on the second
 
   /// Name and vendor, for GoogleTest.
   [[nodiscard]] std::string label() const { return name + "_" + bus::name_of(vendor); }
@@ -57,5 +67,13 @@ std::vector<Row> one_machine_rows();
 std::vector<Row> short_rows();
 /// All.
 std::vector<Row> all_rows();
+/// A vendor's rows of the reason for it all: A's programs have a core for themselves, share it with the other
+/// services, and the tracker alone has it.
+struct CoreRows {
+  Row split;
+  Row shared;
+  Row alone;
+};
+CoreRows core_rows(bus::Vendor vendor);
 
 }  // namespace rds::test

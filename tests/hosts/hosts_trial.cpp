@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <stdexcept>
+#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,9 +28,10 @@ constexpr auto kLastStatusLimit = 3s;
 constexpr auto kAcknowledgeLimit = 10s;
 constexpr auto kFinishLimit = 120s;
 constexpr auto kStopLimit = 8s;
-constexpr double kLongS = 45;
+constexpr auto kJoinTime = 5s;
 const std::string kMapName = "map";
 const std::string kA = "A";
+const std::string kIdle = "D";
 
 /// Which service runs on which host when they are on three.
 const std::map<std::string, std::string>& placement() {
@@ -39,6 +41,21 @@ const std::map<std::string, std::string>& placement() {
                                                              {run::kMapper, "C"},
                                                              {run::kLoopCloser, "C"}};
   return kPlacement;
+}
+
+std::vector<std::string> hosts_of(const Row& row) {
+  if (row.on_one_machine) return {kA};
+  std::vector<std::string> hosts{kA, "B", "C"};
+  if (row.has_bystanders) hosts.push_back(kIdle);
+  return hosts;
+}
+
+/// Held to the cores that the row allows it.
+std::vector<std::string> held(std::vector<std::string> command, Cores cores, const std::string& host) {
+  if (cores == Cores::kAny) return command;
+  const bool is_second = cores == Cores::kOfEachHost && host != kA;
+  command.insert(command.begin(), {"taskset", "--cpu-list", is_second ? "1" : "0"});
+  return command;
 }
 
 /// Topics that nobody reads, or whose readers take a transfer instead when they are on another machine.
@@ -56,8 +73,9 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
     : row_(row),
       out_(std::move(out)),
       dataset_(image::TumDataset::open(recording).value()),
-      network_(row.on_one_machine ? std::vector{kA} : std::vector<std::string>{"A", "B", "C"}, row.link),
+      network_(hosts_of(row), row.link),
       here_(network_, kA),
+      core_(row.cores == Cores::kAny ? -1 : 1),
       bus_(bus::Participant::create(
           {.vendor = row.vendor, .domain = domain_.domain(), .node_name = "hosts_trial"})),
       recorder_(*bus_),
@@ -75,7 +93,9 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
     options.network = true;
     for (auto& command : run::service_commands(options, domain_.domain(), folder_of(host))) {
       if (placement().at(command.name) != host) continue;
+      if (row_.cores == Cores::kOneForTracker && command.name != run::kTracker) continue;
       command.command.front() = RDS_BIN_DIR "/" + command.name;
+      command.command = held(command.command, row_.cores, host);
       if (!row_.on_one_machine) command.command = network_.on(host, command.command);
       all.push_back(std::move(command));
     }
@@ -85,8 +105,13 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
 
 HostFigures HostsTrial::run() {
   wait_until_connected();
+  if (row_.has_bystanders) add_second_reader();
   const std::uint64_t sent_before = bytes_sent();
+  const std::uint64_t idle_before = idle_bytes();
+  const auto started = Clock::now();
   play();
+  const std::chrono::duration<double> played = Clock::now() - started;
+  figures_.idle_kbit_s = static_cast<double>(idle_bytes() - idle_before) * 8e-3 / played.count();
   const auto sent = static_cast<double>(bytes_sent() - sent_before);
   drain();
   figures_.keyframes = arrivals_.keyframes();
@@ -100,8 +125,27 @@ HostFigures HostsTrial::run() {
   const run::Recording recording = recorder_.recording();
   figures_.localized = static_cast<std::size_t>(
       std::ranges::count_if(recording.frames, [](const auto& frame) { return frame.second.has_pose; }));
+  std::vector<double> totals_ms;
+  for (const auto& [stamp_ns, frame] : recording.frames) totals_ms.push_back(frame.total_ms);
+  std::ranges::sort(totals_ms);
+  figures_.p99_total_ms = quantile(totals_ms, 0.99);
   run::write_run_files(recording, out_);
   return figures_;
+}
+
+/// Of the camera; all that its coming makes the others say is over when this returns.
+void HostsTrial::add_second_reader() {
+  second_reader_ = std::make_unique<Process>(
+      network_.on(kA, {RDS_BIN_DIR "/rds", "topic", "hz", topics::kColor.name, "--bus",
+                       bus::name_of(row_.vendor), "--domain", std::to_string(domain_.domain())}));
+  std::this_thread::sleep_for(kJoinTime);
+}
+
+/// That have reached the host where nothing runs.
+std::uint64_t HostsTrial::idle_bytes() const {
+  if (!row_.has_bystanders) return 0;
+  const OnHost there(network_, kIdle);
+  return bytes_received();
 }
 
 void HostsTrial::wait_until_connected() {
@@ -111,7 +155,7 @@ void HostsTrial::wait_until_connected() {
   std::vector<std::string> missing{"nobody answers"};
   while (Clock::now() < deadline) {
     fleet_.watch();
-    const auto statuses = commander_.ask_status(placement().size(), {}, kStatusLimit);
+    const auto statuses = commander_.ask_status(fleet_.names().size(), {}, kStatusLimit);
     missing = run::missing_links(running, run::endpoints_of(*bus_, statuses));
     std::erase_if(missing, [&](const auto& link) { return may_be_missing(link, row_.on_one_machine); });
     if (missing.empty()) return;
@@ -126,7 +170,7 @@ void HostsTrial::play() {
     last_stamp_ns_ = frame.stamp_ns;
     be_absent(at_s);
     fleet_.watch();
-    return !row_.is_long || at_s < kLongS;
+    return row_.length_s == 0 || at_s < row_.length_s;
   });
   figures_.frames = report.played;
   figures_.longest_gap_s = arrivals_.longest_gap_s();
@@ -158,6 +202,7 @@ void HostsTrial::drain() {
   recorder_.wait_acknowledged(last_stamp_ns_, {}, kAcknowledgeLimit);
   const std::string poses = ask(run::kTracker, "finish", "");
   recorder_.wait_poses(number_in(poses, "poses_revision"), {}, kAcknowledgeLimit);
+  if (!fleet_.alive(run::kMapper)) return;
   const std::uint64_t mapped = number_in(ask(run::kMapper, "finish", poses), "keyframes");
   const std::uint64_t made = number_in(poses, "keyframes");
   figures_.missing = made > mapped ? made - mapped : 0;
@@ -182,7 +227,7 @@ std::string HostsTrial::ask(const std::string& service, const std::string& verb,
 }
 
 void HostsTrial::note_statuses() {
-  const auto statuses = commander_.ask_status(placement().size(), {}, kLastStatusLimit);
+  const auto statuses = commander_.ask_status(fleet_.names().size(), {}, kLastStatusLimit);
   for (const auto& [service, text] : statuses) write_text(out_ / (service + ".json"), text);
   add_transfer(statuses, figures_);
 }

@@ -10,6 +10,7 @@
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/figures.hpp"
 #include "tests/hosts/hosts_table.hpp"
+#include "tests/hosts/on_core.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/results/recorder.hpp"
@@ -30,6 +31,8 @@ class HostsTrial {
 
  private:
   std::vector<run::ServiceCommand> commands() const;
+  void add_second_reader();
+  [[nodiscard]] std::uint64_t idle_bytes() const;
   [[nodiscard]] std::filesystem::path folder_of(const std::string& host) const { return out_ / host; }
   void wait_until_connected();
   void play();
@@ -45,6 +48,7 @@ class HostsTrial {
   image::TumDataset dataset_;
   HostNetwork network_;
   OnHost here_;  // all that follows is on A
+  OnCore core_;
   run::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Recorder recorder_;
@@ -54,6 +58,7 @@ class HostsTrial {
   run::Fleet fleet_;
   std::int64_t last_stamp_ns_ = 0;  // of the camera
   enum class Phase { kBefore, kDuring, kAfter } phase_ = Phase::kBefore;
+  std::unique_ptr<Process> second_reader_;  // of the camera
   HostFigures figures_;
 };
 

@@ -42,6 +42,7 @@ TEST_P(KilledService, IsStartedAgainAndTheRunGoesOn) {
   EXPECT_GT(summary["frames"]["tracked"].get<int>(), GetParam() == "rds-tracker" ? 40 : 110);
   EXPECT_GT(summary["detector"]["lag_ms"]["median"].get<double>(), 0);
   EXPECT_LT(summary["detector"]["lag_ms"]["p99"].get<double>(), 1000);
+  EXPECT_GT(summary["map"]["delay_s"]["median"].get<double>(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, KilledService, ::testing::ValuesIn(kServices),

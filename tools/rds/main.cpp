@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   rds::run::add_run_command(rds);
   rds::play::add_play_command(rds);
   rds::tools::add_eval_command(rds);
+  rds::tools::add_hosts_command(rds);
   rds::tools::add_map_command(rds);
   rds::tools::add_topic_command(rds);
   rds::tools::add_status_command(rds);

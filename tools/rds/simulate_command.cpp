@@ -15,6 +15,7 @@
 
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
+#include "tools/simulator/building/floor_layout.hpp"
 #include "tools/simulator/dataset_writer.hpp"
 #include "tools/simulator/rendering/lens.hpp"
 
@@ -36,7 +37,9 @@ constexpr double kFinestDepth = 13000;  // the farthest measurement must fit int
 
 struct SimulateOptions {
   std::string out;
-  std::string path = "xyz";
+  std::string world = "room";
+  std::optional<std::string> path;
+  std::optional<int> rooms;
   int people = 2;
   double seconds = 20;
   std::uint64_t seed = 1;
@@ -69,10 +72,30 @@ geometry::CameraModel camera_of(const SimulateOptions& options) {
   return camera;
 }
 
+/// Checks --world and what belongs to one world only.
+void check_world(const SimulateOptions& options, simulator::SimulationOptions& checked) {
+  if (options.world == "room") {
+    const auto path = simulator::path_kind(options.path.value_or("xyz"));
+    if (!path)
+      exit_with(kExitBadInput, fmt::format("--path {}: expected {}", *options.path, simulator::path_names()));
+    if (options.rooms) exit_with(kExitBadInput, "--rooms: expected together with --world floor");
+    checked.path = *path;
+    return;
+  }
+  if (options.world != "floor")
+    exit_with(kExitBadInput, fmt::format("--world {}: expected room|floor", options.world));
+  if (options.path)
+    exit_with(kExitBadInput, "--path: expected with --world room only; on a floor a robot drives the camera");
+  checked.world = simulator::World::kFloor;
+  checked.rooms = options.rooms.value_or(checked.rooms);
+  if (checked.rooms < simulator::kFewestRooms || checked.rooms > simulator::kMostRooms)
+    exit_with(kExitBadInput, fmt::format("--rooms {}: expected {} … {}", checked.rooms,
+                                         simulator::kFewestRooms, simulator::kMostRooms));
+}
+
 simulator::SimulationOptions checked(const SimulateOptions& options) {
-  const auto path = simulator::path_kind(options.path);
-  if (!path)
-    exit_with(kExitBadInput, fmt::format("--path {}: expected {}", options.path, simulator::path_names()));
+  simulator::SimulationOptions checked;
+  check_world(options, checked);
   if (options.people < 0 || options.people > kMostPeople)
     exit_with(kExitBadInput, fmt::format("--people {}: expected 0 … {}", options.people, kMostPeople));
   if (!(options.seconds > 0 && options.seconds <= kLongestS))
@@ -85,11 +108,9 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
   if (!(options.depth_scale >= kCoarsestDepth && options.depth_scale <= kFinestDepth))
     exit_with(kExitBadInput, fmt::format("--depth-scale {}: expected {} … {} units per metre",
                                          options.depth_scale, kCoarsestDepth, kFinestDepth));
-  simulator::SimulationOptions checked;
   checked.camera = camera_of(options);
   checked.rate_hz = options.fps;
   checked.depth_units_per_metre = options.depth_scale;
-  checked.path = *path;
   checked.people = options.people;
   checked.seconds = options.seconds;
   checked.seed = options.seed;
@@ -134,6 +155,12 @@ std::optional<std::string> render_all(const Simulation& simulation, DatasetWrite
   return fault;
 }
 
+/// For the line that says what is made.
+std::string motion_of(const SimulateOptions& options) {
+  if (options.world == "room") return "path " + options.path.value_or("xyz");
+  return fmt::format("floor of {} rooms", options.rooms.value_or(simulator::SimulationOptions().rooms));
+}
+
 void simulate(const SimulateOptions& options) {
   const auto what = checked(options);
   try {
@@ -141,7 +168,7 @@ void simulate(const SimulateOptions& options) {
     const Simulation simulation(what);
     DatasetWriter writer(simulation, options.out);
     const int frames = simulation.frame_count();
-    fmt::print("{}: {} frames, path {}, {} people, seed {}\n", options.out, frames, options.path,
+    fmt::print("{}: {} frames, {}, {} people, seed {}\n", options.out, frames, motion_of(options),
                options.people, options.seed);
     if (const auto fault = render_all(simulation, writer, thread_count(options, frames)))
       exit_with(kExitBadInput, *fault);
@@ -156,11 +183,17 @@ void simulate(const SimulateOptions& options) {
 
 void add_simulate_command(CLI::App& rds) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* simulate_app =
-      rds.add_subcommand("simulate", "Render a recording of a room with walking people, with its truth");
+  CLI::App* simulate_app = rds.add_subcommand(
+      "simulate", "Render a recording of a room or a floor with walking people, with its truth");
   simulate_app->add_option("--out", options->out, "Folder of the recording")->required();
-  simulate_app->add_option("--path", options->path, "How the camera moves: " + simulator::path_names())
+  simulate_app->add_option("--world", options->world, "room, or floor: rooms along corridors of a building")
       ->capture_default_str();
+  simulate_app->add_option("--rooms", options->rooms,
+                           fmt::format("How many rooms the floor has, {} … {}; 12 if left out",
+                                       simulator::kFewestRooms, simulator::kMostRooms));
+  simulate_app->add_option(
+      "--path", options->path,
+      fmt::format("How the camera moves in the room: {}; xyz if left out", simulator::path_names()));
   simulate_app->add_option("--people", options->people, "How many people walk; 0 = the static twin")
       ->capture_default_str();
   simulate_app->add_option("--seconds", options->seconds, "Length")->capture_default_str();

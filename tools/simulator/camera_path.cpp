@@ -23,6 +23,8 @@ double smooth_step(double x) {
   return x * x * x * (x * (6 * x - 15) + 10);
 }
 
+}  // namespace
+
 geometry::Pose look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
   geometry::Pose pose = geometry::Pose::Identity();
   const Eigen::Vector3d z = (target - eye).normalized();
@@ -33,8 +35,6 @@ geometry::Pose look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target
   pose.translation() = eye;
   return pose;
 }
-
-}  // namespace
 
 std::optional<PathKind> path_kind(const std::string& name) {
   for (const auto& [known, kind] : kNames)

@@ -10,6 +10,9 @@
 
 namespace rds::simulator {
 
+/// Pose of a camera at `eye` that looks at `target`, its x axis horizontal; the direction is not vertical.
+geometry::Pose look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
+
 /// How the camera moves; the first four are those of TUM's walking sequences (Sturm et al., IROS 2012).
 enum class PathKind {
   kStatic,      // held still by hand

@@ -6,14 +6,22 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tools/simulator/building/floor.hpp"
 #include "tools/simulator/rendering/silhouette.hpp"
+#include "tools/simulator/robot_path.hpp"
 #include "tools/simulator/world/room.hpp"
+#include "tools/simulator/world/visibility.hpp"
 
 namespace rds::simulator {
 namespace {
 
 constexpr std::uint64_t kPeopleStream = 100;
+constexpr double kPersonReach = 0.7;      // of arms and legs, from the middle of a person [m]
 constexpr double kLeastSeen = 1.0 / 768;  // of the picture, that an object must fill (400 px of 640×480)
+
+Eigen::Vector3d on_floor(const Motion& motion) {
+  return {motion.position.x(), motion.position.y(), 0};
+}
 
 std::vector<Shadow> shadows_of(const PersonLook& look, const Motion& motion) {
   const Skeleton s = pose_skeleton(look.body, motion);
@@ -23,6 +31,20 @@ std::vector<Shadow> shadows_of(const PersonLook& look, const Motion& motion) {
     shadows.push_back({leg.end.head<2>(), 0.2F + lifted, 0.5F / (1 + 4 * lifted)});
   }
   return shadows;
+}
+
+Scene make_scene(const SimulationOptions& options) {
+  if (options.world == World::kRoom) return make_room(options.seed);
+  return make_floor(options.seed, options.rooms, options.day);
+}
+
+WalkPlanner::CameraAt make_path(const SimulationOptions& options, const Scene& scene) {
+  if (options.world == World::kRoom)
+    return [path = CameraPath(options.path, options.seconds, options.seed)](double t) {
+      return path.world_from_camera(t);
+    };
+  return [path = RobotPath(scene, options.seconds, options.seed + static_cast<std::uint64_t>(options.day))](
+             double t) { return path.world_from_camera(t); };
 }
 
 std::string motion_name(const Motion& motion, double turn_rad_s) {
@@ -40,13 +62,12 @@ geometry::CameraModel camera_of_size(int width, int height) {
 
 Simulation::Simulation(const SimulationOptions& options)
     : options_(options),
-      scene_(make_room(options.seed)),
-      path_(options.path, options.seconds, options.seed),
+      scene_(make_scene(options)),
+      camera_at_(make_path(options, scene_)),
       color_sensor_(options.seed),
       depth_sensor_(options.seed, options.camera.fx, options.depth_units_per_metre) {
   const FloorMap floor(scene_);
-  WalkPlanner planner(
-      floor, options_.camera, [this](double t) { return path_.world_from_camera(t); }, options_.seconds);
+  WalkPlanner planner(floor, options_.camera, camera_at_, options_.seconds);
   for (int i = 0; i < options_.people; ++i) {
     Random random(options_.seed, kPeopleStream + static_cast<std::uint64_t>(i));
     Actor actor;
@@ -62,14 +83,17 @@ int Simulation::frame_count() const {
 
 SimulatedFrame Simulation::frame(int index, Renderer& renderer) const {
   const double t = time_s(index);
-  const geometry::Pose pose = path_.world_from_camera(t);
+  const geometry::Pose pose = camera_at_(t);
   std::vector<Mesh> people(actors_.size());
-  std::vector<const Mesh*> meshes{&scene_.mesh};
+  const auto visible = visible_rooms(scene_, renderer.ideal_camera(), pose);
+  std::vector<const Mesh*> meshes;
+  for (const std::size_t room : visible) meshes.push_back(&scene_.rooms[room].mesh);
   std::vector<Shadow> shadows;
   for (std::size_t i = 0; i < actors_.size(); ++i) {
     const Motion motion = actors_[i].walk.at(t);
+    if (!may_be_seen(motion, visible)) continue;
     build_person(actors_[i].look, motion, static_cast<std::uint16_t>(kFirstPerson + i),
-                 scene_.size.cast<float>(), people[i]);
+                 scene_.rooms[scene_.room_at(on_floor(motion))].lamps, people[i]);
     meshes.push_back(&people[i]);
     const auto own = shadows_of(actors_[i].look, motion);
     shadows.insert(shadows.end(), own.begin(), own.end());
@@ -91,6 +115,12 @@ SimulatedFrame Simulation::frame(int index, Renderer& renderer) const {
   }
   observe_objects(rendering, pose, out);
   return out;
+}
+
+bool Simulation::may_be_seen(const Motion& motion, const std::vector<std::size_t>& visible) const {
+  return std::ranges::any_of(visible, [&](std::size_t room) {
+    return scene_.rooms[room].distance(on_floor(motion)) < kPersonReach;
+  });
 }
 
 PersonTruth Simulation::truth_of(int id, double t, const Mesh& mesh, const cv::Mat& mask,

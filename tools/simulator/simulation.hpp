@@ -19,8 +19,13 @@ namespace rds::simulator {
 /// A camera without distortion with the same horizontal field of view at every size, 62.7°.
 geometry::CameraModel camera_of_size(int width, int height);
 
+enum class World : std::uint8_t { kRoom, kFloor };
+
 struct SimulationOptions {
-  PathKind path = PathKind::kXyz;
+  World world = World::kRoom;
+  PathKind path = PathKind::kXyz;  // of kRoom; on a floor the camera is a robot's
+  int rooms = 12;                  // of kFloor
+  int day = 0;                     // of kFloor, see make_floor()
   int people = 2;
   double seconds = 20;
   std::uint64_t seed = 1;
@@ -59,8 +64,8 @@ struct SimulatedFrame {
 
 /// A recording that exists as a function: any frame can be rendered at any time, from any thread.
 ///
-/// Room, camera path and sensor noise depend on the seed only, so `people = 0` gives the same recording
-/// without people.
+/// World, camera path and sensor noise do not depend on the people, so `people = 0` gives the same recording
+/// without them.
 class Simulation {
  public:
   explicit Simulation(const SimulationOptions& options);
@@ -69,9 +74,7 @@ class Simulation {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] int frame_count() const;
   [[nodiscard]] double time_s(int frame) const { return frame / options_.rate_hz; }
-  [[nodiscard]] geometry::Pose world_from_camera(double time_s) const {
-    return path_.world_from_camera(time_s);
-  }
+  [[nodiscard]] geometry::Pose world_from_camera(double time_s) const { return camera_at_(time_s); }
   [[nodiscard]] const DepthSensor& depth_sensor() const { return depth_sensor_; }
 
   /// @param renderer  of the calling thread, made for options().camera.
@@ -82,13 +85,14 @@ class Simulation {
     PersonLook look;
     Walk walk;
   };
+  [[nodiscard]] bool may_be_seen(const Motion& motion, const std::vector<std::size_t>& visible) const;
   [[nodiscard]] PersonTruth truth_of(int id, double time_s, const Mesh& mesh, const cv::Mat& mask,
                                      const geometry::Pose& pose) const;
   void observe_objects(const Rendering& rendering, const geometry::Pose& pose, SimulatedFrame& out) const;
 
   SimulationOptions options_;
   Scene scene_;
-  CameraPath path_;
+  WalkPlanner::CameraAt camera_at_;
   ColorSensor color_sensor_;
   DepthSensor depth_sensor_;
   std::vector<Actor> actors_;

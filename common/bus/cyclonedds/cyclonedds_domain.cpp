@@ -38,7 +38,7 @@ constexpr const char* kNoSharedMemory =
     "Id=\"any\"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>";
 
 std::string discovery_settings(const ParticipantOptions& options) {
-  std::string text = "<Discovery><SPDPInterval>" + std::to_string(kAnnouncementPeriodS) + "s</SPDPInterval>" +
+  std::string text = "<Discovery><SPDPInterval>" + std::to_string(announcement_period_s(options)) + "s</SPDPInterval>" +
                      "<LeaseDuration>" + std::to_string(kLeaseDurationS) + "s</LeaseDuration>";
   if (options.loopback_only || !options.peers.empty()) {
     text += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +

@@ -66,11 +66,11 @@ void set_transport(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
   qos.transport().user_transports.push_back(std::move(udp));
 }
 
-void set_discovery(dds::DomainParticipantQos& qos) {
+void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.initial_announcements.count = kAnnouncementsAtStart;
   discovery.initial_announcements.period = {0, kAnnouncementAtStartPeriodNs};
-  discovery.leaseDuration_announcementperiod = {kAnnouncementPeriodS, 0};
+  discovery.leaseDuration_announcementperiod = {announcement_period_s(options), 0};
   discovery.leaseDuration = {kLeaseDurationS, 0};
 }
 
@@ -101,7 +101,7 @@ dds::DomainParticipantQos fastdds_participant_qos(const ParticipantOptions& opti
       dds::DomainParticipantFactory::get_instance()->get_default_participant_qos();
   if (qos == dds::PARTICIPANT_QOS_DEFAULT) {
     set_transport(qos, options);
-    set_discovery(qos);
+    set_discovery(qos, options);
   }
   qos.name(options.node_name.c_str());
   const std::string user_data = kParticipantUserData;

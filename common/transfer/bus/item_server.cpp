@@ -8,6 +8,7 @@
 
 #include "common/concurrency/priority.hpp"
 #include "common/topics/topics.hpp"
+#include "common/transfer/bus/item_file.hpp"
 
 namespace rds::transfer {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 // Each holds a keyframe's pictures until they are compressed.
 constexpr std::size_t kMostWaiting = 8;
 constexpr std::size_t kMostRequests = 256;
+constexpr std::size_t kMostSpilledBytes = std::size_t{2} << 30U;  // of keyframes among people about 40 minutes
 /// Of one request; a reader's window is smaller.
 constexpr std::uint32_t kMostChunks = 4096;
 constexpr int kNice = 10;  // tracking has the processor first
@@ -40,7 +42,7 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       channel_(channel),
       maker_(maker),
       host_(host),
-      items_(memory_bytes),
+      items_(memory_bytes, std::make_unique<ItemFile>(), kMostSpilledBytes),
       offers_(topics::advertise(context.bus, channel.offers, process)),
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {

@@ -34,6 +34,8 @@ namespace tools {
 /// `rds eval GROUNDTRUTH TRAJECTORY`: ATE and RPE of a trajectory, with a plot.
 /// `rds eval DATASET OUT [--background DIR]`: the figures of a whole run.
 void add_eval_command(CLI::App& rds);
+/// `rds hosts compose`: services on several machines.
+void add_hosts_command(CLI::App& rds);
 /// `rds map info|save|export|query|diff|list|load`: a map from a file (--map map.ot) or, without it, the live one.
 void add_map_command(CLI::App& rds);
 /// `rds topic list|echo|hz|bw`: looks at the live bus, whichever process publishes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/commander/commander.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "common/topics/endpoints.hpp"
@@ -8,7 +9,10 @@
 namespace rds::run {
 namespace {
 
-constexpr topics::Process kSender = topics::kPlayer | topics::kTool;
+/// Whoever commands, as the table says.
+topics::Process sender_of(const topics::Topic<rds_msgs::msg::Command>& commands) {
+  return commands.writers.begin()->processes;
+}
 
 std::uint64_t random_id() {
   std::random_device device;
@@ -17,10 +21,11 @@ std::uint64_t random_id() {
 
 }  // namespace
 
-Commander::Commander(bus::Participant& bus)
+Commander::Commander(bus::Participant& bus, const topics::Topic<rds_msgs::msg::Command>& commands,
+                     const topics::Topic<rds_msgs::msg::CommandResult>& results)
     : next_id_(random_id()),
-      commands_(topics::advertise(bus, topics::kCommand, kSender)),
-      results_(topics::subscribe(bus, topics::kCommandResult, kSender, [this](const auto& m) {
+      commands_(topics::advertise(bus, commands, sender_of(commands))),
+      results_(topics::subscribe(bus, results, sender_of(commands), [this](const auto& m) {
         const std::lock_guard lock(mutex_);
         const auto request = replies_.find(m->request_id());
         if (request == replies_.end()) return;  // somebody else's, or too late
@@ -46,12 +51,27 @@ std::uint64_t Commander::send(const std::string& service, const std::string& ver
 std::optional<CommandReply> Commander::ask(const std::string& service, const std::string& verb,
                                            const std::string& argument, const std::stop_token& stop,
                                            std::chrono::milliseconds limit) {
-  const std::uint64_t id = send(service, verb, argument);
+  return ask_each(service, verb, {argument}, stop, limit).front();
+}
+
+std::vector<std::optional<CommandReply>> Commander::ask_each(const std::string& service,
+                                                             const std::string& verb,
+                                                             const std::vector<std::string>& arguments,
+                                                             const std::stop_token& stop,
+                                                             std::chrono::milliseconds limit) {
+  std::vector<std::uint64_t> ids;
+  for (const std::string& argument : arguments) ids.push_back(send(service, verb, argument));
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, stop, limit, [&] { return !replies_[id].empty(); });
-  const auto answers = replies_.extract(id);
-  if (answers.mapped().empty()) return std::nullopt;
-  return answers.mapped().begin()->second;
+  changed_.wait_for(lock, stop, limit, [&] {
+    return std::ranges::none_of(ids, [&](std::uint64_t id) { return replies_[id].empty(); });
+  });
+  std::vector<std::optional<CommandReply>> replies;
+  for (const std::uint64_t id : ids) {
+    const auto answers = replies_.extract(id);
+    const bool none = answers.mapped().empty();
+    replies.push_back(none ? std::nullopt : std::optional(answers.mapped().begin()->second));
+  }
+  return replies;
 }
 
 std::map<std::string, std::string> Commander::ask_status(std::size_t expected, const std::stop_token& stop,

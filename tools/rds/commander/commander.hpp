@@ -9,8 +9,10 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/topics/topics.hpp"
 #include "rds_msgs/msg/Command.h"
 #include "rds_msgs/msg/CommandResult.h"
 
@@ -24,12 +26,21 @@ struct CommandReply {
 /// Sends commands to services and collects their answers.
 class Commander {
  public:
-  explicit Commander(bus::Participant& bus);
+  /// To services; or to other processes, on topics of theirs.
+  explicit Commander(bus::Participant& bus,
+                     const topics::Topic<rds_msgs::msg::Command>& commands = topics::kCommand,
+                     const topics::Topic<rds_msgs::msg::CommandResult>& results = topics::kCommandResult);
 
   /// Sends one command and waits for its answer; nullopt if none came within `limit`.
   std::optional<CommandReply> ask(const std::string& service, const std::string& verb,
                                   const std::string& argument, const std::stop_token& stop,
                                   std::chrono::milliseconds limit);
+
+  /// Sends one command for each argument, and waits for the answers to all. @return in the same order.
+  std::vector<std::optional<CommandReply>> ask_each(const std::string& service, const std::string& verb,
+                                                    const std::vector<std::string>& arguments,
+                                                    const std::stop_token& stop,
+                                                    std::chrono::milliseconds limit);
 
   /// Asks all services for their status at once. @return the answers that came within `limit`, by service
   /// name.

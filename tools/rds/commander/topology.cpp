@@ -57,6 +57,13 @@ std::size_t count_running(const std::set<std::string>& processes, const std::set
 
 }  // namespace
 
+std::string service_of(const std::string& name) {
+  std::string service = name.starts_with("rds-") ? name : "rds-" + name;
+  std::ranges::replace(service, '_', '-');
+  const auto is_it = [&](const Member& member) { return member.name == service; };
+  return std::ranges::any_of(members(), is_it) ? service : "";
+}
+
 std::string part_of(const std::string& service) {
   std::string part = service.substr(std::string("rds-").size());
   std::ranges::replace(part, '-', '_');
@@ -76,7 +83,7 @@ Endpoints endpoints_of(const bus::Participant& player, const std::map<std::strin
 }
 
 std::vector<std::string> missing_links(const std::set<std::string>& running, const Endpoints& endpoints,
-                                       bool localize_only) {
+                                       bool localize_only, const std::set<std::string>& far) {
   std::vector<std::string> missing;
   const auto check = [&](const std::string& process, const Link& link, bool publisher) {
     const auto reported = endpoints.find(process);
@@ -97,9 +104,13 @@ std::vector<std::string> missing_links(const std::set<std::string>& running, con
   };
   static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kKeyframeFeatures.name,
                                              topics::kBoxes.name};
+  static const std::set<std::string> kTransferred{topics::kKeyframeImages.name,
+                                                  topics::kKeyframeFeatures.name};
   for (Link& link : links()) {
     if (localize_only && kMapped.contains(link.topic))
       std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
+    if (kTransferred.contains(link.topic))
+      std::erase_if(link.readers, [&](const std::string& r) { return far.contains(r); });
     for (const std::string& writer : link.writers) check(writer, link, true);
     for (const std::string& reader : link.readers) check(reader, link, false);
   }

@@ -18,6 +18,9 @@ inline const std::string kTransformer = "rds-transformer";
 inline const std::string kMapper = "rds-mapper";
 inline const std::string kLoopCloser = "rds-loop-closer";
 
+/// "rds-loop-closer" of "loop_closer", "loop-closer" or "rds-loop-closer"; empty if there is no such service.
+std::string service_of(const std::string& name);
+
 /// The name of a service's part in a saved map: "tracker" of "rds-tracker".
 std::string part_of(const std::string& service);
 
@@ -39,7 +42,8 @@ Endpoints endpoints_of(const bus::Participant& player, const std::map<std::strin
 /// @param endpoints  by process name, as each process reported; a process that has not reported is a missing
 /// link.
 /// @param localize_only  the mapper and the loop closer do not listen to keyframes.
-std::vector<std::string> missing_links(const std::set<std::string>& running,
-                                       const Endpoints& endpoints, bool localize_only = false);
+/// @param far  services on other machines than the tracker, which ask for keyframes (common/transfer).
+std::vector<std::string> missing_links(const std::set<std::string>& running, const Endpoints& endpoints,
+                                       bool localize_only = false, const std::set<std::string>& far = {});
 
 }  // namespace rds::run

@@ -13,7 +13,9 @@
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/commander/topology.hpp"
-#include "tools/rds/run/services/run_options.hpp"
+#include "tools/rds/run/far/far_run.hpp"
+#include "tools/rds/run/far/terms.hpp"
+#include "tools/rds/run/services/service_commands.hpp"
 #include "tools/rds/run/session.hpp"
 
 namespace rds::run {
@@ -35,10 +37,8 @@ void parse_vendors(const std::string& text, RunOptions& options) {
       continue;
     }
     std::string process = part.substr(0, equals);
-    if (process == "player") process = kPlayer;
-    if (process != kPlayer && !process.starts_with("rds-")) process.insert(0, "rds-");
-    if (process == "rds-loop_closer") process = kLoopCloser;
-    if (!kProcesses.contains(process))
+    process = process == "player" ? kPlayer : service_of(process);
+    if (process.empty())
       throw std::invalid_argument(
           fmt::format("--bus {}: expected player, tracker, detector, transformer, mapper or "
                       "loop-closer before '='",
@@ -97,18 +97,43 @@ void check_map(RunOptions& options) {
   if (!sections) throw std::runtime_error(sections.error());
 }
 
-int run(RunOptions& options, const std::string& vendors) {
+/// Where the services run when there are several machines.
+struct HostsOptions {
+  std::filesystem::path file;  // empty: all on this machine
+  std::string machine;         // empty: the one with the name of this computer
+};
+
+std::optional<Elsewhere> place(RunOptions& options, const HostsOptions& where) {
+  if (where.file.empty()) return std::nullopt;
+  Elsewhere elsewhere{hosts::read_hosts_file(where.file), {}};
+  elsewhere.here = hosts::this_machine(elsewhere.hosts, where.machine);
+  Placement here{services_of(options), elsewhere.hosts.peers_of(elsewhere.here)};
+  const auto& placed = elsewhere.hosts.machine(elsewhere.here).services;
+  std::erase_if(here.services, [&](const auto& service) { return !placed.contains(service); });
+  options.here = here;
+  options.network = true;
+  options.domain = options.domain.value_or(elsewhere.hosts.domain);
+  return elsewhere;
+}
+
+int run(RunOptions& options, const std::string& vendors, const HostsOptions& where) {
   try {
     parse_vendors(vendors, options);
     check_secured(options);
     check_files(options);
     check_map(options);
+    const auto elsewhere = place(options, where);
+    Interrupt interrupt;
+    if (elsewhere && !options.here->services.contains(kTracker))
+      return FarRun(options, elsewhere->hosts, elsewhere->here).run(interrupt.token());
+    if (elsewhere) check_placement(options, elsewhere->hosts, elsewhere->hosts.machine(elsewhere->here));
+    if (options.dataset.empty() || options.out.empty())
+      throw std::runtime_error("--dataset and --out: expected where the camera is");
     const auto dataset = image::TumDataset::open(options.dataset);
     if (!dataset) throw std::runtime_error(dataset.error());
     play::check_first_frame(*dataset, options.start);
     check_poses(options, *dataset);
-    Interrupt interrupt;
-    Session session(options, *dataset);
+    Session session(options, *dataset, elsewhere);
     return session.run(interrupt.token());
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());
@@ -122,9 +147,10 @@ void add_run_command(CLI::App& rds) {
   auto* command = rds.add_subcommand("run", "run the five services on a recording and write the results");
   auto options = std::make_shared<RunOptions>();
   auto vendors = std::make_shared<std::string>("fastdds");
+  auto where = std::make_shared<HostsOptions>();
   auto no_dynamics = std::make_shared<bool>(false);
-  command->add_option("--dataset", options->dataset, "folder in TUM RGB-D form")->required();
-  command->add_option("--out", options->out, "folder for the results")->required();
+  command->add_option("--dataset", options->dataset, "folder in TUM RGB-D form");
+  command->add_option("--out", options->out, "folder for the results");
   command
       ->add_option("--bus", *vendors,
                    "fastdds, cyclonedds, or per process: tracker=cyclonedds,mapper=fastdds")
@@ -148,15 +174,18 @@ void add_run_command(CLI::App& rds) {
       ->add_option("--domain", options->domain,
                    "DDS domain, to listen from outside by --loopback or --network (default: one of its own)")
       ->check(CLI::Range(0, 232));
+  command->add_option("--hosts", where->file, "which service runs on which machine; run this on each of them")
+      ->check(CLI::ExistingFile);
+  command->add_option("--machine", where->machine, "which of them this is (default: the computer's name)");
   command->add_flag("--network", options->network,
                     "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");
   command->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
       ->envname("RDS_SECURE");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
-  command->callback([options, vendors, no_dynamics] {
+  command->callback([options, vendors, where, no_dynamics] {
     options->dynamics = !*no_dynamics;
-    const int status = run(*options, *vendors);
+    const int status = run(*options, *vendors, *where);
     if (status != 0) throw CLI::RuntimeError(status);
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/run/session.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <thread>
 
@@ -9,6 +10,7 @@
 
 #include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/results/results.hpp"
+#include "tools/rds/run/services/join_bus.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
 
 namespace rds::run {
@@ -21,37 +23,33 @@ using Clock = std::chrono::steady_clock;
 constexpr seconds kConnectLimit{30};
 constexpr milliseconds kStatusLimit{300};
 constexpr seconds kAcknowledgeLimit{30};
+constexpr std::size_t kFramesUnderWay = 2;    // the camera's topics hold 5
 constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
 constexpr seconds kFinishLimit{120};
-constexpr milliseconds kStopLimit{2500};
 const std::string kMapName = "map";
-
-std::unique_ptr<bus::Participant> join(const RunOptions& options, int domain) {
-  return bus::Participant::create({.vendor = options.vendor_of(kPlayer),
-                                   .domain = domain,
-                                   .node_name = "rds_run",
-                                   .loopback_only = !options.network,
-                                   .credentials = options.secure.credentials()});
-}
+const std::string kPartsFolder = kMapsFolder + "/.saving";  // of the map, until all are there
 
 }  // namespace
 
-Session::Session(const RunOptions& options, const image::TumDataset& dataset)
+Session::Session(const RunOptions& options, const image::TumDataset& dataset,
+                 const std::optional<Elsewhere>& elsewhere)
     : options_(options),
       dataset_(dataset),
       folder_(options.out, options.force),
       domain_(options.domain),
-      bus_(join(options, domain_.domain())),
+      bus_(join_bus(options, domain_.domain())),
       recorder_(*bus_),
       commander_(*bus_),
       player_(*bus_, dataset,
               {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
-      fleet_(std::make_unique<Fleet>(service_commands(options, domain_.domain(), folder_.path()))),
+      services_(
+          std::make_unique<RunServices>(options, domain_.domain(), folder_.path(), *bus_, elsewhere)),
       overlay_(
           std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),
       progress_(player_.frame_count()) {}
 
 int Session::run(const std::stop_token& stop) {
+  services_->begin_elsewhere(stop);
   wait_until_connected(stop);
   progress_.start();
   play::PlayerReport report;
@@ -59,26 +57,28 @@ int Session::run(const std::stop_token& stop) {
   if (!stop.stop_requested()) report = play(stop);
   if (!stop.stop_requested()) answers = drain(stop);
   Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
-  fleet_->stop(kStopLimit);
+  const auto usage = services_->stop(stop);
   overlay_->finish();
   if (stop.stop_requested()) {
     fmt::print(stderr, "stopped after {} frames, nothing is written\n", progress_.played());
     return 1;
   }
-  write_results(std::move(recording), report, answers);
-  return fleet_->healthy() && complete_ ? 0 : 1;
+  write_results(std::move(recording), report, answers, usage);
+  const auto failed = [](const auto& entry) { return !entry.second.failures.empty(); };
+  return complete_ && std::ranges::none_of(usage, failed) ? 0 : 1;
 }
 
 void Session::wait_until_connected(const std::stop_token& stop) {
-  std::set<std::string> running = fleet_->names();
+  std::set<std::string> running = services_->names();
   const std::size_t services = running.size();
   running.insert(kPlayer);
   const auto deadline = Clock::now() + kConnectLimit;
   std::vector<std::string> missing;
   while (!stop.stop_requested()) {
-    fleet_->watch();
+    services_->watch();
     const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
-    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only);
+    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only,
+                            services_->elsewhere());
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
@@ -101,20 +101,36 @@ play::PlayerReport Session::play(const std::stop_token& stop) {
 bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
   overlay_->add_picture(index, frame);
   if (options_.lockstep()) {
-    expect(recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit),
-           fmt::format("frame {}: not answered within {} s", index, kAcknowledgeLimit.count()), stop);
-    if (fleet_->alive(kMapper) && !options_.localize_only)
+    under_way_.push_back(frame.stamp_ns);
+    wait_for_frames(kFramesUnderWay, stop);
+    if (services_->alive(kMapper) && !options_.localize_only)
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
-  fleet_->watch();
+  services_->watch();
   progress_.add_frame(recorder_.keyframes());
   return true;
+}
+
+/// Waits until no more frames than these are on their way: the next one travels while the tracker is at work.
+/// A tracker that has lost one has lost those after it, too.
+void Session::wait_for_frames(std::size_t left, const std::stop_token& stop) {
+  while (under_way_.size() > left) {
+    const std::int64_t stamp_ns = under_way_.front();
+    const bool answered = recorder_.wait_acknowledged(stamp_ns, stop, kAcknowledgeLimit);
+    expect(answered,
+           fmt::format("the frame of {:.6f} s: not answered within {} s", static_cast<double>(stamp_ns) * 1e-9,
+                       kAcknowledgeLimit.count()),
+           stop);
+    if (!answered) return under_way_.clear();
+    under_way_.pop_front();
+  }
 }
 
 /// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing
 /// left to do.
 Session::Answers Session::drain(const std::stop_token& stop) {
   Answers answers;
+  wait_for_frames(0, stop);
   const Recording so_far = recorder_.recording();
   if (!so_far.frames.empty())
     recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);
@@ -130,18 +146,22 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   }
   answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
-  answers.status = commander_.ask_status(fleet_->names().size(), stop, seconds(2));
+  answers.status = commander_.ask_status(services_->names().size(), stop, seconds(2));
   return answers;
 }
 
-/// Every service that has a part of the map writes it; together they are map.rds.
+/// Every service that has a part of the map writes it; together they are map.rds. The tracker is here, and last:
+/// then the parts of other machines are here, too.
 void Session::save_map(const std::stop_token& stop) {
   nlohmann::json order{{"name", kMapName}, {"id", "run"}, {"parts", nlohmann::json::array()}};
   std::vector<std::string> services;
-  for (const std::string& service : {kTracker, kMapper, kLoopCloser})
-    if (fleet_->alive(service)) services.push_back(service);
+  for (const std::string& service : {kMapper, kLoopCloser, kTracker})
+    if (services_->alive(service)) services.push_back(service);
   for (const std::string& service : services) order["parts"].push_back(part_of(service));
-  for (const std::string& service : services) ask(service, "save", order.dump(), stop);
+  for (const std::string& service : services) {
+    if (service == kTracker) services_->fetch(kPartsFolder, stop);
+    ask(service, "save", order.dump(), stop);
+  }
   if (!stop.stop_requested()) take_map_files();
 }
 
@@ -163,20 +183,21 @@ void Session::expect(bool holds, const std::string& otherwise, const std::stop_t
 /// @return the answer; empty, and the run is not complete, if the command failed.
 std::string Session::ask(const std::string& service, const std::string& verb, const std::string& argument,
                          const std::stop_token& stop) {
-  fleet_->watch();
+  services_->watch();
   const auto reply = commander_.ask(service, verb, argument, stop, kFinishLimit);
   if (reply && reply->success) return reply->message;
   expect(false, fmt::format("{} {}: {}", service, verb, reply ? reply->message : "no answer"), stop);
   return {};
 }
 
-void Session::write_results(Recording recording, const play::PlayerReport& report, const Answers& answers) {
+void Session::write_results(Recording recording, const play::PlayerReport& report, const Answers& answers,
+                            const std::map<std::string, ServiceUsage>& usage) {
   const double wall_s = progress_.elapsed_s();
   recording.keyframes_in_map = answers.keyframes_in_map;
   write_all_results({options_,
                      recording,
                      report,
-                     fleet_->usage(),
+                     usage,
                      answers.status,
                      player_.frame_count(),
                      wall_s,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,8 +16,7 @@
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
 #include "tools/rds/run/services/domain_lock.hpp"
-#include "tools/rds/run/services/fleet.hpp"
-#include "tools/rds/run/services/run_options.hpp"
+#include "tools/rds/run/run_services.hpp"
 
 namespace rds::run {
 
@@ -25,7 +25,8 @@ namespace rds::run {
 class Session {
  public:
   /// @throws std::runtime_error with one sentence when the run cannot start.
-  Session(const RunOptions& options, const image::TumDataset& dataset);
+  Session(const RunOptions& options, const image::TumDataset& dataset,
+          const std::optional<Elsewhere>& elsewhere = {});
 
   /// @return the process's exit status: 0 if every service stayed healthy, 1 otherwise.
   int run(const std::stop_token& stop);
@@ -40,13 +41,15 @@ class Session {
   void wait_until_connected(const std::stop_token& stop);
   play::PlayerReport play(const std::stop_token& stop);
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
+  void wait_for_frames(std::size_t left, const std::stop_token& stop);
   Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
   void expect(bool holds, const std::string& otherwise, const std::stop_token& stop);
   std::string ask(const std::string& service, const std::string& verb, const std::string& argument,
                   const std::stop_token& stop);
-  void write_results(Recording recording, const play::PlayerReport& report, const Answers& answers);
+  void write_results(Recording recording, const play::PlayerReport& report, const Answers& answers,
+                     const std::map<std::string, ServiceUsage>& usage);
 
   const RunOptions& options_;
   const image::TumDataset& dataset_;
@@ -56,10 +59,11 @@ class Session {
   Recorder recorder_;
   Commander commander_;
   play::Player player_;
-  std::unique_ptr<Fleet> fleet_;
+  std::unique_ptr<RunServices> services_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;
-  bool complete_ = true;  // nothing timed out
+  std::deque<std::int64_t> under_way_;  // stamps of frames that are not known to be acknowledged, in lockstep
+  bool complete_ = true;                // nothing timed out
 };
 
 }  // namespace rds::run

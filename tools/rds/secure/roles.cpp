@@ -40,12 +40,14 @@ std::vector<Role> roles(const Topics& camera_topics) {
       service("transformer", topics::kTransformer, camera_topics),
       service("mapper", topics::kMapper),
       service("loop-closer", topics::kLoopCloser),
-      {"operator", Topics{topics::kCommand.name, topics::kMapRequests.name} + camera_topics,
+      {"operator",
+       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name, topics::kMapRequests.name} +
+           camera_topics,
        Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
       {"reader",
        {topics::kMapRequests.name},  // asks for what it lacks, where the mapper is on another machine
        Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
-      {"player", camera_topics, {topics::kTrackingState.name}},
+      {"player", camera_topics, {topics::kTrackingState.name, topics::kServiceStatus.name}},
       {"camera", camera_topics, {}},
   };
 }

@@ -161,8 +161,8 @@ void add_leg(Mesh& mesh, const Limb& leg, const Vector3f& toe, const PersonLook&
 
 }  // namespace
 
-void build_person(const PersonLook& look, const Motion& motion, std::uint16_t object, const Vector3f& room,
-                  Mesh& mesh) {
+void build_person(const PersonLook& look, const Motion& motion, std::uint16_t object,
+                  std::span<const Lamp> lamps, Mesh& mesh) {
   mesh.vertices.clear();
   mesh.triangles.clear();
   const Skeleton s = pose_skeleton(look.body, motion);
@@ -174,7 +174,7 @@ void build_person(const PersonLook& look, const Motion& motion, std::uint16_t ob
     add_arm(mesh, s.arms[i], look, object);
     add_leg(mesh, s.legs[i], s.toes[i], look, object);
   }
-  for (auto& vertex : mesh.vertices) vertex.light = light_at(vertex.position, vertex.normal, room);
+  for (auto& vertex : mesh.vertices) vertex.light = light_at(vertex.position, vertex.normal, lamps);
 }
 
 }  // namespace rds::simulator

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "tools/simulator/people/gait.hpp"
 #include "tools/simulator/rendering/mesh.hpp"
 #include "tools/simulator/rendering/random.hpp"
+#include "tools/simulator/world/scene.hpp"
 
 namespace rds::simulator {
 
@@ -28,8 +31,8 @@ PersonLook make_person(Appearance& appearance, Random& random);
 
 /// The person's surface at one moment, lit, as triangles of object `object`.
 ///
-/// @param room  Scene::size, for the light
+/// @param lamps  of the room where the person is
 void build_person(const PersonLook& look, const Motion& motion, std::uint16_t object,
-                  const Eigen::Vector3f& room, Mesh& mesh);
+                  std::span<const Lamp> lamps, Mesh& mesh);
 
 }  // namespace rds::simulator

@@ -36,6 +36,9 @@ class Renderer {
  public:
   explicit Renderer(const geometry::CameraModel& camera);
 
+  /// The camera without distortion that sees all that the camera sees.
+  [[nodiscard]] const geometry::CameraModel& ideal_camera() const { return lens_.ideal(); }
+
   /// @param meshes  all share `appearance`.
   void render(std::span<const Mesh* const> meshes, const Appearance& appearance,
               std::span<const Shadow> shadows, const geometry::Pose& world_from_camera, Rendering& out);

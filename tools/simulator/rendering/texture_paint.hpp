@@ -25,6 +25,10 @@ cv::Mat parquet(Random& random, const cv::Scalar& color);
 cv::Mat carpet(Random& random);
 /// Wall with a small printed pattern.
 cv::Mat wallpaper(Random& random, const cv::Scalar& color);
+/// Painted wall with small dents and stains.
+cv::Mat plaster(Random& random, const cv::Scalar& color);
+/// Stone floor with chips of other shades.
+cv::Mat terrazzo(Random& random, const cv::Scalar& color);
 /// Woven cloth of one colour.
 cv::Mat fabric(Random& random, const cv::Scalar& color, double contrast = 1);
 /// Cushion or curtain with a two-colour pattern.

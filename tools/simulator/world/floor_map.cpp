@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <utility>
 
 namespace rds::simulator {
 namespace {
 
 constexpr double kCell = 0.05;
-constexpr double kHalfPerson = 0.27;
 constexpr double kPersonHeight = 1.8;
 
 struct Step {
@@ -32,22 +32,64 @@ void smooth(std::vector<Eigen::Vector2d>& line, const IsFree& is_free) {
 
 }  // namespace
 
-FloorMap::FloorMap(const Scene& scene) {
-  corner_ = -scene.size.head<2>() / 2;
-  width_ = static_cast<int>(scene.size.x() / kCell);
-  height_ = static_cast<int>(scene.size.y() / kCell);
-  blocked_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-  for (int i = 0; i < static_cast<int>(blocked_.size()); ++i) {
-    const Eigen::Vector2d p = center(i);
-    bool blocked = (p.cwiseAbs().array() > scene.size.head<2>().array() / 2 - kHalfPerson).any();
-    for (const auto& object : scene.objects) {
-      if (blocked) break;
-      if (object.box.min.z() > kPersonHeight || object.box.max.z() < 0.05) continue;
-      const Eigen::Vector2d nearest = p.cwiseMax(object.box.min.head<2>()).cwiseMin(object.box.max.head<2>());
-      blocked = &object != &scene.objects.front() && (p - nearest).norm() < kHalfPerson;
-    }
-    blocked_[static_cast<std::size_t>(i)] = blocked ? 1 : 0;
+FloorMap::FloorMap(const Scene& scene, double radius) {
+  const geometry::Box3 bounds = scene.bounds();
+  corner_ = bounds.min.head<2>();
+  width_ = static_cast<int>(bounds.size().x() / kCell);
+  height_ = static_cast<int>(bounds.size().y() / kCell);
+  blocked_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 1);
+  for (const Room& room : scene.rooms)
+    set(room.box.min.head<2>().array() + radius, room.box.max.head<2>().array() - radius, 0, 0);
+  for (const Opening& opening : scene.openings) {
+    const Eigen::Vector2d size = opening.box.size().head<2>();
+    const Eigen::Vector2d reach =
+        size.x() < size.y() ? Eigen::Vector2d(radius, -radius) : Eigen::Vector2d(-radius, radius);
+    set(opening.box.min.head<2>() - reach, opening.box.max.head<2>() + reach, 0, 0);
   }
+  for (std::size_t i = 1; i < scene.objects.size(); ++i) {
+    const geometry::Box3& box = scene.objects[i].box;
+    if (box.min.z() > kPersonHeight || box.max.z() < 0.05) continue;
+    set(box.min.head<2>(), box.max.head<2>(), radius, 1);
+  }
+}
+
+/// Sets the cells whose middle is in a rectangle, or less than `margin` away from it.
+void FloorMap::set(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin,
+                   std::uint8_t blocked) {
+  const auto range = [&](int axis, int count) {
+    const int first = static_cast<int>((low[axis] - margin - corner_[axis]) / kCell) - 1;
+    const int last = static_cast<int>((high[axis] + margin - corner_[axis]) / kCell) + 1;
+    return std::pair(std::clamp(first, 0, count), std::clamp(last + 1, 0, count));
+  };
+  const auto [x0, x1] = range(0, width_);
+  const auto [y0, y1] = range(1, height_);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      const Eigen::Vector2d p = center(y * width_ + x);
+      const double distance = (p - p.cwiseMax(low).cwiseMin(high)).norm();
+      if (margin > 0 ? distance < margin : distance <= 0)
+        blocked_[static_cast<std::size_t>(y * width_ + x)] = blocked;
+    }
+}
+
+void FloorMap::keep_connected_to(const Eigen::Vector2d& point) {
+  std::vector<std::uint8_t> blocked(blocked_.size(), 1);
+  std::vector<int> open{cell(nearest_free(point))};
+  blocked[static_cast<std::size_t>(open.back())] = 0;
+  while (!open.empty()) {
+    const int c = open.back();
+    open.pop_back();
+    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+      const int x = c % width_ + dx;
+      const int y = c / width_ + dy;
+      if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
+      const auto next = static_cast<std::size_t>(y * width_ + x);
+      if (blocked_[next] != 0 || blocked[next] == 0) continue;
+      blocked[next] = 0;
+      open.push_back(y * width_ + x);
+    }
+  }
+  blocked_ = std::move(blocked);
 }
 
 int FloorMap::cell(const Eigen::Vector2d& point) const {

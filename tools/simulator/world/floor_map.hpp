@@ -8,12 +8,18 @@
 
 namespace rds::simulator {
 
-/// Where a person can walk: the floor without furniture, widened by half a person.
+/// Where a person or a robot can go: the floor of all rooms and doorways without furniture, all obstacles
+/// widened by half of the one who goes there.
 class FloorMap {
  public:
-  explicit FloorMap(const Scene& scene);
+  static constexpr double kHalfPerson = 0.27;
+
+  /// @param radius  of who goes there [m]
+  explicit FloorMap(const Scene& scene, double radius = kHalfPerson);
 
   [[nodiscard]] bool is_free(const Eigen::Vector2d& point) const;
+  /// Takes away what cannot be reached from the free place nearest to `point`.
+  void keep_connected_to(const Eigen::Vector2d& point);
   /// The free place nearest to `point`.
   [[nodiscard]] Eigen::Vector2d nearest_free(const Eigen::Vector2d& point) const;
   /// Shortest way between two free places as a smooth line with a point every 5 cm; empty if there is none.
@@ -21,6 +27,7 @@ class FloorMap {
                                                   const Eigen::Vector2d& to) const;
 
  private:
+  void set(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin, std::uint8_t blocked);
   [[nodiscard]] int cell(const Eigen::Vector2d& point) const;
   [[nodiscard]] Eigen::Vector2d center(int cell) const;
   [[nodiscard]] std::vector<int> cells_between(int from, int to) const;

@@ -46,6 +46,9 @@ void add_cardboard_box(SceneBuilder& builder, const Place& place, const Eigen::V
                        Random& random);
 void add_desk_clutter(SceneBuilder& builder, const Palette& palette, const Place& place, float width,
                       Random& random);
+/// A picture in a frame with its back at `place`.
+void add_framed_panel(SceneBuilder& builder, const Place& place, float width, float height,
+                      std::uint16_t picture, std::uint16_t frame);
 void add_floor_lamp(SceneBuilder& builder, const Palette& palette, const Place& place);
 
 }  // namespace rds::simulator

@@ -179,6 +179,13 @@ void add_desk_clutter(SceneBuilder& builder, const Palette& palette, const Place
   }
 }
 
+void add_framed_panel(SceneBuilder& builder, const Place& place, float width, float height,
+                      std::uint16_t picture, std::uint16_t frame) {
+  builder.begin("", place.x, place.y, place.z, place.yaw_rad);
+  builder.box({0, 0, 0}, {width, 0.022F, height}, frame);
+  builder.panel({0, -0.0125F, 0}, {width - 0.05F, 0, 0}, {0, 0, height - 0.05F}, picture);
+}
+
 void add_floor_lamp(SceneBuilder& builder, const Palette& palette, const Place& place) {
   builder.begin("", place.x, place.y, place.z, place.yaw_rad);
   builder.lathe({0, 0, 0}, {{0.001F, 0.03F}, {0.14F, 0}, {0.14F, 0.025F}, {0.014F, 0.03F}, {0.014F, 1.4F}},

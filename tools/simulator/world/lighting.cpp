@@ -6,31 +6,17 @@
 #include <cmath>
 #include <numbers>
 
+#include <opencv2/core/utility.hpp>
+
 namespace rds::simulator {
 namespace {
 
 using Eigen::Array3f;
 using Eigen::Vector3f;
 
-const Array3f kLampColor(0.93F, 1.0F, 1.05F);  // B, G, R
-const Array3f kWindowColor(1.12F, 1.03F, 0.96F);
-const Array3f kAmbientSky(0.52F, 0.50F, 0.50F);
+const Array3f kAmbientSky(0.52F, 0.50F, 0.50F);  // B, G, R
 const Array3f kAmbientFloor(0.33F, 0.36F, 0.39F);
 constexpr float kOcclusionRange = 0.9F;
-
-struct Light {
-  Vector3f position;
-  Vector3f extent_a;  // half axes of the luminous rectangle
-  Vector3f extent_b;
-  Array3f power;
-};
-
-std::array<Light, 3> lights(const Vector3f& room) {
-  const float z = room.z() - 0.03F;
-  return {{{{-1.3F, 0, z}, {0.6F, 0, 0}, {0, 0.15F, 0}, kLampColor * 1.25F},
-           {{1.3F, 0, z}, {0.6F, 0, 0}, {0, 0.15F, 0}, kLampColor * 1.25F},
-           {{-room.x() / 2 + 0.05F, 1.0F, 1.6F}, {0, 0.5F, 0}, {0, 0, 0.5F}, kWindowColor * 1.0F}}};
-}
 
 /// Lambert with a distance law that stays finite near the lamp.
 float received(const Vector3f& to_light, const Vector3f& normal) {
@@ -47,8 +33,8 @@ Array3f ambient(const Vector3f& normal) {
 /// Things grouped by object, so that most rays cost a few box tests.
 class OccluderIndex {
  public:
-  explicit OccluderIndex(const Scene& scene) {
-    for (const auto& occluder : scene.occluders) {
+  explicit OccluderIndex(const Room& room) {
+    for (const auto& occluder : room.occluders) {
       if (occluder.object != last_ || groups_.empty()) groups_.emplace_back();
       last_ = occluder.object;
       const Eigen::Isometry3f box_from_world = occluder.world_from_box.inverse();
@@ -125,9 +111,9 @@ std::vector<Vector3f> hemisphere(int count) {
   return directions;
 }
 
-float distance_to_shell(const Vector3f& origin, const Vector3f& direction, const Vector3f& room) {
-  const Vector3f low(-room.x() / 2, -room.y() / 2, 0);
-  const Vector3f high(room.x() / 2, room.y() / 2, room.z());
+float distance_to_shell(const Vector3f& origin, const Vector3f& direction, const geometry::Box3& box) {
+  const Vector3f low = box.min.cast<float>();
+  const Vector3f high = box.max.cast<float>();
   float nearest = 1e9F;
   for (int i = 0; i < 3; ++i)
     if (std::abs(direction[i]) > 1e-6F)
@@ -135,7 +121,7 @@ float distance_to_shell(const Vector3f& origin, const Vector3f& direction, const
   return std::max(nearest, 0.0F);
 }
 
-Array3f baked(const Vertex& vertex, const OccluderIndex& index, const Vector3f& room,
+Array3f baked(const Vertex& vertex, const OccluderIndex& index, const Room& room,
               const std::vector<Vector3f>& directions) {
   const Vector3f origin = vertex.position + vertex.normal * 0.012F;
   const Eigen::Matrix3f turn =
@@ -145,12 +131,12 @@ Array3f baked(const Vertex& vertex, const OccluderIndex& index, const Vector3f& 
   float open = 0;
   for (const auto& local : directions) {
     const Vector3f direction = turn * local;
-    const float shell = distance_to_shell(origin, direction, room);
+    const float shell = distance_to_shell(origin, direction, room.box);
     const float t = std::min(index.hit(near, origin, direction, kOcclusionRange), shell);
     open += std::min(1.0F, 0.15F + 0.85F * t / kOcclusionRange);
   }
   Array3f light = ambient(vertex.normal) * (open / static_cast<float>(directions.size()));
-  for (const auto& lamp : lights(room))
+  for (const Lamp& lamp : room.lamps)
     for (const float a : {-0.75F, 0.0F, 0.75F})
       for (const float b : {-0.6F, 0.6F}) {
         const Vector3f to_light = lamp.position + a * lamp.extent_a + b * lamp.extent_b - origin;
@@ -163,29 +149,35 @@ Array3f baked(const Vertex& vertex, const OccluderIndex& index, const Vector3f& 
   return light;
 }
 
-}  // namespace
-
-Array3f light_at(const Vector3f& position, const Vector3f& normal, const Vector3f& room) {
-  const float floor_occlusion = 0.72F + 0.28F * std::min(1.0F, position.z() / 0.6F);
-  Array3f light = ambient(normal) * floor_occlusion;
-  for (const auto& lamp : lights(room)) light += lamp.power * received(lamp.position - position, normal);
-  return light;
-}
-
-void bake_light(Scene& scene) {
-  const OccluderIndex index(scene);
-  const auto directions = hemisphere(32);
-  const Vector3f room = scene.size.cast<float>();
-  std::vector<float> emission(scene.mesh.vertices.size(), 0);
-  for (const auto& triangle : scene.mesh.triangles)
+void bake(Room& room, const std::vector<Material>& materials, const std::vector<Vector3f>& directions) {
+  const OccluderIndex index(room);
+  std::vector<float> emission(room.mesh.vertices.size(), 0);
+  for (const auto& triangle : room.mesh.triangles)
     for (const auto v : {triangle.a, triangle.b, triangle.c})
-      emission[v] = scene.appearance.materials[triangle.material].emission;
-  for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
-    auto& vertex = scene.mesh.vertices[i];
+      emission[v] = materials[triangle.material].emission;
+  for (std::size_t i = 0; i < room.mesh.vertices.size(); ++i) {
+    auto& vertex = room.mesh.vertices[i];
     const float own = emission[i];
     vertex.light =
         own >= 1 ? Array3f::Constant(own) : Array3f(baked(vertex, index, room, directions) * (1 - own) + own);
   }
+}
+
+}  // namespace
+
+Array3f light_at(const Vector3f& position, const Vector3f& normal, std::span<const Lamp> lamps) {
+  const float floor_occlusion = 0.72F + 0.28F * std::min(1.0F, position.z() / 0.6F);
+  Array3f light = ambient(normal) * floor_occlusion;
+  for (const Lamp& lamp : lamps) light += lamp.power * received(lamp.position - position, normal);
+  return light;
+}
+
+void bake_light(Scene& scene) {
+  const auto directions = hemisphere(32);
+  cv::parallel_for_({0, static_cast<int>(scene.rooms.size())}, [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+      bake(scene.rooms[static_cast<std::size_t>(i)], scene.appearance.materials, directions);
+  });
 }
 
 }  // namespace rds::simulator

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <numbers>
+#include <tuple>
 
 #include "tools/simulator/rendering/texture_paint.hpp"
 #include "tools/simulator/world/furniture.hpp"
 #include "tools/simulator/world/lighting.hpp"
+#include "tools/simulator/world/wall.hpp"
 
 namespace rds::simulator {
 namespace {
@@ -15,31 +17,26 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// One wall: where its inner face is, and how a thing hangs or stands at it.
-struct Wall {
-  Vector3f middle;  // of the wall's foot
-  Vector3f right;   // unit, as seen from inside
-  float yaw_rad;    // of a thing with its back to the wall
-
-  [[nodiscard]] Place stand(float along, float distance, float turn_rad = 0, float z = 0) const {
-    const Vector3f inward = Vector3f::UnitZ().cross(right) * -1.0F;
-    const Vector3f p = middle + right * along + inward * distance;
-    return {p.x(), p.y(), z, yaw_rad + turn_rad};
-  }
-};
+/// Two ceiling lamps, and a window in the west.
+std::vector<Lamp> room_lamps(float half_width, float height) {
+  const float z = height - 0.03F;
+  return {{{-1.3F, 0, z}, {0.6F, 0, 0}, {0, 0.15F, 0}, kLampColor * 1.25F},
+          {{1.3F, 0, z}, {0.6F, 0, 0}, {0, 0.15F, 0}, kLampColor * 1.25F},
+          {{-half_width + 0.05F, 1.0F, 1.6F}, {0, 0.5F, 0}, {0, 0, 0.5F}, kWindowColor}};
+}
 
 /// Builds the room piece by piece; `random` decides every free choice.
 class RoomMaker {
  public:
   RoomMaker(Scene& scene, std::uint64_t seed) : builder_(scene), random_(seed, 1) {
-    const float hx = f(2.85, 3.1);
-    const float hy = f(2.55, 2.75);
+    const double half_width = random_.uniform(2.85, 3.1);
+    const double half_depth = random_.uniform(2.55, 2.75);
     constexpr float kHeight = 2.65F;
-    scene.size = {2.0 * hx, 2.0 * hy, kHeight};
-    north_ = {{0, hy, 0}, {1, 0, 0}, 0};
-    south_ = {{0, -hy, 0}, {-1, 0, 0}, kPi};
-    east_ = {{hx, 0, 0}, {0, -1, 0}, -kPi / 2};
-    west_ = {{-hx, 0, 0}, {0, 1, 0}, kPi / 2};
+    const geometry::Box3 box{{-half_width, -half_depth, 0}, {half_width, half_depth, kHeight}};
+    const auto hx = static_cast<float>(half_width);
+    const auto hy = static_cast<float>(half_depth);
+    builder_.begin_room(box, room_lamps(hx, kHeight));
+    std::tie(north_, south_, east_, west_) = std::tuple_cat(walls_of(box));
     palette_ = make_palette(builder_, random_);
     shell(hx, hy, kHeight);
   }
@@ -55,7 +52,6 @@ class RoomMaker {
   float f(double low, double high) { return static_cast<float>(random_.uniform(low, high)); }
 
   void shell(float hx, float hy, float height) {
-    builder_.begin_room();
     const cv::Scalar wall(random_.uniform(165, 205), random_.uniform(185, 210), random_.uniform(190, 215));
     const std::uint16_t wallpaper = builder_.material(paint::wallpaper(random_, wall));
     const std::uint16_t floor =
@@ -76,17 +72,14 @@ class RoomMaker {
                      wallpaper, {.metres = 1.6F});
       builder_.begin("", wall_side.middle.x(), wall_side.middle.y(), 0, wall_side.yaw_rad);
       builder_.box({0, -0.008F, 0.045F}, {width, 0.016F, 0.09F}, palette_.white);
-      builder_.begin_room();
+      builder_.begin_building();
     }
   }
 
   /// Framed panel on a wall, `along` to the right of its middle.
   void hang(const Wall& wall, float along, float z, float width, float height, std::uint16_t picture,
             std::uint16_t frame) {
-    const Place p = wall.stand(along, 0.012F, 0, z);
-    builder_.begin("", p.x, p.y, p.z, p.yaw_rad);
-    builder_.box({0, 0, 0}, {width, 0.022F, height}, frame);
-    builder_.panel({0, -0.0125F, 0}, {width - 0.05F, 0, 0}, {0, 0, height - 0.05F}, picture);
+    add_framed_panel(builder_, wall.stand(along, 0.012F, 0, z), width, height, picture, frame);
   }
 
   void hang_poster(const Wall& wall, float along, float z, float width) {
@@ -169,10 +162,10 @@ class RoomMaker {
   SceneBuilder builder_;
   Random random_;
   Palette palette_;
-  Wall north_;
-  Wall south_;
-  Wall east_;
-  Wall west_;
+  Wall north_{};
+  Wall south_{};
+  Wall east_{};
+  Wall west_{};
 };
 
 }  // namespace

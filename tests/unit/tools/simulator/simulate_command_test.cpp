@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/cli/commands.hpp"
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
+
+#include "tools/rds/cli/commands.hpp"
 
 namespace rds::tools {
 namespace {
@@ -27,6 +27,11 @@ TEST(SimulateCommand, BadValuesEndWithStatus2AndASentence) {
   const std::string out = (std::filesystem::temp_directory_path() / "rds_simulate_never_made").string();
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"--path", "spiral"}, "--path spiral: expected static|xyz|rpy|halfsphere|loop"},
+      {{"--world", "tower"}, "--world tower: expected room|floor"},
+      {{"--world", "floor", "--rooms", "7"}, "--rooms 7: expected 8 … 30"},
+      {{"--world", "floor", "--rooms", "31"}, "--rooms 31: expected 8 … 30"},
+      {{"--world", "floor", "--path", "loop"}, "--path: expected with --world room only"},
+      {{"--rooms", "12"}, "--rooms: expected together with --world floor"},
       {{"--people", "-1"}, "--people -1: expected 0 … 8"},
       {{"--people", "99"}, "--people 99: expected 0 … 8"},
       {{"--seconds", "0"}, "--seconds 0: expected more than 0"},

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "tools/simulator/building/floor_layout.hpp"
+#include "tools/simulator/world/visibility.hpp"
+
 namespace rds::simulator {
 namespace {
 
@@ -90,6 +93,32 @@ TEST(Simulation, DepthOfOneFrameFitsAnotherThroughTheGroundTruth) {
   EXPECT_GT(agree, 0.93 * compared);
 }
 
+TEST(Simulation, AFloorLooksAsIfAllItsRoomsHadBeenDrawn) {
+  SimulationOptions options = short_recording(0);
+  options.world = World::kFloor;
+  options.rooms = kFewestRooms;
+  options.seconds = 20;
+  const Simulation simulation(options);
+  const Scene& scene = simulation.scene();
+  std::vector<const Mesh*> all;
+  for (const Room& room : scene.rooms) all.push_back(&room.mesh);
+  Renderer renderer(options.camera);
+  for (const double t : {0.0, 6.0, 12.0, 18.0}) {
+    const geometry::Pose pose = simulation.world_from_camera(t);
+    const auto visible = visible_rooms(scene, options.camera, pose);
+    EXPECT_LT(visible.size(), scene.rooms.size());
+    std::vector<const Mesh*> drawn;
+    for (const std::size_t room : visible) drawn.push_back(&scene.rooms[room].mesh);
+    Rendering whole;
+    Rendering culled;
+    renderer.render(all, scene.appearance, {}, pose, whole);
+    renderer.render(drawn, scene.appearance, {}, pose, culled);
+    EXPECT_TRUE(same(whole.color, culled.color)) << t;
+    EXPECT_TRUE(same(whole.depth, culled.depth)) << t;
+    EXPECT_EQ(cv::countNonZero(whole.depth == 0), 0) << t;  // no gap in the walls
+  }
+}
+
 TEST(Simulation, BoxesAndAreasAreThoseOfTheMasks) {
   const Simulation simulation(short_recording(3));
   Renderer renderer(simulation.options().camera);
@@ -110,7 +139,7 @@ TEST(Simulation, BoxesAndAreasAreThoseOfTheMasks) {
 TEST(Simulation, LabelledThingsLieInTheRoomAndShowTheirLabels) {
   const Simulation simulation(short_recording(0));
   std::map<std::string, int> count;
-  const Eigen::Vector3d half(simulation.scene().size.x() / 2, simulation.scene().size.y() / 2, 0);
+  const Eigen::Vector3d half = simulation.scene().bounds().max;
   for (const auto& object : simulation.scene().objects) {
     if (object.label.empty()) continue;
     ++count[object.label];

@@ -9,8 +9,9 @@ namespace {
 /// An empty room of 6 × 5 m with a table in it.
 Scene room_with_table() {
   Scene scene;
-  scene.size = {6, 5, 2.6};
-  scene.objects = {{"", {{-3, -2.5, 0}, {3, 2.5, 2.6}}}, {"diningtable", {{-0.5, 0.6, 0}, {0.5, 1.4, 0.75}}}};
+  const geometry::Box3 box{{-3, -2.5, 0}, {3, 2.5, 2.6}};
+  scene.rooms = {{box, {}, {}, {}}};
+  scene.objects = {{"", box}, {"diningtable", {{-0.5, 0.6, 0}, {0.5, 1.4, 0.75}}}};
   return scene;
 }
 

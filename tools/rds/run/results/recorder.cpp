@@ -87,12 +87,14 @@ void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {
       epoch_ = message.map_epoch();
       keyframes_ = 0;
       last_mapped_id_.reset();
+      unmapped_.clear();
     }
     recording_.frames[record.stamp_ns] = record;
     recording_.frames_dropped = message.frames_dropped();
     if (message.is_keyframe()) {
       if (keyframes_ == 0) first_keyframe_id_ = message.keyframe_id();
       keyframes_ = message.keyframe_id() + 1 - first_keyframe_id_;
+      unmapped_.emplace(message.keyframe_id(), Clock::now());
     }
   }
   changed_.notify_all();
@@ -142,7 +144,11 @@ void Recorder::on_detections(const vision_msgs::msg::Detection2DArray& message) 
 void Recorder::on_map_info(const rds_msgs::msg::MapInfo& message) {
   {
     const std::lock_guard lock(mutex_);
-    if (message.keyframes_integrated() > 0) last_mapped_id_ = message.last_keyframe_id();
+    if (message.keyframes_integrated() == 0) return;
+    last_mapped_id_ = message.last_keyframe_id();
+    const auto end = unmapped_.upper_bound(*last_mapped_id_);
+    for (auto keyframe = unmapped_.begin(); keyframe != end; keyframe = unmapped_.erase(keyframe))
+      recording_.map_delays_s.push_back(std::chrono::duration<double>(Clock::now() - keyframe->second).count());
   }
   changed_.notify_all();
 }

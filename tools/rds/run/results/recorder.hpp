@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <stop_token>
 #include <vector>
@@ -46,6 +47,7 @@ class Recorder {
   [[nodiscard]] std::uint64_t keyframes() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
   /// Subscribes to what services write in their own name only.
   template <class Message>
   void subscribe(bus::Participant& bus, const topics::Topic<Message>& topic,
@@ -67,6 +69,7 @@ class Recorder {
   std::uint64_t first_keyframe_id_ = 0;  // of the epoch; those of a saved map come before it
   std::uint64_t keyframes_ = 0;
   std::optional<std::uint64_t> last_mapped_id_;
+  std::map<std::uint64_t, Clock::time_point> unmapped_;  // keyframes by id, and when they came
   std::uint64_t epoch_ = 0;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };

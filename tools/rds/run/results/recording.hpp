@@ -61,6 +61,7 @@ struct Recording {
   std::map<std::uint64_t, KeyframeRecord> keyframes;  // of the last map epoch
   std::uint64_t keyframes_in_map = 0;                 // of these, that the map holds at the end
   std::uint64_t map_epoch = 0;                        // that one
+  std::vector<double> map_delays_s;                   // from a keyframe to the map that has it, while it lasted
   std::uint64_t keyframes_revision = 0;
   std::uint32_t loops_closed = 0;
   std::uint64_t frames_dropped = 0;

@@ -40,6 +40,10 @@ void print_main_figures(const nlohmann::ordered_json& s) {
       frames["played"].get<int>(), frames["tracked"].get<int>(), frames["lost"].get<int>(),
       frames["dropped"].get<int>(), frames["keyframes"].get<int>(), s["loops_closed"].get<int>(),
       s["frames_per_s"].get<double>());
+  if (s.contains("map") && s["map"].contains("delay_s"))
+    fmt::print("map         {} keyframes, {} missing, delay [s] median {:.2f}  p99 {:.2f}\n",
+               s["map"]["keyframes"].get<int>(), s["map"]["keyframes_missing"].get<int>(),
+               s["map"]["delay_s"]["median"].get<double>(), s["map"]["delay_s"]["p99"].get<double>());
   for (const char* stage : {"total_ms", "extract_ms", "track_ms", "predict_ms"})
     fmt::print("{:<10}  median {:6.2f}  p95 {:6.2f}  p99 {:6.2f}\n", stage, s[stage]["median"].get<double>(),
                s[stage]["p95"].get<double>(), s[stage]["p99"].get<double>());

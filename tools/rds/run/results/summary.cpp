@@ -69,6 +69,19 @@ ordered_json detector_json(const SummaryInput& in) {
           {"keyframes_skipped", static_cast<std::uint64_t>(figure("keyframes skipped"))}};
 }
 
+/// How far the map was behind while the camera ran: from a keyframe to the map that has it, and keyframes that
+/// it never got.
+ordered_json map_json(const SummaryInput& in) {
+  const auto answer = nlohmann::json::parse(in.map_description, nullptr, false);
+  if (!answer.is_object()) return nullptr;
+  const std::size_t made = in.options.localize_only ? 0 : in.recording.keyframes.size();
+  const std::size_t mapped = answer.value("keyframes", std::size_t{0});
+  ordered_json json{{"keyframes", mapped}, {"keyframes_missing", made - std::min(made, mapped)}};
+  if (const auto& delays = in.recording.map_delays_s; !delays.empty())
+    json["delay_s"] = {{"median", rounded(percentile(delays, 50))}, {"p99", rounded(percentile(delays, 99))}};
+  return json;
+}
+
 /// Messages and bytes written per topic, by all services; what is dropped anywhere is dropped.
 ordered_json topics_json(const SummaryInput& in) {
   std::map<std::string, std::array<std::uint64_t, 3>> topics;
@@ -111,6 +124,7 @@ ordered_json summarize(const SummaryInput& in) {
   json["bus"] = ordered_json::object();
   for (const auto& [name, used] : in.usage) json["bus"][name] = bus::name_of(in.options.vendor_of(name));
   if (const ordered_json detector = detector_json(in); !detector.is_null()) json["detector"] = detector;
+  if (const ordered_json map = map_json(in); !map.is_null()) json["map"] = map;
   json["processes"] = processes_json(in);
   json["topics"] = topics_json(in);
   return json;

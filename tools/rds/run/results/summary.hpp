@@ -30,7 +30,7 @@ struct SummaryInput {
   std::optional<double> ate_final_m;
 };
 
-/// frames in, tracked, lost and dropped; times; keyframes; loops; the detector's lag; CPU and memory per
+/// frames in, tracked, lost and dropped; times; keyframes; loops; how far detector and map are behind; CPU and memory per
 /// process; traffic per topic; ATE.
 nlohmann::ordered_json summarize(const SummaryInput& input);
 

@@ -5,12 +5,19 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/bus/participant.hpp"
 #include "tools/rds/cli/secure_options.hpp"
 
 namespace rds::run {
+
+/// The part of a run that is one machine's, where there are several.
+struct Placement {
+  std::set<std::string> services;  // that start here
+  std::string peers;               // names or addresses of the other machines, with commas
+};
 
 /// What the user asked `rds run` for.
 struct RunOptions {
@@ -32,6 +39,7 @@ struct RunOptions {
   bool localize_only = false;
   std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
   bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
+  std::optional<Placement> here;  // empty: all services, on this machine
   SecureOptions secure{.identities = {"operator"}};
   bool video = false;
   bool force = false;

@@ -80,15 +80,22 @@ fs::path write_config(const YAML::Node& node, const fs::path& file) {
 
 }  // namespace
 
+std::set<std::string> services_of(const RunOptions& options) {
+  std::set<std::string> services{kTracker, kMapper};
+  if (options.dynamics) services.insert({kDetector, kTransformer});
+  if (options.poses.empty()) services.insert(kLoopCloser);
+  return services;
+}
+
 std::vector<ServiceCommand> service_commands(const RunOptions& options, int domain, const fs::path& folder) {
   const fs::path executables = fs::read_symlink("/proc/self/exe").parent_path();
   const YAML::Node user = read_user_config(options.config);
   fs::create_directories(folder / "config");
   fs::create_directories(folder / "log");
+  const std::set<std::string> services = options.here ? options.here->services : services_of(options);
   std::vector<ServiceCommand> commands;
   for (const auto& [process, key] : sections()) {
-    if (!options.dynamics && (process == kDetector || process == kTransformer)) continue;
-    if (!options.poses.empty() && process == kLoopCloser) continue;
+    if (!services.contains(process)) continue;
     YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
     complete(node, process, options, folder);
     const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
@@ -100,6 +107,7 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
                                   "--config",
                                   config.string()};
     if (!options.network) line.emplace_back("--loopback");
+    if (options.here) line.insert(line.end(), {"--peers", options.here->peers});
     if (!options.secure.folder.empty())
       line.insert(line.end(), {"--secure", fs::absolute(options.secure.folder).string()});
     commands.push_back({process, std::move(line), folder / "log" / (process + ".log")});

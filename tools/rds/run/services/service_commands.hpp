@@ -12,7 +12,10 @@ namespace rds::run {
 /// Below the folder of a run, while it lasts: the services' folder of maps.
 inline const std::string kMapsFolder = "maps";
 
-/// How to start the services of a run, each with its own configuration file in `folder`/config.
+/// The services of a run, on whichever machine.
+std::set<std::string> services_of(const RunOptions& options);
+
+/// How to start the services of a run that run here, each with its own configuration file in `folder`/config.
 ///
 /// A service's configuration is its section of the user's --config file (tracker, detector, transformer,
 /// mapper, loop_closer), completed with what the command line says.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/rds/run/services/join_bus.hpp"
+
+#include "common/bus/peer_addresses.hpp"
+#include "tools/rds/commander/topology.hpp"
+
+namespace rds::run {
+
+std::unique_ptr<bus::Participant> join_bus(const RunOptions& options, int domain) {
+  return bus::Participant::create({.vendor = options.vendor_of(kPlayer),
+                                   .domain = domain,
+                                   .node_name = "rds_run",
+                                   .loopback_only = !options.network,
+                                   .peers = bus::peer_addresses(options.here ? options.here->peers : ""),
+                                   .credentials = options.secure.credentials()});
+}
+
+}  // namespace rds::run

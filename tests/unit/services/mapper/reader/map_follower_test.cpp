@@ -81,7 +81,7 @@ TEST_F(MapFollowerOnTheBus, GoesOverToTheMapThatAMapperBegins) {
   start(config());
   send_until(4);
   Reader reader(bus::Vendor::kFastDds, kElsewhere);
-  ASSERT_TRUE(reader.has(4));
+  ASSERT_TRUE(reader.has(4)) << reader.follower.map().place().revision;
   const std::uint64_t first = reader.follower.map().place().map_id;
   ASSERT_TRUE(mapper->command("reset").success);
   send(4);
@@ -106,7 +106,7 @@ TEST_F(MapFollowerOnTheBus, GoesOverToAnotherProcess) {
   process->kill();
   process = std::make_unique<rds::test::Process>(command);  // takes the keyframes that the bus keeps
   ASSERT_TRUE(wait_for([&] { return reader.follower.map().place().map_id != first; }));
-  ASSERT_TRUE(reader.has(4));
+  ASSERT_TRUE(reader.has(4)) << reader.follower.map().place().revision;
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ std::vector<std::string> hosts_of(const Row& row) {
 std::vector<std::string> held(std::vector<std::string> command, Cores cores, const std::string& host) {
   if (cores == Cores::kAny) return command;
   const bool is_second = cores == Cores::kOfEachHost && host != kA;
-  command.insert(command.begin(), {"taskset", "--cpu-list", is_second ? "1" : "0"});
+  command.insert(command.begin(), {"/usr/bin/taskset", "--cpu-list", is_second ? "1" : "0"});
   return command;
 }
 

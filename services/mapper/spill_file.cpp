@@ -3,31 +3,19 @@
 
 namespace rds::mapper {
 namespace {
-constexpr const char* kKeyframe = "keyframe";
+const std::string kKeyframe = "keyframe";
 }
 
 bool SpillFile::put(std::uint64_t id, std::span<const std::uint8_t> bytes) {
-  if (!file_) {
-    auto opened = store::Store::nameless(folder_);
-    if (!opened) return false;
-    file_ = std::move(*opened);
-  }
-  store::Batch batch;
-  batch.put(kKeyframe, id, {bytes.begin(), bytes.end()});
-  return file_->apply(batch).has_value();
+  return file_.put(kKeyframe, id, bytes);
 }
 
 std::optional<map_file::Bytes> SpillFile::get(std::uint64_t id) {
-  if (!file_) return std::nullopt;
-  auto bytes = file_->get(kKeyframe, id);
-  return bytes ? std::move(*bytes) : std::nullopt;
+  return file_.get(kKeyframe, id);
 }
 
 void SpillFile::erase(std::uint64_t id) {
-  if (!file_) return;
-  store::Batch batch;
-  batch.erase(kKeyframe, id);
-  (void)file_->apply(batch);  // where that fails its space is not used again
+  file_.erase(kKeyframe, id);
 }
 
 }  // namespace rds::mapper

@@ -2,28 +2,25 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
-#include "common/store/store.hpp"
+#include "common/store/scratch_file.hpp"
 #include "services/mapper/core/keyframe/keyframe_store.hpp"
 
 namespace rds::mapper {
 
-/// A temporary file without a name: it goes with the process, however that ends, and uses again what was
-/// erased. Made at the first put().
+/// Packed keyframes in a scratch file.
 class SpillFile : public SpillStorage {
  public:
   /// @param folder  empty: the system's folder for temporary files.
-  explicit SpillFile(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit SpillFile(std::filesystem::path folder) : file_(std::move(folder)) {}
 
   bool put(std::uint64_t id, std::span<const std::uint8_t> bytes) override;
   std::optional<map_file::Bytes> get(std::uint64_t id) override;
   void erase(std::uint64_t id) override;
-  void clear() override { file_.reset(); }
+  void clear() override { file_.clear(); }
 
  private:
-  std::filesystem::path folder_;
-  std::optional<store::Store> file_;
+  store::ScratchFile file_;
 };
 
 }  // namespace rds::mapper

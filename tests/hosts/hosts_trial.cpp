@@ -216,7 +216,7 @@ void HostsTrial::drain() {
   recorder_.wait_acknowledged(last_stamp_ns_, {}, kAcknowledgeLimit);
   const std::string poses = ask(run::kTracker, "finish", "");
   recorder_.wait_poses(number_in(poses, "poses_revision"), {}, kAcknowledgeLimit);
-  if (!fleet_.alive(run::kMapper)) return;
+  if (!fleet_.names().contains(run::kMapper)) return;
   const std::uint64_t mapped = number_in(ask(run::kMapper, "finish", poses), "keyframes");
   const std::uint64_t made = number_in(poses, "keyframes");
   figures_.missing = made > mapped ? made - mapped : 0;

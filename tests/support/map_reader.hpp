@@ -1,50 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
-#include <memory>
-#include <mutex>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
-#include "common/bus/participant.hpp"
-#include "octomap_msgs/msg/Octomap.h"
-#include "rds_msgs/msg/MapInfo.h"
-#include "rds_msgs/msg/OctreeDelta.h"
-#include "services/mapper/core/octree/octree_replica.hpp"
+#include "services/mapper/reader/topic_updates.hpp"
 
 namespace rds::test {
 
-/// What a program of somebody else would do with rds/map/full, rds/map/info and rds/map/delta: it keeps a
-/// copy of the map. A gap in the deltas is closed by the next full map. Safe to use from any thread.
+/// A copy of the map from its topics, on whichever machine the mapper is. Safe to use from any thread.
 class MapReader {
  public:
-  explicit MapReader(bus::Participant& bus);
+  explicit MapReader(bus::Participant& bus) : context_{"map_reader", bus, diagnostics_} {}
 
   /// The copy as mapper::to_bytes() gives it; empty without one.
-  std::vector<std::uint8_t> bytes();
-  std::uint64_t revision();
-  std::uint64_t map_id();
+  [[nodiscard]] std::vector<std::uint8_t> bytes() const;
+  [[nodiscard]] std::uint64_t revision() const { return replica_.place().revision; }
+  [[nodiscard]] std::uint64_t map_id() const { return replica_.place().map_id; }
   /// Labelled voxels.
-  std::size_t labelled();
-  int full_maps();
-  int deltas();
+  [[nodiscard]] std::size_t labelled() const;
 
  private:
-  void on_full(std::shared_ptr<const octomap_msgs::msg::Octomap> message);
-  void on_info(std::shared_ptr<const rds_msgs::msg::MapInfo> message);
-  void on_delta(const rds_msgs::msg::OctreeDelta& message);
-  void take_full();
-  void apply_waiting();
-
-  std::mutex mutex_;
-  mapper::OctreeReplica replica_;
-  std::shared_ptr<const octomap_msgs::msg::Octomap> full_;
-  std::map<std::int64_t, std::shared_ptr<const rds_msgs::msg::MapInfo>> infos_;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, mapper::MapDelta> waiting_;  // by map id, base revision
-  int full_maps_ = 0;
-  int deltas_ = 0;
-  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
+  service::Diagnostics diagnostics_;
+  service::ServiceContext context_;
+  mapper::LiveReplica replica_;
+  mapper::TopicUpdates updates_{context_, replica_};
 };
 
 }  // namespace rds::test

@@ -13,27 +13,15 @@ std::string kind_of(Stream stream) {
 }  // namespace
 
 bool ItemFile::put(Stream stream, std::uint64_t number, const Bytes& item) {
-  if (!file_) {
-    auto opened = store::Store::nameless({});
-    if (!opened) return false;
-    file_ = std::move(*opened);
-  }
-  store::Batch batch;
-  batch.put(kind_of(stream), number, item);
-  return file_->apply(batch).has_value();
+  return file_.put(kind_of(stream), number, item);
 }
 
 std::optional<ItemSpill::Bytes> ItemFile::get(Stream stream, std::uint64_t number) {
-  if (!file_) return std::nullopt;
-  auto bytes = file_->get(kind_of(stream), number);
-  return bytes ? std::move(*bytes) : std::nullopt;
+  return file_.get(kind_of(stream), number);
 }
 
 void ItemFile::erase(Stream stream, std::uint64_t number) {
-  if (!file_) return;
-  store::Batch batch;
-  batch.erase(kind_of(stream), number);
-  (void)file_->apply(batch);  // where that fails its space is not used again
+  file_.erase(kind_of(stream), number);
 }
 
 }  // namespace rds::transfer

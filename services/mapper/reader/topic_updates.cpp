@@ -34,25 +34,39 @@ void bound(Map& map) {
 }  // namespace
 
 TopicUpdates::TopicUpdates(service::ServiceContext& context, LiveReplica& replica)
-    : context_(context), replica_(replica) {
-  const auto read = [&](const auto& topic, auto take) {
-    subscriptions_.push_back(topics::subscribe(context.bus, topic, topics::kTool, take));
+    : context_(context),
+      replica_(replica),
+      fulls_come_(mailbox_, 1),
+      infos_come_(mailbox_, kMostWaiting),
+      deltas_come_(mailbox_, kMostWaiting) {
+  const auto read = [&](const auto& topic, auto& inbox) {
+    subscriptions_.push_back(topics::subscribe(context.bus, topic, topics::kTool,
+                                               [&inbox](auto message) { inbox.push(std::move(message)); }));
   };
-  read(topics::kMapFull, [this](Full full) { take(std::move(full)); });
-  read(topics::kMapInfo, [this](Info info) { take(std::move(info)); });
-  read(topics::kMapDelta,
-       [this](const std::shared_ptr<const rds_msgs::msg::OctreeDelta>& delta) { take(*delta); });
+  read(topics::kMapFull, fulls_come_);
+  read(topics::kMapInfo, infos_come_);
+  read(topics::kMapDelta, deltas_come_);
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void TopicUpdates::run(const std::stop_token& stop) {
+  const auto has_come = [this] {
+    return !fulls_come_.locked_empty() || !infos_come_.locked_empty() || !deltas_come_.locked_empty();
+  };
+  while (mailbox_.wait(stop, has_come)) {
+    if (auto full = fulls_come_.try_pop()) take(std::move(*full));
+    while (auto info = infos_come_.try_pop()) take(std::move(*info));
+    while (const auto delta = deltas_come_.try_pop()) take(*delta);
+  }
 }
 
 void TopicUpdates::take(Full full) {
-  const std::lock_guard lock(mutex_);
   full_ = std::move(full);
   apply_full();
 }
 
 /// Another mapper may give the stamp of an earlier one's map again: what is told of that one is over.
 void TopicUpdates::take(Info info) {
-  const std::lock_guard lock(mutex_);
   std::erase_if(infos_, [&](const auto& told) { return told.second->map_id() != info->map_id(); });
   if (!info->describes_full()) return;
   infos_[messages::to_nanoseconds(info->header().stamp())] = std::move(info);
@@ -60,9 +74,8 @@ void TopicUpdates::take(Info info) {
   apply_full();
 }
 
-void TopicUpdates::take(const rds_msgs::msg::OctreeDelta& message) {
-  const std::lock_guard lock(mutex_);
-  MapDelta delta = to_delta(message);
+void TopicUpdates::take(const Delta& message) {
+  MapDelta delta = to_delta(*message);
   if (delta.base_revision == 0) {  // the first of a map needs nothing before it
     note(topics::kMapDelta.name, replica_.apply(delta));
   } else {

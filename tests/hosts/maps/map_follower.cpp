@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // map_follower VENDOR DOMAIN topics|transfer: keeps a copy of the map, from its topics as a program of
-// somebody else does, or as ours do, and prints at each change the time of the steady clock [s] and the
+// somebody else would, or as ours do, and prints at each change the time of the steady clock [s] and the
 // revision. Ends when it is killed.
 #include <chrono>
 #include <cstdint>

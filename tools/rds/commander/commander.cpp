@@ -2,8 +2,8 @@
 #include "tools/rds/commander/commander.hpp"
 
 #include <algorithm>
-#include <random>
 
+#include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::run {
@@ -14,16 +14,11 @@ topics::Process sender_of(const topics::Topic<rds_msgs::msg::Command>& commands)
   return commands.writers.begin()->processes;
 }
 
-std::uint64_t random_id() {
-  std::random_device device;
-  return (static_cast<std::uint64_t>(device()) << 32) | device();
-}
-
 }  // namespace
 
 Commander::Commander(bus::Participant& bus, const topics::Topic<rds_msgs::msg::Command>& commands,
                      const topics::Topic<rds_msgs::msg::CommandResult>& results)
-    : next_id_(random_id()),
+    : next_id_(service::random_id()),
       commands_(topics::advertise(bus, commands, sender_of(commands))),
       results_(topics::subscribe(bus, results, sender_of(commands), [this](const auto& m) {
         const std::lock_guard lock(mutex_);

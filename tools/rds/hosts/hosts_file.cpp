@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const HostsFile& hosts) {
   return names;
 }
 
-/// Letters, digits and what stands between them in a host's name: it becomes a file's name, too.
+/// Letters, digits and what stands between them in a host's name or address: it becomes a file's name, too.
 bool is_name(const std::string& text) {
   return !text.empty() && text.front() != '.' && text.front() != '-' &&
          std::ranges::all_of(text, [](unsigned char c) {
@@ -36,7 +36,7 @@ bool is_name(const std::string& text) {
 Machine read_machine(config::ConfigReader& reader, const std::string& name, std::set<std::string>& taken) {
   Machine machine{name, name, {}};
   reader.value("address", machine.address);
-  if (machine.address.empty() || machine.address.find(',') != std::string::npos)
+  if (!is_name(machine.address))
     reader.violation("address", machine.address, "expected a name or an IPv4 address");
   std::vector<std::string> services;
   reader.value("services", services);
@@ -60,10 +60,6 @@ const Machine& HostsFile::machine(const std::string& name) const {
     throw std::runtime_error(
         fmt::format("machine '{}': expected one of the hosts file: {}", name, fmt::join(names_of(*this), ", ")));
   return *found;
-}
-
-const Machine& HostsFile::with_camera() const {
-  return *std::ranges::find_if(machines, [](const Machine& m) { return m.services.contains(run::kTracker); });
 }
 
 std::string HostsFile::peers_of(const std::string& name) const {

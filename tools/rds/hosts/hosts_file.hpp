@@ -24,7 +24,6 @@ struct HostsFile {
 
   /// @throws std::runtime_error if there is none of this name.
   [[nodiscard]] const Machine& machine(const std::string& name) const;
-  [[nodiscard]] const Machine& with_camera() const;
   /// Addresses of all machines but this one, with commas.
   [[nodiscard]] std::string peers_of(const std::string& name) const;
   [[nodiscard]] std::set<std::string> services() const;

@@ -14,19 +14,19 @@ RunServices::RunServices(const RunOptions& options, int domain, const std::files
                          bus::Participant& bus, const std::optional<Elsewhere>& elsewhere)
     : folder_(folder),
       far_(elsewhere ? std::make_unique<FarMachines>(bus, options, elsewhere->hosts, elsewhere->here) : nullptr),
-      fleet_(std::make_unique<Fleet>(service_commands(options, domain, folder))) {}
+      fleet_(service_commands(options, domain, folder)) {}
 
 void RunServices::begin_elsewhere(const std::stop_token& stop) {
   if (far_) far_->begin(stop);
 }
 
 void RunServices::watch() {
-  fleet_->watch();
+  fleet_.watch();
   if (far_) far_->watch();
 }
 
 std::set<std::string> RunServices::names() const {
-  std::set<std::string> all = fleet_->names();
+  std::set<std::string> all = fleet_.names();
   all.merge(elsewhere());
   return all;
 }
@@ -35,8 +35,8 @@ std::set<std::string> RunServices::elsewhere() const {
   return far_ ? far_->services() : std::set<std::string>{};
 }
 
-bool RunServices::alive(const std::string& name) const {
-  return fleet_->alive(name) || (far_ && far_->alive(name));
+bool RunServices::alive(const std::string& name) {
+  return fleet_.alive(name) || (far_ && far_->alive(name));
 }
 
 void RunServices::fetch(const std::string& folder, const std::stop_token& stop) {
@@ -44,8 +44,8 @@ void RunServices::fetch(const std::string& folder, const std::stop_token& stop) 
 }
 
 std::map<std::string, ServiceUsage> RunServices::stop(const std::stop_token& stop) {
-  fleet_->stop(kStopLimit);
-  auto usage = fleet_->usage();
+  fleet_.stop(kStopLimit);
+  auto usage = fleet_.usage();
   if (!far_ || stop.stop_requested()) return usage;
   usage.merge(far_->stop_services(stop));
   for (const char* folder : {"log", "config"}) fetch(folder, stop);

@@ -37,7 +37,7 @@ class RunServices {
   [[nodiscard]] std::set<std::string> names() const;
   /// Those on other machines.
   [[nodiscard]] std::set<std::string> elsewhere() const;
-  [[nodiscard]] bool alive(const std::string& name) const;
+  [[nodiscard]] bool alive(const std::string& name);
 
   /// Brings what services on other machines have below `folder` of the run here.
   void fetch(const std::string& folder, const std::stop_token& stop);
@@ -47,7 +47,7 @@ class RunServices {
  private:
   std::filesystem::path folder_;
   std::unique_ptr<FarMachines> far_;  // nullptr: all are here
-  std::unique_ptr<Fleet> fleet_;
+  Fleet fleet_;
 };
 
 }  // namespace rds::run

@@ -42,14 +42,13 @@ Session::Session(const RunOptions& options, const image::TumDataset& dataset,
       commander_(*bus_),
       player_(*bus_, dataset,
               {.rate = options.rate, .start = options.start, .frames = options.frames, .loop = false}),
-      services_(
-          std::make_unique<RunServices>(options, domain_.domain(), folder_.path(), *bus_, elsewhere)),
+      services_(options, domain_.domain(), folder_.path(), *bus_, elsewhere),
       overlay_(
           std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),
       progress_(player_.frame_count()) {}
 
 int Session::run(const std::stop_token& stop) {
-  services_->begin_elsewhere(stop);
+  services_.begin_elsewhere(stop);
   wait_until_connected(stop);
   progress_.start();
   play::PlayerReport report;
@@ -57,7 +56,7 @@ int Session::run(const std::stop_token& stop) {
   if (!stop.stop_requested()) report = play(stop);
   if (!stop.stop_requested()) answers = drain(stop);
   Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
-  const auto usage = services_->stop(stop);
+  const auto usage = services_.stop(stop);
   overlay_->finish();
   if (stop.stop_requested()) {
     fmt::print(stderr, "stopped after {} frames, nothing is written\n", progress_.played());
@@ -69,16 +68,16 @@ int Session::run(const std::stop_token& stop) {
 }
 
 void Session::wait_until_connected(const std::stop_token& stop) {
-  std::set<std::string> running = services_->names();
+  std::set<std::string> running = services_.names();
   const std::size_t services = running.size();
   running.insert(kPlayer);
   const auto deadline = Clock::now() + kConnectLimit;
   std::vector<std::string> missing;
   while (!stop.stop_requested()) {
-    services_->watch();
+    services_.watch();
     const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
     missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only,
-                            services_->elsewhere());
+                            services_.elsewhere());
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
@@ -103,10 +102,10 @@ bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, cons
   if (options_.lockstep()) {
     under_way_.push_back(frame.stamp_ns);
     wait_for_frames(kFramesUnderWay, stop);
-    if (services_->alive(kMapper) && !options_.localize_only)
+    if (services_.alive(kMapper) && !options_.localize_only)
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
-  services_->watch();
+  services_.watch();
   progress_.add_frame(recorder_.keyframes());
   return true;
 }
@@ -146,7 +145,7 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   }
   answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
-  answers.status = commander_.ask_status(services_->names().size(), stop, seconds(2));
+  answers.status = commander_.ask_status(services_.names().size(), stop, seconds(2));
   return answers;
 }
 
@@ -156,10 +155,10 @@ void Session::save_map(const std::stop_token& stop) {
   nlohmann::json order{{"name", kMapName}, {"id", "run"}, {"parts", nlohmann::json::array()}};
   std::vector<std::string> services;
   for (const std::string& service : {kMapper, kLoopCloser, kTracker})
-    if (services_->alive(service)) services.push_back(service);
+    if (services_.alive(service)) services.push_back(service);
   for (const std::string& service : services) order["parts"].push_back(part_of(service));
   for (const std::string& service : services) {
-    if (service == kTracker) services_->fetch(kPartsFolder, stop);
+    if (service == kTracker) services_.fetch(kPartsFolder, stop);
     ask(service, "save", order.dump(), stop);
   }
   if (!stop.stop_requested()) take_map_files();
@@ -183,7 +182,7 @@ void Session::expect(bool holds, const std::string& otherwise, const std::stop_t
 /// @return the answer; empty, and the run is not complete, if the command failed.
 std::string Session::ask(const std::string& service, const std::string& verb, const std::string& argument,
                          const std::stop_token& stop) {
-  services_->watch();
+  services_.watch();
   const auto reply = commander_.ask(service, verb, argument, stop, kFinishLimit);
   if (reply && reply->success) return reply->message;
   expect(false, fmt::format("{} {}: {}", service, verb, reply ? reply->message : "no answer"), stop);

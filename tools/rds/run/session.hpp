@@ -59,7 +59,7 @@ class Session {
   Recorder recorder_;
   Commander commander_;
   play::Player player_;
-  std::unique_ptr<RunServices> services_;
+  RunServices services_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;
   std::deque<std::int64_t> under_way_;  // stamps of frames that are not known to be acknowledged, in lockstep

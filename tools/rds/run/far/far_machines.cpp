@@ -35,10 +35,9 @@ FarMachines::FarMachines(bus::Participant& bus, const RunOptions& options, const
   const std::string run = fmt::format("{:016x}", service::random_id());
   const std::set<std::string> wanted = services_of(options);
   for (const hosts::Machine& machine : hosts.machines) {
-    if (machine.name == here) continue;
-    Machine& far = machines_[machine.name];
-    far.terms = terms_of(options, hosts, machine.name, run);
+    Machine far{.terms = terms_of(options, hosts, machine.name, run)};
     std::ranges::set_intersection(machine.services, wanted, std::inserter(far.services, far.services.end()));
+    if (machine.name != here && !far.services.empty()) machines_[machine.name] = std::move(far);
   }
 }
 

@@ -18,7 +18,7 @@
 
 namespace rds::run {
 
-/// The other machines of a run, as the one with the camera commands them: `rds run --hosts` on each of them
+/// The other machines of a run that have a service of it, as the one with the camera commands them: `rds run --hosts` on each of them
 /// (FarRun) starts its services, says which are alive, stops them and hands over their files.
 class FarMachines {
  public:
@@ -51,9 +51,9 @@ class FarMachines {
   using Clock = std::chrono::steady_clock;
   struct Machine {
     std::string terms;
-    std::set<std::string> services;  // that it has to run
-    std::set<std::string> alive;
-    std::string failure;  // a sentence: why its services did not start
+    std::set<std::string> services = {};  // that it has to run
+    std::set<std::string> alive = {};
+    std::string failure = {};  // a sentence: why its services did not start
     Clock::time_point heard = Clock::now();
     bool has_begun = false;
   };

@@ -37,10 +37,9 @@ fs::path make_folder() {
 
 FarRun::FarRun(RunOptions options, const hosts::HostsFile& hosts, const std::string& machine)
     : options_(std::move(options)),
-      domain_(options_.domain.value_or(hosts.domain)),
       machine_(hosts.machine(machine)),
       folder_(make_folder()),
-      bus_(join_bus(options_, domain_)),
+      bus_(join_bus(options_, options_.domain.value())),
       replies_(topics::advertise(*bus_, topics::kRunReply, topics::kFarRun)),
       requests_(mailbox_, kMaxRequests),
       subscription_(topics::subscribe(*bus_, topics::kRunRequest, topics::kFarRun, [this](const auto& m) {
@@ -110,7 +109,7 @@ std::string FarRun::begin(const std::string& terms) {
   if (state_ == State::kWaiting) {
     RunOptions options = options_;
     accept_terms(terms, machine_, folder_, options);
-    fleet_ = std::make_unique<Fleet>(service_commands(options, domain_, folder_));
+    fleet_ = std::make_unique<Fleet>(service_commands(options, *options.domain, folder_));
     terms_ = terms;
     state_ = State::kRunning;
     fmt::print(stderr, "{}: a run has begun: {}\n", machine_.name, fmt::join(fleet_->names(), ", "));

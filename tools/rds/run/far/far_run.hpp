@@ -23,7 +23,7 @@ namespace rds::run {
 /// starts the services as that one says, and hands over what they leave.
 class FarRun {
  public:
-  /// @param options  of this machine's own command line. @throws std::runtime_error, bus::BusError
+  /// @param options  of this machine's own command line, with its place and the domain. @throws std::runtime_error, bus::BusError
   FarRun(RunOptions options, const hosts::HostsFile& hosts, const std::string& machine);
   ~FarRun();
   FarRun(const FarRun&) = delete;
@@ -47,7 +47,6 @@ class FarRun {
   enum class State : std::uint8_t { kWaiting, kRunning, kStopped, kOver };
 
   RunOptions options_;
-  int domain_;
   hosts::Machine machine_;
   std::filesystem::path folder_;  // of this run, removed at its end
   State state_ = State::kWaiting;

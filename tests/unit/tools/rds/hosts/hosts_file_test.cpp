@@ -40,7 +40,7 @@ class HostsFileTest : public testing::Test {
 TEST_F(HostsFileTest, SaysWhichServiceRunsWhere) {
   const HostsFile hosts = read(kThree);
   EXPECT_EQ(hosts.domain, 7);
-  EXPECT_EQ(hosts.with_camera(), (Machine{"robot", "10.0.0.1", {"rds-tracker"}}));
+  EXPECT_EQ(hosts.machine("robot"), (Machine{"robot", "10.0.0.1", {"rds-tracker"}}));
   EXPECT_EQ(hosts.machine("desk"), (Machine{"desk", "desk", {"rds-detector", "rds-transformer"}}));
   EXPECT_EQ(hosts.machine("nas"), (Machine{"nas", "nas.local", {"rds-loop-closer", "rds-mapper"}}));
   EXPECT_EQ(hosts.services().size(), 5U);

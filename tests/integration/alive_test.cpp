@@ -55,7 +55,7 @@ TEST(Supervision, StandByIsReadyAndSaysWhy) {
   std::this_thread::sleep_for(1500ms);  // older by more than a status may be under way
   Supervised second("rds-transformer");
   EXPECT_THAT(second.socket.read_until("READY", 20s), Contains("READY=1"));
-  EXPECT_THAT(second.socket.read_until("STATUS=stand-by", 20s),
+  EXPECT_THAT(second.socket.read_until("STATUS=stand-by: ", 20s),
               Contains(HasSubstr("another rds-transformer is in this domain")));
   EXPECT_THAT(second.socket.read_for(2500ms), Contains("WATCHDOG=1"));
 }
@@ -137,7 +137,7 @@ TEST_F(Status, SeesTwoOfAKind) {
   ASSERT_EQ(until_well({"transformer"}).status, 0);
   std::this_thread::sleep_for(1500ms);
   Supervised second("rds-transformer");
-  second.socket.read_until("STATUS=stand-by", 20s);
+  second.socket.read_until("STATUS=stand-by: ", 20s);
   const auto shown = status({"transformer"});
   EXPECT_EQ(shown.status, 1);
   EXPECT_THAT(shown.standard_output, HasSubstr("stand-by"));

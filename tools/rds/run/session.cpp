@@ -23,7 +23,6 @@ using Clock = std::chrono::steady_clock;
 constexpr seconds kConnectLimit{30};
 constexpr milliseconds kStatusLimit{300};
 constexpr seconds kAcknowledgeLimit{30};
-constexpr std::size_t kFramesUnderWay = 2;    // the camera's topics hold 5
 constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
 constexpr seconds kFinishLimit{120};
 const std::string kMapName = "map";
@@ -100,8 +99,8 @@ play::PlayerReport Session::play(const std::stop_token& stop) {
 bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop) {
   overlay_->add_picture(index, frame);
   if (options_.lockstep()) {
-    under_way_.push_back(frame.stamp_ns);
-    wait_for_frames(kFramesUnderWay, stop);
+    expect(recorder_.wait_acknowledged(frame.stamp_ns, stop, kAcknowledgeLimit),
+           fmt::format("frame {}: not answered within {} s", index, kAcknowledgeLimit.count()), stop);
     if (services_.alive(kMapper) && !options_.localize_only)
       recorder_.wait_mapper(kMapperBacklog, stop, kAcknowledgeLimit);
   }
@@ -110,26 +109,10 @@ bool Session::after_frame(const image::RgbdFrame& frame, std::size_t index, cons
   return true;
 }
 
-/// Waits until no more frames than these are on their way: the next one travels while the tracker is at work.
-/// A tracker that has lost one has lost those after it, too.
-void Session::wait_for_frames(std::size_t left, const std::stop_token& stop) {
-  while (under_way_.size() > left) {
-    const std::int64_t stamp_ns = under_way_.front();
-    const bool answered = recorder_.wait_acknowledged(stamp_ns, stop, kAcknowledgeLimit);
-    expect(answered,
-           fmt::format("the frame of {:.6f} s: not answered within {} s", static_cast<double>(stamp_ns) * 1e-9,
-                       kAcknowledgeLimit.count()),
-           stop);
-    if (!answered) return under_way_.clear();
-    under_way_.pop_front();
-  }
-}
-
 /// Ends the pipeline in the order in which data flow through it; each service answers when it has nothing
 /// left to do.
 Session::Answers Session::drain(const std::stop_token& stop) {
   Answers answers;
-  wait_for_frames(0, stop);
   const Recording so_far = recorder_.recording();
   if (!so_far.frames.empty())
     recorder_.wait_acknowledged(so_far.frames.rbegin()->first, stop, kAcknowledgeLimit);

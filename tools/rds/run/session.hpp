@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,7 +40,6 @@ class Session {
   void wait_until_connected(const std::stop_token& stop);
   play::PlayerReport play(const std::stop_token& stop);
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
-  void wait_for_frames(std::size_t left, const std::stop_token& stop);
   Answers drain(const std::stop_token& stop);
   void save_map(const std::stop_token& stop);
   void take_map_files();
@@ -62,8 +60,7 @@ class Session {
   RunServices services_;
   std::unique_ptr<OverlayWriter> overlay_;
   Progress progress_;
-  std::deque<std::int64_t> under_way_;  // stamps of frames that are not known to be acknowledged, in lockstep
-  bool complete_ = true;                // nothing timed out
+  bool complete_ = true;  // nothing timed out
 };
 
 }  // namespace rds::run

@@ -18,13 +18,13 @@ bool begins_with(const LabelTable& labels, const LabelTable& first) {
 }  // namespace
 
 std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
-  auto archive = archive_.save(base_ != nullptr);
+  auto archive = archive_.save(has_final_);
   if (!archive) return std::nullopt;
   MapCheckpoint checkpoint;
   if (archive->needs_final_map) {
     ByteWriter final_map;
-    base_->octree.put(final_map);
-    base_->objects.put(final_map);
+    map_.content->evidence.final_map().put(final_map);
+    final_objects_.put(final_map);
     checkpoint.final_map = final_map.take();
   }
   ByteWriter state;
@@ -41,29 +41,48 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   ByteReader state(checkpoint.state);
   const auto epoch = state.get<std::uint64_t>();
   const auto began_with = state.get<std::uint64_t>();
-  if (saved_.map && began_with != saved_.checksum) state.refuse("a map that began with another saved map");
+  if (saved_.voxels && began_with != saved_.checksum) state.refuse("a map that began with another saved map");
   const auto final_keyframes = state.get<std::uint64_t>();
   LabelTable labels = LabelTable::get(state);
   if (!begins_with(labels, saved_.labels)) state.refuse("labels other than the saved map's");
   if (auto read = state.finish(); !read) return read;
-  auto base = saved_.map;
+  std::shared_ptr<const FinalMap> voxels = saved_.voxels;
+  ObjectDatabase objects = saved_.objects.value_or(ObjectDatabase(config_.objects));
   if (checkpoint.final_map) {
     ByteReader reader(*checkpoint.final_map);
-    base = std::make_shared<Map>(config_);
-    base->octree.get(reader, labels.names().size());
-    base->objects.get(reader);
+    voxels = std::make_shared<const FinalMap>(FinalMap::get(reader, labels.names().size()));
+    objects.get(reader);
     if (auto read = reader.finish(); !read) return read;
-    add_saved_surfaces(*base);
   }
   auto keyframes = KeyframeArchive::from_blocks(checkpoint.keyframes);
   if (!keyframes) return tl::unexpected(keyframes.error());
   map_.epoch = epoch;
   map_.labels = std::move(labels);
-  base_ = std::move(base);
+  map_.content = std::make_unique<Map>(config_);
+  if (voxels) map_.content->evidence.begin_with(*voxels);
+  map_.content->objects = final_objects_ = std::move(objects);
+  are_objects_outdated_ = false;
+  has_final_ = voxels != nullptr;
   archive_.restore(std::move(*keyframes), final_keyframes, map_.labels.names().size());
-  rebuild();
-  while (const auto id = archive_.spill()) make_final(*id);
+  add_all();
   return {};
+}
+
+/// Adds the keyframes of the archive to a map that has none of them.
+void SemanticMapper::add_all() {
+  object_views_.clear();
+  archive_.set_times();
+  std::vector<std::uint64_t> ids;
+  for (const auto& [id, keyframe] : archive_.keyframes()) ids.push_back(id);
+  for (const std::uint64_t id : ids) {
+    progress_();
+    if (const auto record = archive_.record(id))
+      add(*record);
+    else
+      lose(id);
+  }
+  show(true);
+  spill();
 }
 
 }  // namespace rds::mapper

@@ -12,9 +12,10 @@
 
 namespace rds::mapper {
 
-/// A saved map, as map epochs begin with it. It stays as it is; keyframes are integrated into copies.
+/// A saved map, as map epochs begin with it. It stays as it is; keyframes come on top.
 struct SavedMap {
-  std::shared_ptr<Map> map;  // nullptr: none
+  std::shared_ptr<const FinalMap> voxels;  // nullptr: none
+  std::optional<ObjectDatabase> objects;
   LabelTable labels;
   std::optional<Eigen::Vector3d> up;  // in the map, if it is known
   std::uint64_t checksum = 0;         // of what it was read from

@@ -7,26 +7,25 @@
 #include "services/mapper/core/segmentation/gravity.hpp"
 
 namespace rds::mapper {
-namespace {
-
-Map map_on(const std::shared_ptr<Map>& base, const MapperConfig& config) {
-  return base ? *base : Map(config);
-}
-
-}  // namespace
-
 SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
                                std::unique_ptr<SpillStorage> storage)
-    : config_(std::move(config)), map_(config_, map_epoch), archive_(config_, std::move(storage)) {}
+    : config_(std::move(config)),
+      map_(config_, map_epoch),
+      archive_(config_, std::move(storage)),
+      final_objects_(config_.objects) {}
 
 void SemanticMapper::reset(std::uint64_t map_epoch) {
   archive_.clear();
+  object_views_.clear();
   map_.epoch = map_epoch;
-  map_.revision = saved_.map ? 1 : 0;
   map_.labels = saved_.labels;
-  base_ = saved_.map;
-  map_.content = std::make_unique<Map>(map_on(base_, config_));
-  boxes_waiting_ = false;
+  map_.content = std::make_unique<Map>(config_);
+  map_.content->objects = final_objects_ = saved_.objects.value_or(ObjectDatabase(config_.objects));
+  are_objects_outdated_ = false;
+  has_final_ = saved_.voxels != nullptr;
+  if (has_final_) map_.content->evidence.begin_with(*saved_.voxels);
+  show();
+  map_.revision = has_final_ ? 1 : 0;
 }
 
 void SemanticMapper::start_from(SavedMap saved) {
@@ -49,6 +48,23 @@ MapDelta SemanticMapper::new_delta() const {
   return delta;
 }
 
+/// What a change of the evidence changes in the map. @param all  whether no decision may be left as it was.
+MapDelta SemanticMapper::show(bool all) {
+  MapDelta delta = new_delta();
+  Map& map = *map_.content;
+  const auto show_block = [&](const octomap::OcTreeKey& key, const EvidenceBlock& block) {
+    map.octree.show(key, block, map_.labels, delta);
+  };
+  if (all)
+    map.evidence.update_all(show_block);
+  else
+    map.evidence.update(show_block);
+  if (are_objects_outdated_) make_objects_again();
+  is_hidden_ = false;
+  delta.revision = ++map_.revision;
+  return delta;
+}
+
 MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   if (const auto fault = check(input)) throw std::invalid_argument(*fault);
   if (archive_.keyframes().contains(input.id))
@@ -56,25 +72,87 @@ MapDelta SemanticMapper::integrate(const KeyframeInput& input) {
   auto record = make_record(input, config_.sampling, archive_.rays_of(input.camera));
   interpret(record, input.boxes, config_, map_.labels);
   archive_.add(record);
-  MapDelta delta = new_delta();
+  add(record);
+  MapDelta delta = show();
   delta.keyframe_id = input.id;
   delta.stamp_ns = input.stamp_ns;
-  add_evidence(record, config_, map_.labels, *map_.content);
-  update_map(record, map_.content->history, config_, map_.labels, scan_, *map_.content, delta);
-  delta.revision = ++map_.revision;
-  while (const auto id = archive_.spill()) make_final(*id);
+  spill();
   return delta;
+}
+
+/// Adds what a keyframe says with the pose and time it has.
+void SemanticMapper::add(const KeyframeRecord& record) {
+  map_.content->evidence.add(record.id, record.time_ns,
+                             contribution_of(record, config_.octree, config_.sampling, scan_));
+  const auto view = object_views_.insert_or_assign(record.id, ObjectView::of(record)).first;
+  if (std::next(view) == object_views_.end() && !are_objects_outdated_)
+    map_.content->objects.integrate(view->second, map_.labels);
+  else
+    are_objects_outdated_ = true;
+  archive_.note_integrated(record.id);
+  is_hidden_ = true;
+}
+
+/// Takes out what a keyframe says. @param record  as it was added.
+void SemanticMapper::remove(const KeyframeRecord& record) {
+  map_.content->evidence.remove(record.id, surfaces_of(record, config_.octree, config_.sampling, scan_));
+  are_objects_outdated_ = true;
+  is_hidden_ = true;
+}
+
+/// A keyframe's record as it was added; nullopt if it cannot be had any more.
+std::optional<KeyframeRecord> SemanticMapper::as_integrated(std::uint64_t id) const {
+  auto record = archive_.record(id);
+  if (record) record->map_from_camera = archive_.keyframes().at(id).integrated_pose;
+  return record;
+}
+
+/// Takes keyframes out of the evidence and puts them in again with their newest poses.
+void SemanticMapper::move(std::span<const std::uint64_t> keyframes) {
+  for (const std::uint64_t id : keyframes) {
+    progress_();
+    auto record = as_integrated(id);
+    if (!record) {
+      lose(id);
+      continue;
+    }
+    remove(*record);
+    record->map_from_camera = archive_.keyframes().at(id).pose;
+    add(*record);
+  }
+}
+
+/// Objects are few, so that all views are seen again.
+void SemanticMapper::make_objects_again() {
+  ObjectDatabase objects = final_objects_;
+  for (const auto& [id, view] : object_views_) objects.integrate(view, map_.labels);
+  map_.content->objects = std::move(objects);
+  are_objects_outdated_ = false;
 }
 
 /// Its part of the map stays as it is, whatever corrections come.
 void SemanticMapper::make_final(std::uint64_t id) {
-  const auto record = archive_.record(id);
-  if (!record) return archive_.lose(id);
-  if (!base_ || base_ == saved_.map) base_ = std::make_shared<Map>(map_on(base_, config_));
-  MapDelta unused;
-  add_evidence(*record, config_, map_.labels, *base_);
-  update_map(*record, map_.content->history, config_, map_.labels, scan_, *base_, unused);
+  const auto record = as_integrated(id);
+  if (!record) return lose(id);
+  map_.content->evidence.make_final(id, surfaces_of(*record, config_.octree, config_.sampling, scan_));
+  are_objects_outdated_ |= id != object_views_.begin()->first;
+  final_objects_.integrate(object_views_.at(id), map_.labels);
+  object_views_.erase(id);
+  has_final_ = true;
   archive_.make_final(*record);
+}
+
+/// A keyframe whose record cannot be had any more leaves the map, but for the colours it has given.
+void SemanticMapper::lose(std::uint64_t id) {
+  map_.content->evidence.remove(id, {});
+  object_views_.erase(id);
+  archive_.lose(id);
+  are_objects_outdated_ = true;
+  is_hidden_ = true;
+}
+
+void SemanticMapper::spill() {
+  while (const auto id = archive_.spill()) make_final(*id);
 }
 
 void SemanticMapper::make_others_final(std::span<const KeyframePose> told) {
@@ -87,53 +165,31 @@ void SemanticMapper::make_others_final(std::span<const KeyframePose> told) {
 
 bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes) {
   if (!archive_.keyframes().contains(keyframe_id)) return false;
-  auto record = archive_.record(keyframe_id);
+  auto record = as_integrated(keyframe_id);
   if (!record) {
-    archive_.lose(keyframe_id);
+    lose(keyframe_id);
     return false;
   }
+  remove(*record);
+  record->map_from_camera = archive_.keyframes().at(keyframe_id).pose;
   interpret(*record, boxes, config_, map_.labels);
   archive_.replace(*record);
-  while (const auto id = archive_.spill()) make_final(*id);
-  boxes_waiting_ = true;
+  add(*record);
+  spill();
   return true;
 }
 
 MapDelta SemanticMapper::apply_poses(std::span<const KeyframePose> poses) {
   archive_.set_poses(poses);
-  return boxes_waiting_ || archive_.moved_enough() ? rebuild() : new_delta();
+  move(archive_.moved_enough());
+  return is_hidden_ ? show() : new_delta();
 }
 
 MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
   archive_.set_poses(poses);
-  return rebuild();
-}
-
-MapDelta SemanticMapper::rebuild() {
   archive_.set_times();
-  auto fresh = std::make_unique<Map>(map_on(base_, config_));
-  std::vector<std::uint64_t> lost;
-  for (const auto& [id, keyframe] : archive_.keyframes())
-    if (const auto record = archive_.record(id)) {
-      add_evidence(*record, config_, map_.labels, *fresh);
-      progress_();
-    } else {
-      lost.push_back(id);
-    }
-  for (const auto id : lost) archive_.lose(id);
-  for (const auto& [id, keyframe] : archive_.keyframes()) {
-    MapDelta unused;
-    if (const auto record = archive_.record(id))
-      update_map(*record, fresh->history, config_, map_.labels, scan_, *fresh, unused);
-    progress_();
-  }
-  archive_.note_integrated();
-  MapDelta delta = new_delta();
-  map_.content->octree.difference(fresh->octree, delta);
-  map_.content = std::move(fresh);
-  boxes_waiting_ = false;
-  delta.revision = ++map_.revision;
-  return delta;
+  move(archive_.moved());
+  return show(true);
 }
 
 Eigen::Vector3d SemanticMapper::up_in_map() const {

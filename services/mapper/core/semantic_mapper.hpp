@@ -7,6 +7,7 @@
 
 #include "services/mapper/core/keyframe/keyframe_archive.hpp"
 #include "services/mapper/core/saved_map.hpp"
+#include "services/mapper/core/scan/contribution.hpp"
 
 namespace rds::mapper {
 
@@ -19,9 +20,10 @@ struct MapCheckpoint {
 
 /// The mapper's core: keyframes and boxes in, semantic octree, objects and their changes out.
 ///
-/// Every keyframe is kept (strided, packed), so that the map can be made again when poses or boxes change:
-/// after settle() it is a pure function of the keyframes, their boxes and the poses given, whatever the order
-/// in which they had arrived. The map frame is the frame of the poses. Not thread-safe; deterministic.
+/// Every keyframe is kept (strided, packed), so that its contribution can be taken out of the map and put in
+/// again when its pose or its boxes change: after settle() the map is a pure function of the keyframes, their
+/// boxes and the poses given, whatever the order in which they had arrived. The map frame is the frame of the
+/// poses. Not thread-safe; deterministic.
 class SemanticMapper {
  public:
   /// @param storage  takes keyframes beyond `correction.memory_mb`; without it the oldest become final.
@@ -37,16 +39,16 @@ class SemanticMapper {
   /// @return false if there is no such keyframe, or it has become final.
   bool set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes);
 
-  /// Takes over corrected poses. Re-integrates all keyframes when one moved beyond the threshold since it was
-  /// integrated, or boxes are waiting; otherwise only remembers the poses. Poses of unknown keyframes, and
-  /// poses that are not finite, are ignored.
+  /// Takes over corrected poses. Keyframes that have moved beyond a threshold since they were integrated move
+  /// in the map, and late boxes act; other poses are only remembered. Poses of unknown keyframes, and poses
+  /// that are not finite, are ignored.
   /// @return what changed, deletions included; is_noop() if nothing was done.
   MapDelta apply_poses(std::span<const KeyframePose> poses);
   /// Makes keyframes final that are older, by id, than the newest of these and not among them: nothing will
   /// move them any more.
   void make_others_final(std::span<const KeyframePose> told);
 
-  /// Makes the map again from scratch with exactly these poses, in order of keyframe ids.
+  /// Makes the map that of exactly these poses.
   MapDelta settle(std::span<const KeyframePose> poses);
 
   /// Is called between the keyframes of whatever takes long; it must not use the mapper.
@@ -73,17 +75,28 @@ class SemanticMapper {
   [[nodiscard]] Eigen::Vector3d up_in_map() const;
 
  private:
-  MapDelta rebuild();
+  void add(const KeyframeRecord& record);
+  void remove(const KeyframeRecord& record);
+  void add_all();
+  void move(std::span<const std::uint64_t> keyframes);
   void make_final(std::uint64_t id);
+  void lose(std::uint64_t id);
+  void spill();
+  void make_objects_again();
+  MapDelta show(bool all = false);
   [[nodiscard]] MapDelta new_delta() const;
+  [[nodiscard]] std::optional<KeyframeRecord> as_integrated(std::uint64_t id) const;
 
   MapperConfig config_;
   SemanticMap map_;
   std::function<void()> progress_ = [] {};
   KeyframeArchive archive_;
   SavedMap saved_;
-  std::shared_ptr<Map> base_;  // of all that is final: the saved map, keyframes; nullptr if nothing
-  bool boxes_waiting_ = false;
+  std::map<std::uint64_t, ObjectView> object_views_;  // of keyframes that are not final
+  ObjectDatabase final_objects_;                      // as those that are have left it
+  bool has_final_ = false;                            // the map has parts that are
+  bool are_objects_outdated_ = false;
+  bool is_hidden_ = false;                            // the evidence has changed since it was shown
   Scan scan_;  // scratch
 };
 

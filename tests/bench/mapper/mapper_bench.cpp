@@ -8,7 +8,7 @@
 #include <octomap/OcTree.h>
 
 #include "services/mapper/core/octree/tree_bytes.hpp"
-#include "services/mapper/core/evidence/classify.hpp"
+#include "services/mapper/core/segmentation/classify.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "tests/bench/mapper/recording.hpp"
 

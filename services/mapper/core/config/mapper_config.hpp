@@ -23,11 +23,8 @@ struct SamplingConfig {
 
 /// A static pixel near something dynamic counts only if its surface was seen as static at another time, too.
 struct ConfirmationConfig {
-  double radius_m = 0.8;         // around what boxes and tracker know as dynamic; 0: all static pixels count
-  double apart_s = 1.0;          // not read: so much earlier or later is another time
-  double transient_share = 0.8;  // not read: of a surface that must be transient for it to be left out
-
-  [[nodiscard]] std::int64_t apart_ns() const { return static_cast<std::int64_t>(apart_s * 1e9); }
+  double radius_m = 0.8;  // around what boxes and tracker know as dynamic; 0: all static pixels count
+  double apart_s = 1.0;   // not read: so much earlier or later is another time
   bool operator==(const ConfirmationConfig&) const = default;
 };
 

@@ -47,7 +47,7 @@ void KeyframeArchive::add(KeyframeRecord& record) {
   record.time_ns = next == keyframes_.end()
                        ? clock_.go_to(record.stamp_ns).time_ns
                        : next->second.time_ns - (next->second.stamp_ns - record.stamp_ns);
-  keyframes_[record.id] = {record.stamp_ns, record.time_ns, record.map_from_camera, record.map_from_camera};
+  keyframes_[record.id] = {record.stamp_ns, record.time_ns, record.map_from_camera, record.map_from_camera, record.time_ns};
   records_.put(record);
 }
 
@@ -97,12 +97,23 @@ void KeyframeArchive::set_poses(std::span<const KeyframePose> poses) {
   }
 }
 
-bool KeyframeArchive::moved_enough() const {
-  return std::ranges::any_of(keyframes_, [&](const auto& entry) {
-    const geometry::Pose moved = entry.second.integrated_pose.inverse() * entry.second.pose;
-    return moved.translation().norm() > kMinMoveM ||
-           geometry::rotation_angle_rad(moved.linear()) > kMinTurnRad;
-  });
+std::vector<std::uint64_t> KeyframeArchive::moved() const {
+  std::vector<std::uint64_t> ids;
+  for (const auto& [id, keyframe] : keyframes_)
+    if (keyframe.pose.matrix() != keyframe.integrated_pose.matrix() ||
+        keyframe.time_ns != keyframe.integrated_time_ns)
+      ids.push_back(id);
+  return ids;
+}
+
+std::vector<std::uint64_t> KeyframeArchive::moved_enough() const {
+  std::vector<std::uint64_t> ids;
+  for (const auto& [id, keyframe] : keyframes_) {
+    const geometry::Pose moved = keyframe.integrated_pose.inverse() * keyframe.pose;
+    if (moved.translation().norm() > kMinMoveM || geometry::rotation_angle_rad(moved.linear()) > kMinTurnRad)
+      ids.push_back(id);
+  }
+  return ids;
 }
 
 void KeyframeArchive::set_times() {
@@ -110,8 +121,10 @@ void KeyframeArchive::set_times() {
   for (auto& [id, keyframe] : keyframes_) keyframe.time_ns = clock_.go_to(keyframe.stamp_ns).time_ns;
 }
 
-void KeyframeArchive::note_integrated() {
-  for (auto& [id, keyframe] : keyframes_) keyframe.integrated_pose = keyframe.pose;
+void KeyframeArchive::note_integrated(std::uint64_t id) {
+  Keyframe& keyframe = keyframes_.at(id);
+  keyframe.integrated_pose = keyframe.pose;
+  keyframe.integrated_time_ns = keyframe.time_ns;
 }
 
 std::optional<ArchiveCheckpoint> KeyframeArchive::save(bool has_final_map) {
@@ -146,7 +159,7 @@ tl::expected<std::map<std::uint64_t, Keyframe>, std::string> KeyframeArchive::fr
       const auto id = reader.get<std::uint64_t>();
       const auto stamp_ns = reader.get<std::int64_t>();
       const auto pose = map_file::get_pose(reader);
-      keyframes[id] = {stamp_ns, stamp_ns, pose, pose};  // times follow with set_times()
+      keyframes[id] = {stamp_ns, stamp_ns, pose, pose, stamp_ns};  // times follow with set_times()
     }
     if (auto read = reader.finish(); !read) return tl::unexpected(read.error());
   }

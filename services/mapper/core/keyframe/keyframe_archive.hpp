@@ -36,7 +36,8 @@ struct Keyframe {
   std::int64_t stamp_ns = 0;
   std::int64_t time_ns = 0;        // of the archive's ContinuousTime
   geometry::Pose pose;             // map_from_camera, newest
-  geometry::Pose integrated_pose;  // that the map was made with
+  geometry::Pose integrated_pose;  // that it is in the map with
+  std::int64_t integrated_time_ns = 0;
 };
 
 /// Stamps and poses of keyframes, as a checkpoint holds them: 64 ids in a block.
@@ -83,12 +84,14 @@ class KeyframeArchive {
 
   /// Takes over poses; unknown ids and poses that are not finite are ignored.
   void set_poses(std::span<const KeyframePose> poses);
-  /// True if a pose differs from the integrated one by more than 1 cm or 0.5°.
-  [[nodiscard]] bool moved_enough() const;
+  /// Keyframes whose pose or time is not the integrated one, by id.
+  [[nodiscard]] std::vector<std::uint64_t> moved() const;
+  /// Those whose pose differs by more than 1 cm or 0.5°.
+  [[nodiscard]] std::vector<std::uint64_t> moved_enough() const;
   /// Gives all keyframes the times that they would have had, had they come in the order of their ids.
   void set_times();
-  /// All keyframes are integrated with their newest poses.
-  void note_integrated();
+  /// A keyframe is in the map with its newest pose and time.
+  void note_integrated(std::uint64_t id);
 
   /// Puts all records into the storage, for a checkpoint of which this is the archive's part.
   /// @param has_final_map  whether there is a map of final keyframes.

@@ -14,15 +14,24 @@ using map_file::ByteWriter;
 constexpr std::uint8_t kWhole = 255;  // a depth as it is follows; else: difference to the last one
 constexpr int kMaxSide = 8192;        // sampled pixels
 
+/// As ByteWriter::put(), which is slow for many.
+void append(map_file::Bytes& bytes, std::uint16_t value) {
+  bytes.push_back(static_cast<std::uint8_t>(value));
+  bytes.push_back(static_cast<std::uint8_t>(value >> 8));
+}
+
 void put_depths(ByteWriter& writer, const std::vector<std::uint16_t>& depths) {
+  map_file::Bytes bytes;
+  bytes.reserve(3 * depths.size());
   std::uint16_t last = 0;
   for (const std::uint16_t depth : depths) {
     const int step = depth - last;
     const int folded = step >= 0 ? 2 * step : -2 * step - 1;
-    writer.put(static_cast<std::uint8_t>(std::min<int>(folded, kWhole)));
-    if (folded >= kWhole) writer.put(depth);
+    bytes.push_back(static_cast<std::uint8_t>(std::min<int>(folded, kWhole)));
+    if (folded >= kWhole) append(bytes, depth);
     last = depth;
   }
+  writer.put_bytes(bytes);
 }
 
 void get_depths(ByteReader& reader, std::vector<std::uint16_t>& depths) {
@@ -42,13 +51,15 @@ void get_depths(ByteReader& reader, std::vector<std::uint16_t>& depths) {
 template <class Values>
 void put_runs(ByteWriter& writer, const Values& values) {
   writer.put_count(values.size());
+  map_file::Bytes bytes;
   for (std::size_t i = 0; i < values.size();) {
     std::size_t end = i + 1;
     while (end < values.size() && values[end] == values[i] && end - i < UINT16_MAX) ++end;
-    writer.put(static_cast<std::uint16_t>(end - i));
-    writer.put(static_cast<std::uint16_t>(values[i]));
+    append(bytes, static_cast<std::uint16_t>(end - i));
+    append(bytes, static_cast<std::uint16_t>(values[i]));
     i = end;
   }
+  writer.put_bytes(bytes);
 }
 
 /// @param size  that the list has if it is not empty.
@@ -90,6 +101,8 @@ void put(ByteWriter& writer, const ObjectSighting& sighting) {
   writer.put(sighting.label);
   writer.put(sighting.score);
   writer.put(static_cast<std::uint8_t>(sighting.cut_by_border));
+  const geometry::Box2& box = sighting.box_px;
+  for (const double value : {box.x0, box.y0, box.x1, box.y1}) writer.put(value);
   writer.put_count(sighting.points_in_camera.size());
   for (const auto& point : sighting.points_in_camera)
     for (int axis = 0; axis < 3; ++axis) writer.put(point[axis]);
@@ -100,6 +113,8 @@ ObjectSighting get_sighting(ByteReader& reader) {
   sighting.label = reader.get<std::uint16_t>();
   sighting.score = reader.get<float>();
   sighting.cut_by_border = reader.get<std::uint8_t>() != 0;
+  geometry::Box2& box = sighting.box_px;
+  for (double* value : {&box.x0, &box.y0, &box.x1, &box.y1}) *value = reader.get<double>();
   sighting.points_in_camera.resize(reader.get_count(3 * sizeof(float)));
   for (auto& point : sighting.points_in_camera)
     for (int axis = 0; axis < 3; ++axis) point[axis] = reader.get<float>();
@@ -128,9 +143,6 @@ map_file::Bytes to_bytes(const KeyframeRecord& record) {
   writer.put_bytes(record.rgb);
   put_cells(writer, record.movable.cells);
   put_runs(writer, record.classes);
-  put_runs(writer, record.unconfirmed.mask);
-  put_runs(writer, record.unconfirmed.surface);
-  writer.put(record.unconfirmed.surfaces);
   put_runs(writer, record.objects.labels);
   writer.put(static_cast<std::uint8_t>(record.objects.looked_for));
   writer.put_count(record.objects.sightings.size());
@@ -157,9 +169,6 @@ tl::expected<KeyframeRecord, std::string> record_from_bytes(std::span<const std:
   record.rgb.assign(rgb.begin(), rgb.end());
   record.movable.cells = get_cells(reader);
   get_runs(reader, size, record.classes);
-  get_runs(reader, size, record.unconfirmed.mask);
-  get_runs(reader, size, record.unconfirmed.surface);
-  record.unconfirmed.surfaces = reader.get<std::uint16_t>();
   get_runs(reader, size, record.objects.labels);
   record.objects.looked_for = reader.get<std::uint8_t>() != 0;
   record.objects.sightings.resize(reader.get_count(sizeof(std::uint64_t)));

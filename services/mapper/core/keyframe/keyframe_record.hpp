@@ -37,6 +37,7 @@ struct ObjectSighting {
   std::uint16_t label = 0;
   float score = 0;
   bool cut_by_border = false;
+  geometry::Box2 box_px;  // of the full picture
   std::vector<Eigen::Vector3f> points_in_camera;
 };
 
@@ -45,16 +46,6 @@ struct ObjectsInView {
   bool looked_for = false;            // whether a detector has seen the picture
   std::vector<std::uint16_t> labels;  // of each pixel, empty while no object is labelled; 0 = none
   std::vector<ObjectSighting> sightings;
-};
-
-/// Pixels that count as static only if their connected surface is confirmed, and these surfaces; all empty
-/// where there are none.
-struct UnconfirmedPixels {
-  std::vector<bool> mask;
-  std::vector<std::uint16_t> surface;  // of each pixel, from 1; 0: of none
-  std::uint16_t surfaces = 0;
-
-  [[nodiscard]] bool empty() const { return surface.empty(); }
 };
 
 /// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
@@ -73,7 +64,6 @@ struct KeyframeRecord {
   std::vector<std::uint8_t> rgb;              // 3 per pixel
   MovableCells movable;
   PixelClasses classes;
-  UnconfirmedPixels unconfirmed;
   ObjectsInView objects;
 
   [[nodiscard]] std::size_t size() const { return depth_tenth_mm.size(); }

@@ -3,9 +3,8 @@
 
 #include <utility>
 
-#include <octomap/OcTreeKey.h>
-
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
+#include "services/mapper/core/keyframe/voxel_key.hpp"
 
 namespace rds::mapper {
 
@@ -13,10 +12,6 @@ namespace rds::mapper {
 inline octomap::OcTreeKey key_at(const Eigen::Vector3d& p) {
   return {static_cast<std::uint16_t>(p.x()), static_cast<std::uint16_t>(p.y()),
           static_cast<std::uint16_t>(p.z())};
-}
-
-inline std::uint64_t packed(const octomap::OcTreeKey& key) {
-  return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | key[2];
 }
 
 /// Tells where the voxel changes from pixel to pixel: neighbours mostly fall into one, which is looked up

@@ -42,22 +42,23 @@ struct DepthProbes {
   int seen_through = 0;
 };
 
-DepthProbes probe(const geometry::Box2& box, double near_m, double far_m, const KeyframeRecord& record) {
-  DepthProbes view;
+DepthProbes probe(const geometry::Box2& box, double near_m, double far_m, const ObjectView& view) {
+  DepthProbes probes;
+  if (view.depth_tenth_mm.empty()) return probes;
   for (int row = 0; row < kProbes; ++row)
     for (int column = 0; column < kProbes; ++column) {
       const double x = box.x0 + box.width() * (column + 0.5) / kProbes;
       const double y = box.y0 + box.height() * (row + 0.5) / kProbes;
-      const int sx = std::min(record.grid.width - 1, static_cast<int>(x / record.grid.stride));
-      const int sy = std::min(record.grid.height - 1, static_cast<int>(y / record.grid.stride));
-      const auto i = record.grid.index(sx, sy);
-      if (record.depth_tenth_mm[i] == 0) continue;
-      ++view.measured;
-      const double depth = record.depth_m(i);
-      if (depth < near_m - kOcclusionMarginM || record.classes[i] == PixelClass::kDynamic) ++view.occluded;
-      if (depth > far_m + kOcclusionMarginM) ++view.seen_through;
+      const int px = std::min(view.columns - 1, static_cast<int>(x / view.step_px));
+      const int py = std::min(view.rows - 1, static_cast<int>(y / view.step_px));
+      const auto i = static_cast<std::size_t>(py * view.columns + px);
+      if (view.depth_tenth_mm[i] == 0) continue;
+      ++probes.measured;
+      const double depth = static_cast<float>(view.depth_tenth_mm[i]) / kTenthMmPerM;
+      if (depth < near_m - kOcclusionMarginM || view.is_dynamic[i]) ++probes.occluded;
+      if (depth > far_m + kOcclusionMarginM) ++probes.seen_through;
     }
-  return view;
+  return probes;
 }
 
 nlohmann::json rounded(const Eigen::Vector3d& v) {
@@ -75,13 +76,13 @@ geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::P
   return trimmed_box(in_map);
 }
 
-void ObjectDatabase::integrate(const KeyframeRecord& record, const LabelTable& labels) {
+void ObjectDatabase::integrate(const ObjectView& view, const LabelTable& labels) {
   for (auto& entry : entries_) entry.seen_now = false;
-  for (const auto& sighting : record.objects.sightings) fuse(sighting, record, labels);
+  for (const auto& sighting : view.sightings) fuse(sighting, view, labels);
   merge_duplicates();
-  if (!record.objects.looked_for) return;
+  if (!view.looked_for) return;
   for (auto& entry : entries_)
-    if (!entry.seen_now) fade(entry, record);
+    if (!entry.seen_now) fade(entry, view);
   std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
 }
 
@@ -140,9 +141,9 @@ void ObjectDatabase::describe(Entry& entry) {
   object.size = entry.max - entry.min;
 }
 
-void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& record,
+void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view,
                           const LabelTable& labels) {
-  const auto box = boundary_in_map(sighting, record.map_from_camera);
+  const auto box = boundary_in_map(sighting, view.map_from_camera);
   if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
   const auto& label = labels.names()[sighting.label];
   Entry* entry = nearest(label, box);
@@ -150,7 +151,7 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
     entry = &entries_.emplace_back();
     entry->object.id = next_id_++;
     entry->object.label = label;
-    entry->object.first_seen_ns = record.stamp_ns;
+    entry->object.first_seen_ns = view.stamp_ns;
   }
   const double weight =
       std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? kBorderWeight : 1.0);
@@ -172,17 +173,17 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const KeyframeRecord& 
   entry->existence = std::min(kMaxExistence, entry->existence + kHit);
   entry->seen_now = true;
   ++entry->object.observations;
-  entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, record.stamp_ns);
+  entry->object.last_seen_ns = std::max(entry->object.last_seen_ns, view.stamp_ns);
   describe(*entry);
 }
 
-void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
-  const geometry::Pose camera_from_map = record.map_from_camera.inverse();
+void ObjectDatabase::fade(Entry& entry, const ObjectView& view) const {
+  const geometry::Pose camera_from_map = view.map_from_camera.inverse();
   const geometry::Box3 box{entry.min, entry.max};
-  const auto in_picture = geometry::project(box, camera_from_map, record.grid.camera);
+  const auto in_picture = geometry::project(box, camera_from_map, view.camera);
   const Eigen::Vector3d center = camera_from_map * box.center();
   if (!in_picture || center.z() <= 0) return;
-  geometry::CameraModel wide = record.grid.camera;  // the same projection without the picture's limits
+  geometry::CameraModel wide = view.camera;  // the same projection without the picture's limits
   constexpr int kBorder = 2000;
   wide.width += 2 * kBorder;
   wide.height += 2 * kBorder;
@@ -191,25 +192,9 @@ void ObjectDatabase::fade(Entry& entry, const KeyframeRecord& record) const {
   const auto whole = geometry::project(box, camera_from_map, wide);
   if (!whole || in_picture->area() < kInViewShare * whole->area()) return;
   const double half_depth = box.size().norm() / 2;
-  const auto view = probe(*in_picture, center.z() - half_depth, center.z() + half_depth, record);
-  if (2 * view.measured < kProbes * kProbes || 3 * view.occluded > view.measured) return;
-  entry.existence -= 3 * view.seen_through > 2 * view.measured ? kSeenThrough : kMiss;
-}
-
-std::vector<geometry::Box3> ObjectDatabase::undetected(const KeyframeRecord& record,
-                                                       const LabelTable& labels) const {
-  std::vector<std::pair<std::string, geometry::Box3>> sighted;
-  for (const auto& sighting : record.objects.sightings)
-    sighted.emplace_back(labels.names()[sighting.label], boundary_in_map(sighting, record.map_from_camera));
-  std::vector<geometry::Box3> boxes;
-  for (const auto& entry : entries_) {
-    const geometry::Box3 box{entry.min, entry.max};
-    const bool seen = std::ranges::any_of(sighted, [&](const auto& s) {
-      return s.first == entry.object.label && is_same(s.first, box, s.second);
-    });
-    if (!seen) boxes.push_back(box);
-  }
-  return boxes;
+  const auto probes = probe(*in_picture, center.z() - half_depth, center.z() + half_depth, view);
+  if (2 * probes.measured < kProbes * kProbes || 3 * probes.occluded > probes.measured) return;
+  entry.existence -= 3 * probes.seen_through > 2 * probes.measured ? kSeenThrough : kMiss;
 }
 
 std::vector<MapObject> ObjectDatabase::objects() const {

@@ -5,8 +5,8 @@
 
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/byte_writer.hpp"
-#include "services/mapper/core/keyframe/keyframe_record.hpp"
 #include "services/mapper/core/objects/map_object.hpp"
+#include "services/mapper/core/objects/object_view.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 
 namespace rds::mapper {
@@ -24,11 +24,7 @@ class ObjectDatabase {
 
   /// Fuses a keyframe's sightings (of static objects); fades what should have been seen if it looked for
   /// objects.
-  void integrate(const KeyframeRecord& record, const LabelTable& labels);
-
-  /// Boxes of the known objects that have no sighting in a keyframe.
-  [[nodiscard]] std::vector<geometry::Box3> undetected(const KeyframeRecord& record,
-                                                       const LabelTable& labels) const;
+  void integrate(const ObjectView& view, const LabelTable& labels);
 
   /// Objects seen often and surely enough, in order of their ids.
   [[nodiscard]] std::vector<MapObject> objects() const;
@@ -49,13 +45,13 @@ class ObjectDatabase {
     bool seen_now = false;
   };
 
-  void fuse(const ObjectSighting& sighting, const KeyframeRecord& record, const LabelTable& labels);
+  void fuse(const ObjectSighting& sighting, const ObjectView& view, const LabelTable& labels);
   Entry* nearest(const std::string& label, const geometry::Box3& box);
   [[nodiscard]] bool is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const;
   void merge_duplicates();
   static void describe(Entry& entry);
-  void fade(Entry& entry, const KeyframeRecord& record) const;
+  void fade(Entry& entry, const ObjectView& view) const;
 
   ObjectConfig config_;
   std::vector<Entry> entries_;

@@ -23,6 +23,7 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
   ObjectSighting sighting{label,
                           std::isfinite(box.score) ? std::clamp(box.score, 0.0F, 1.0F) : 0.0F,
                           is_cut_by_border(box_px, record.grid.camera),
+                          box_px,
                           {}};
   const std::size_t step = pixels.size() / ObjectSighting::kMaxPoints + 1;
   for (std::size_t k = 0; k < pixels.size(); k += step)

@@ -19,6 +19,14 @@ void EditableOcTree::copy_children(Node* to, const EditableOcTree& other, const 
       copy_children(createNodeChild(to, i), other, other.getNodeChild(from, i));
 }
 
+/// OctoMap deletes no node that has once had children, unless they were pruned.
+void EditableOcTree::erase_child(Node* parent, unsigned index) {
+  Node* node = getNodeChild(parent, index);
+  expandNode(node);
+  pruneNode(node);
+  deleteNodeChild(parent, index);
+}
+
 EditableOcTree::Node* EditableOcTree::descend(const octomap::OcTreeKey& key, unsigned depth,
                                               std::array<Node*, kDepth + 1>& path) {
   bool created = root == nullptr;

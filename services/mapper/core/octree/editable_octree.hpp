@@ -30,6 +30,9 @@ class EditableOcTree : public octomap::ColorOcTree {
     return nodeChildExists(parent, index) ? getNodeChild(parent, index) : createNodeChild(parent, index);
   }
 
+  /// Deletes a child that is a voxel, or an inner node without children.
+  void erase_child(Node* parent, unsigned index);
+
   /// Inner node from its children.
   static void refresh(Node* node) {
     node->updateOccupancyChildren();

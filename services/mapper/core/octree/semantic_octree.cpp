@@ -2,160 +2,108 @@
 #include "services/mapper/core/octree/semantic_octree.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 
-#include "services/mapper/core/keyframe/voxel_projector.hpp"
 #include "services/mapper/core/octree/voxel_walk.hpp"
 
 namespace rds::mapper {
 namespace {
 
-using Node = EditableOcTree::Node;
-// Log-odds per keyframe, paper §IV-C.
-constexpr double kHit = 0.85;
-constexpr double kMiss = -0.41;
-constexpr double kGhostMiss = -1.2;  // a voxel at the upper clamp is free after three rays
-constexpr double kLowest = 0.12;     // clamped to these probabilities, as OctoMap does
-constexpr double kHighest = 0.97;
-constexpr double kLabelShare = 0.25;  // of a voxel's votes: a detector misses an object in many views
-constexpr unsigned kBlockDepth = EditableOcTree::kDepth - ScanGrid::kBlockBits;
+constexpr double kLowestProbability = 0.12;  // as the evidence clamps
+constexpr double kHighestProbability = 0.97;
+constexpr unsigned kBlockDepth = EditableOcTree::kDepth - kBlockBits;
+constexpr unsigned kBlockSide = 1U << kBlockBits;
 
-constexpr unsigned kMeasured = kSurface | kFreeSpace;
-
-/// True if any of the cells has one of `wanted`; `count` is a multiple of 8.
-bool any_has(unsigned wanted, const std::uint8_t* flags, std::size_t count) {
-  constexpr std::uint64_t kEight = 0x0101010101010101U;
-  std::uint64_t any = 0;
-  for (std::size_t i = 0; i < count; i += 8) {
-    std::uint64_t siblings = 0;
-    std::memcpy(&siblings, flags + i, 8);
-    any |= siblings;
-  }
-  return (any & wanted * kEight) != 0;
+bool any_known(const EvidenceBlock& block, unsigned first, unsigned count) {
+  const auto* known = &block.log_odds().known[first];
+  return std::any_of(known, known + count, [](std::uint8_t k) { return k != 0; });
 }
 
 }  // namespace
 
-SemanticOctree::SemanticOctree(const OctreeConfig& config)
-    : config_(config),
-      lowest_(octomap::logodds(kLowest)),
-      highest_(octomap::logodds(kHighest)),
-      tree_(config.resolution_m) {
-  tree_.setClampingThresMin(kLowest);
-  tree_.setClampingThresMax(kHighest);
+SemanticOctree::SemanticOctree(const OctreeConfig& config) : config_(config), tree_(config.resolution_m) {
+  tree_.setClampingThresMin(kLowestProbability);
+  tree_.setClampingThresMax(kHighestProbability);
   tree_.setOccupancyThres(0.5);
 }
 
 std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
-  const auto found = voxels_.find(packed(key));
-  return found == voxels_.end() ? std::uint16_t{0} : found->second.label(kLabelShare);
+  const auto found = labels_.find(packed(key));
+  return found == labels_.end() ? std::uint16_t{0} : found->second;
 }
 
-void SemanticOctree::integrate(const Update& update) {
-  for (const auto& block : update.scan.grid.blocks()) update_block(block, update);
-}
-
-/// Voxels that a surface or a ray of a measured pixel meets are made where they are missing; no-return rays
-/// change existing voxels only.
-void SemanticOctree::update_block(const ScanGrid::Block& block, const Update& update) {
-  const octomap::OcTreeKey base(block.key[0], block.key[1], block.key[2]);
-  const auto is_concerned = [&](unsigned first, std::size_t count, bool exists) {
-    return any_has(exists ? kMeasured | kNoReturnRay : kMeasured, &block.flags[first], count);
-  };
-  if (!is_concerned(0, block.flags.size(), tree_.search(base, kBlockDepth) != nullptr)) return;
+void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const LabelTable& labels,
+                          MapDelta& delta) {
+  if (!any_known(block, 0, kBlockCells) && tree_.search(key, kBlockDepth) == nullptr) return;
   std::array<Node*, EditableOcTree::kDepth + 1> path{};
-  Node* top = tree_.descend(base, kBlockDepth, path);
-  for (unsigned outer = 0; outer < 8; ++outer) {
-    if (!is_concerned(outer * 64, 64, tree_.nodeChildExists(top, outer))) continue;
-    Node* parent = tree_.child(top, outer);
-    for (unsigned inner = 0; inner < 8; ++inner) {
-      const unsigned first_cell = outer * 64 + inner * 8;
-      if (!is_concerned(first_cell, 8, tree_.nodeChildExists(parent, inner))) continue;
-      update_siblings(tree_.child(parent, inner), child_key(child_key(base, outer, 4), inner, 2), block,
-                      first_cell, update);
-    }
-    EditableOcTree::refresh(parent);
+  Node* top = tree_.descend(key, kBlockDepth, path);
+  if (!show_children(top, key, 0, kBlockSide / 2, {block, labels, delta})) return;
+  for (unsigned depth = kBlockDepth; depth-- > 0;) {
+    Node* parent = path[depth];
+    const unsigned index = octomap::computeChildIdx(key, static_cast<int>(EditableOcTree::kDepth - 1 - depth));
+    if (!tree_.nodeHasChildren(path[depth + 1])) tree_.erase_child(parent, index);
+    if (tree_.nodeHasChildren(parent)) EditableOcTree::refresh(parent);
   }
-  for (unsigned depth = kBlockDepth + 1; depth-- > 0;) EditableOcTree::refresh(path[depth]);
+  if (!tree_.nodeHasChildren(path[0])) tree_.clear();
 }
 
-void SemanticOctree::update_siblings(Node* parent, const octomap::OcTreeKey& base,
-                                     const ScanGrid::Block& block, unsigned first_cell,
-                                     const Update& update) {
+/// @param half  of the parent's side [voxels]. @return whether something changed.
+bool SemanticOctree::show_children(Node* parent, const octomap::OcTreeKey& key, unsigned first_cell,
+                                   unsigned half, const Source& source) {
+  const unsigned cells = half * half * half;  // of a child
+  bool changed = false;
   for (unsigned index = 0; index < 8; ++index) {
-    const auto flags = block.flags[first_cell + index];
-    if ((flags & kMeasured) == 0 &&
-        ((flags & kNoReturnRay) == 0 || !is_uncertain(parent, index, child_key(base, index, 1), update)))
+    const unsigned first = first_cell + index * cells;
+    const octomap::OcTreeKey its_key = child_key(key, index, half);
+    if (half == 1) {
+      changed |= show_voxel(parent, index, its_key, first, source);
       continue;
-    const bool created = !tree_.nodeChildExists(parent, index);
-    const SurfaceVoxel* surface =
-        (flags & kSurface) != 0 ? &update.scan.surfaces[block.slot[first_cell + index]] : nullptr;
-    update_voxel(tree_.child(parent, index), created, child_key(base, index, 1), surface, update);
+    }
+    if (!tree_.nodeChildExists(parent, index) && !any_known(source.block, first, cells)) continue;
+    Node* node = tree_.child(parent, index);
+    changed |= show_children(node, its_key, first, half / 2, source);
+    if (!tree_.nodeHasChildren(node)) tree_.erase_child(parent, index);
   }
-  EditableOcTree::refresh(parent);
+  if (changed && tree_.nodeHasChildren(parent)) EditableOcTree::refresh(parent);
+  return changed;
 }
 
-/// True for an occupied voxel that a ray without return lowers, too: a ghost, or seen seldom.
-bool SemanticOctree::is_uncertain(const Node* parent, unsigned index, const octomap::OcTreeKey& key,
-                                  const Update& update) const {
-  if (!tree_.nodeChildExists(parent, index)) return false;
-  if (!tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) return false;
-  if (update.history.is_ghost(key, update.time_ns)) return true;
-  const auto found = voxels_.find(packed(key));
-  return found != voxels_.end() && found->second.times_seen() <= kUncertainHits;
-}
-
-/// Paper §IV-C; deviation: a ray through a ghost takes kGhostMiss.
-double SemanticOctree::step(bool occupied, const octomap::OcTreeKey& key, const SurfaceVoxel* surface,
-                            const Update& update) const {
-  if (surface != nullptr) return surface->is_hit() ? kHit : kMiss;
-  return occupied && update.history.is_ghost(key, update.time_ns) ? kGhostMiss : kMiss;
-}
-
-void SemanticOctree::update_voxel(Node* node, bool created, const octomap::OcTreeKey& key,
-                                  const SurfaceVoxel* surface, const Update& update) {
-  const bool hit = surface != nullptr && surface->is_hit();
-  const float before = node->getLogOdds();
-  const auto color_before = node->getColor();
-  const bool was_occupied = before > tree_.getOccupancyThresLog();
-  const std::uint16_t label_before = hit && was_occupied ? this->label(key) : std::uint16_t{0};
-  const auto change = static_cast<float>(step(was_occupied, key, surface, update));
-  node->setLogOdds(std::clamp(before + change, lowest_, highest_));
-  std::uint16_t label = 0;
-  if (node->getLogOdds() > tree_.getOccupancyThresLog()) {
-    label = hit ? update_semantics(node, key, *surface, update) : this->label(key);
-  } else if (was_occupied) {
-    voxels_.erase(packed(key));
-    node->setColor(Node::Color());
+bool SemanticOctree::show_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, unsigned cell,
+                                const Source& source) {
+  const bool is_there = tree_.nodeChildExists(parent, index);
+  if (source.block.log_odds().known[cell] != 0) {
+    const bool is_changed = set_voxel(tree_.child(parent, index), key, cell, source);
+    if (is_changed || !is_there) source.delta.add(key, *tree_.getNodeChild(parent, index), label(key));
+    return is_changed || !is_there;
   }
-  const bool is_relabelled = hit && label != label_before;
-  if (created || is_relabelled || node->getLogOdds() != before || node->getColor() != color_before)
-    update.delta.add(key, *node, label);
+  if (!is_there) return false;
+  tree_.deleteNodeChild(parent, index);
+  labels_.erase(packed(key));
+  source.delta.deleted_keys.insert(source.delta.deleted_keys.end(), {key[0], key[1], key[2]});
+  return true;
 }
 
-/// True if the voxel is of an object that the detector has not found in this keyframe: no label is no vote
-/// then.
-bool SemanticOctree::is_of_undetected(const octomap::OcTreeKey& key, const Update& update) const {
-  if (update.undetected.empty()) return false;
-  const auto p = tree_.keyToCoord(key);
-  const Eigen::Vector3d center(p.x(), p.y(), p.z());
-  const Eigen::Vector3d voxel = Eigen::Vector3d::Constant(config_.resolution_m);
-  return std::ranges::any_of(update.undetected, [&](const geometry::Box3& box) {
-    return geometry::Box3{box.min - voxel, box.max + voxel}.contains(center);
-  });
-}
-
-std::uint16_t SemanticOctree::update_semantics(Node* node, const octomap::OcTreeKey& key,
-                                               const SurfaceVoxel& surface, const Update& update) {
-  auto& voxel = voxels_[packed(key)];
-  voxel.see_color(surface);
-  if (update.looked_for_objects && (surface.label != 0 || !is_of_undetected(key, update)))
-    voxel.vote(surface.label);
-  const auto label = voxel.label(kLabelShare);
-  const Rgb color = label != 0 && config_.color_by_label ? update.labels.color(label) : voxel.color();
-  node->setColor(color[0], color[1], color[2]);
-  return label;
+/// @return whether something changed.
+bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell,
+                               const Source& source) {
+  const LogOdds log_odds = source.block.log_odds().values[cell];
+  const VoxelLook* look = log_odds > 0 ? source.block.look(static_cast<std::uint16_t>(cell)) : nullptr;
+  const std::uint16_t label = look != nullptr ? look->label() : std::uint16_t{0};
+  Node::Color color;
+  if (look != nullptr) {
+    const Rgb rgb = label != 0 && config_.color_by_label ? source.labels.color(label) : look->color();
+    color = {rgb[0], rgb[1], rgb[2]};
+  }
+  const float value = in_nats(log_odds);
+  const bool is_same =
+      node->getLogOdds() == value && node->getColor() == color && this->label(key) == label;
+  if (is_same) return false;
+  node->setLogOdds(value);
+  node->setColor(color);
+  if (label != 0)
+    labels_[packed(key)] = label;
+  else
+    labels_.erase(packed(key));
+  return true;
 }
 
 }  // namespace rds::mapper

@@ -43,7 +43,7 @@ bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pi
   const auto aside = static_cast<std::size_t>(kToNeighbour);
   const std::size_t down = aside * static_cast<std::size_t>(record.grid.width);
   const std::array around{pixel + aside, pixel - aside, pixel + down, pixel - down};
-  if (std::ranges::any_of(around, [&](std::size_t i) { return record.classes[i] != PixelClass::kStatic; }))
+  if (std::ranges::any_of(around, [&](std::size_t i) { return !looks_static(record.classes[i]); }))
     return false;
   const auto between = [&](std::size_t a, std::size_t b) -> Eigen::Vector3f {
     return record.point_in_camera(a) - record.point_in_camera(b);

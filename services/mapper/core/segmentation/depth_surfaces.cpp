@@ -35,7 +35,7 @@ class PixelSets {
 };
 
 bool may_be_static(PixelClass c) {
-  return c == PixelClass::kStatic || c == PixelClass::kUnknown;
+  return looks_static(c) || c == PixelClass::kUnknown;
 }
 
 PixelSets join_neighbours(const KeyframeRecord& record) {

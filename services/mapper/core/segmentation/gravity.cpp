@@ -24,7 +24,7 @@ void append_normals(const KeyframeRecord& record, const Eigen::Vector3d& guess,
   const auto point = [&](int x, int y, Eigen::Vector3f& p) {
     const auto i = record.grid.index(x, y);
     p = record.point_in_camera(i);
-    return record.classes[i] == PixelClass::kStatic;
+    return looks_static(record.classes[i]);
   };
   Eigen::Vector3f left;
   Eigen::Vector3f right;

@@ -31,7 +31,7 @@ class Cells {
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
     for (std::size_t i = 0; i < record.size(); ++i)
-      if (record.classes[i] == PixelClass::kStatic)
+      if (looks_static(record.classes[i]))
         sums_[cell_of(i)].add(record.point_in_camera(i).cast<double>());
     for (std::size_t i = 0; i < sums_.size(); ++i)
       free_[i] = sums_[i].count() >= kMinMeasured * kCellPx * kCellPx;
@@ -91,7 +91,7 @@ class Cells {
     for (std::size_t i = 0; i < sums_.size(); ++i)
       if (free_[i] && is_on(surface.plane, sums_[i])) take(i);
     for (std::size_t i = 0; i < record_.size(); ++i)
-      if (near[cell_of(i)] && record_.classes[i] == PixelClass::kStatic &&
+      if (near[cell_of(i)] && looks_static(record_.classes[i]) &&
           lies_on(surface.plane, record_.point_in_camera(i), config_))
         surface.pixels.push_back(i);
     return surface;

@@ -45,7 +45,7 @@ Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>
   for (int y = 0; y < record.grid.height; y += stride)
     for (int x = 0; x < record.grid.width; x += stride) {
       const auto i = record.grid.index(x, y);
-      const bool used = record.classes[i] == PixelClass::kStatic && !on_plane[i];
+      const bool used = looks_static(record.classes[i]) && !on_plane[i];
       const Eigen::Vector3f p = used ? record.point_in_camera(i) : Eigen::Vector3f::Constant(kNan);
       cloud->push_back(Point(p.x(), p.y(), p.z()));
     }

@@ -66,7 +66,7 @@ StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
   if (object.flush)
     for (const auto i : region) is_object[i] = true;
   for (std::size_t i = 0; i < is_object.size(); ++i)
-    if (is_object[i] && record.classes[i] == PixelClass::kStatic) object.pixels.push_back(i);
+    if (is_object[i] && looks_static(record.classes[i])) object.pixels.push_back(i);
   for (const auto& plane : elsewhere) remove_support(plane, record, config.segmentation, object.pixels);
   return object;
 }

@@ -89,7 +89,7 @@ TEST(Pipeline, MovableCellsAreUnknownUnlessABoxKnowsTheObject) {
   LabelTable labels;
   const auto unboxed = record_of(keyframe, labels, config);
   EXPECT_EQ(class_at(unboxed, 60, 60), PixelClass::kUnknown);
-  EXPECT_EQ(class_at(unboxed, 60, 140), PixelClass::kStatic);
+  EXPECT_EQ(class_at(unboxed, 60, 140), PixelClass::kDoubtful);
   keyframe.movable_cells({160, 120, 40, 40});
   const auto boxed = record_of(keyframe.box("person", {90, 20, 140, 220}, true).make(), labels);
   EXPECT_EQ(class_at(boxed, 180, 140), PixelClass::kDynamic);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/mapper/core/evidence/classify.hpp"
+#include "services/mapper/core/segmentation/classify.hpp"
 #include "services/mapper/core/pipeline.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 

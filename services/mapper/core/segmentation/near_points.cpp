@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/near_points.hpp"
+#include "services/mapper/core/segmentation/near_points.hpp"
 
 namespace rds::mapper {
 namespace {

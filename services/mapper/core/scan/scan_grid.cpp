@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/octree/scan_grid.hpp"
+#include "services/mapper/core/scan/scan_grid.hpp"
 
 #include <cmath>
 #include <limits>
 
 namespace rds::mapper {
 namespace {
-
-/// Bits of a local coordinate 0…7 spread to every third place: the octree's child order (x lowest).
-constexpr std::array<std::uint16_t, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};
-
-std::size_t cell(int x, int y, int z) {
-  const auto spread = [](int key) { return kSpread[static_cast<std::size_t>(key & 7)]; };
-  return static_cast<std::size_t>(spread(x) | spread(y) << 1 | spread(z) << 2);
-}
 
 /// One coordinate of a voxel on a ray; no branches, as nobody can predict which one is next to change.
 struct RayAxis {
@@ -61,14 +53,9 @@ ScanGrid::Block& ScanGrid::block_of(const octomap::OcTreeKey& key) {
   if (index < 0) {
     index = static_cast<std::int32_t>(blocks_.size());
     auto& block = blocks_.emplace_back();
-    for (unsigned axis = 0; axis < 3; ++axis)
-      block.key[axis] = static_cast<std::uint16_t>(key[axis] & ~((1U << kBlockBits) - 1));
+    block.key = block_key(key);
   }
   return blocks_[static_cast<std::size_t>(index)];
-}
-
-std::size_t ScanGrid::cell_of(const octomap::OcTreeKey& key) {
-  return cell(key[0], key[1], key[2]);
 }
 
 void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
@@ -87,7 +74,7 @@ void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
       block = &block_of({static_cast<std::uint16_t>(x.key), static_cast<std::uint16_t>(y.key),
                          static_cast<std::uint16_t>(z.key)});
     }
-    block->flags[cell(x.key, y.key, z.key)] |= flag;
+    block->flags[cell_of(static_cast<unsigned>(x.key), static_cast<unsigned>(y.key), static_cast<unsigned>(z.key))] |= flag;
     const bool go_x = (x.next <= y.next) & (x.next <= z.next);
     const bool go_y = !go_x & (y.next <= z.next);
     x.advance(go_x);

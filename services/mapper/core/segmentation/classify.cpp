@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/evidence/classify.hpp"
+#include "services/mapper/core/segmentation/classify.hpp"
 
-#include <algorithm>
-
-#include "services/mapper/core/evidence/near_points.hpp"
-#include "services/mapper/core/evidence/surface_rules.hpp"
 #include "services/mapper/core/segmentation/depth_surfaces.hpp"
+#include "services/mapper/core/segmentation/near_points.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -34,27 +31,15 @@ std::vector<Eigen::Vector3f> dynamic_points(const KeyframeRecord& record, const 
 }
 
 /// Rule 8.
-bool needs_confirmation(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks,
-                        const NearPoints& near_dynamic) {
-  if (masks.is_background(pixel)) return false;
-  const PixelClass its_class = record.classes[pixel];
-  return its_class == PixelClass::kUnknown ||
-         (its_class == PixelClass::kStatic && near_dynamic.contains(record.point_in_camera(pixel)));
-}
-
-UnconfirmedPixels unconfirmed_pixels(const KeyframeRecord& record, const DynamicMasks& masks,
-                                     const MapperConfig& config) {
-  if (!(config.confirmation.radius_m > 0)) return {};
+void doubt_near_dynamic(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
+  if (!(config.confirmation.radius_m > 0)) return;
   const auto dynamic = dynamic_points(record, config.sampling);
-  if (dynamic.empty()) return {};
+  if (dynamic.empty()) return;
   const NearPoints near(dynamic, static_cast<float>(config.confirmation.radius_m));
-  UnconfirmedPixels unconfirmed;
-  unconfirmed.mask.resize(record.size());
   for (std::size_t i = 0; i < record.size(); ++i)
-    unconfirmed.mask[i] = needs_confirmation(i, record, masks, near);
-  if (std::ranges::find(unconfirmed.mask, true) == unconfirmed.mask.end()) return {};
-  unconfirmed.surfaces = find_surfaces(record, unconfirmed.surface);
-  return unconfirmed;
+    if (record.classes[i] == PixelClass::kStatic && !masks.is_background(i) &&
+        near.contains(record.point_in_camera(i)))
+      record.classes[i] = PixelClass::kDoubtful;
 }
 
 }  // namespace
@@ -76,21 +61,7 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
 
 void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
   for (std::size_t i = 0; i < record.size(); ++i) record.classes[i] = class_of(i, record, masks);
-  record.unconfirmed = unconfirmed_pixels(record, masks, config);
-}
-
-PixelClasses resolve(const KeyframeRecord& record, const SceneHistory& history, const MapperConfig& config) {
-  PixelClasses classes = record.classes;
-  const auto confirmed = confirmed_surfaces(record, history.statics, config);
-  for (std::size_t i = 0; i < record.unconfirmed.mask.size(); ++i)
-    if (record.unconfirmed.mask[i])
-      classes[i] =
-          confirmed[record.unconfirmed.surface[i]] ? PixelClass::kStatic : PixelClass::kInvalid;  // rule 9
-  std::ranges::replace(classes, PixelClass::kUnknown, PixelClass::kInvalid);  // rule 10
-  const auto transient = transient_pixels(record, history, config, classes);
-  for (std::size_t i = 0; i < transient.size(); ++i)
-    if (transient[i]) classes[i] = PixelClass::kInvalid;  // rule 11
-  return classes;
+  doubt_near_dynamic(record, masks, config);
 }
 
 }  // namespace rds::mapper

@@ -6,23 +6,27 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <octomap/OcTreeKey.h>
+
+#include "services/mapper/core/keyframe/voxel_key.hpp"
 
 namespace rds::mapper {
 
 /// What one keyframe says about a voxel; flags may be combined.
-enum ScanFlag : std::uint8_t { kFreeSpace = 1, kSurface = 2, kRayCast = 4, kNoReturnRay = 8 };
+enum ScanFlag : std::uint8_t {
+  kFreeSpace = 1,
+  kSurface = 2,
+  kRayCast = 4,
+  kNoReturnRay = 8,
+  kDynamicPlace = 16,
+};
 
 /// Scratch volume of one keyframe: sparse blocks of 8×8×8 voxels, cells of a block in the octree's child
 /// order, so that eight siblings are eight neighbouring bytes. Each voxel is marked once, however many pixels
 /// and rays touch it.
 class ScanGrid {
  public:
-  static constexpr int kBlockBits = 3;
-  static constexpr int kBlockCells = 512;
-
   struct Block {
-    std::array<std::uint16_t, 3> key{};  // of the block's lowest voxel
+    octomap::OcTreeKey key;  // of the block's lowest voxel
     std::array<std::uint8_t, kBlockCells> flags{};
     std::array<std::uint32_t, kBlockCells> slot;  // index of a surface voxel; valid where kSurface is set
   };
@@ -38,7 +42,6 @@ class ScanGrid {
   void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag = kFreeSpace);
 
   Block& block_of(const octomap::OcTreeKey& key);
-  static std::size_t cell_of(const octomap::OcTreeKey& key);
 
   /// Touched blocks in order of first touch.
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }

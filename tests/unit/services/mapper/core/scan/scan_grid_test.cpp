@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/octree/scan_grid.hpp"
+#include "services/mapper/core/scan/scan_grid.hpp"
 
 #include <random>
 #include <set>
@@ -21,7 +21,7 @@ std::set<Key> marked(const ScanGrid& grid) {
           const octomap::OcTreeKey key(static_cast<std::uint16_t>(block.key[0] + x),
                                        static_cast<std::uint16_t>(block.key[1] + y),
                                        static_cast<std::uint16_t>(block.key[2] + z));
-          if ((block.flags[ScanGrid::cell_of(key)] & kFreeSpace) != 0) keys.insert({key[0], key[1], key[2]});
+          if ((block.flags[cell_of(key)] & kFreeSpace) != 0) keys.insert({key[0], key[1], key[2]});
         }
   return keys;
 }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/evidence/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rds::mapper {
+namespace {
+
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr std::int64_t kLongest = kAfterAll - 10'000;  // 12 days; what is farther is as far
+
+constexpr std::size_t kJudgedAgain = 10;  // keyframes, with each update
+
+/// Voxels of a surface.
+struct SurfaceSupport {
+  std::uint32_t voxels = 0;
+  std::uint32_t doubtful = 0;   // or unknown
+  std::uint32_t confirmed = 0;  // seen as static at another time
+  std::uint32_t transient = 0;  // that bear no label
+};
+
+constexpr double kConfirmedShare = 0.7;
+constexpr double kConfirmedShareOfLarge = 0.15;  // walls and floors fill the picture, people do not
+constexpr double kTransientShare = 0.8;
+
+SurfaceVerdict verdict_on(const SurfaceSupport& surface, bool is_large) {
+  const double voxels = surface.voxels;
+  if (surface.transient > 0 && surface.transient >= kTransientShare * voxels) return SurfaceVerdict::kTransient;
+  if (surface.doubtful == 0) return SurfaceVerdict::kUndecided;
+  const double needed = is_large ? kConfirmedShareOfLarge : kConfirmedShare;
+  return surface.confirmed > 0 && surface.confirmed >= needed * voxels ? SurfaceVerdict::kConfirmed
+                                                                       : SurfaceVerdict::kUndecided;
+}
+
+std::int64_t floor_ms(std::int64_t time_ns) {
+  return time_ns / kNsPerMs - (time_ns % kNsPerMs < 0 ? 1 : 0);
+}
+
+}  // namespace
+
+Evidence::Evidence(double apart_s) : apart_(static_cast<EvidenceTime>(std::lround(1000 * apart_s))) {}
+
+void Evidence::begin_with(const FinalMap& known) {
+  origin_ms_ = known.origin_ms;
+  for (const auto& [key, block] : known.blocks) touch(key).begin_with(block);
+}
+
+EvidenceTime Evidence::time_of(std::int64_t time_ns) {
+  if (!origin_ms_) origin_ms_ = floor_ms(time_ns);
+  return static_cast<EvidenceTime>(std::clamp(floor_ms(time_ns) - *origin_ms_, -kLongest, kLongest));
+}
+
+EvidenceBlock& Evidence::touch(BlockKey key) {
+  Place& place = blocks_[key];
+  if (!place.is_touched) touched_.push_back(key);
+  place.is_touched = true;
+  return place.evidence;
+}
+
+void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, Contribution contribution) {
+  const auto view = std::make_shared<KeyframeView>(std::move(contribution.view));
+  const EvidenceTime time = time_of(time_ns);
+  for (std::uint32_t i = 0; i < view->size(); ++i)
+    touch(packed(view->key(i))).add({keyframe, time, view, i});
+  for (const auto& [key, look] : contribution.surfaces)
+    touch(packed(block_key(key))).add_look(cell_of(key), look);
+  keyframes_[keyframe] = {keyframe, time, view};
+  new_.push_back(keyframe);
+}
+
+void Evidence::remove(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces) {
+  const auto removed = keyframes_.extract(keyframe);
+  if (!removed) return;
+  const KeyframeView& view = *removed.mapped().view;
+  for (std::size_t i = 0; i < view.size(); ++i) touch(packed(view.key(i))).remove(keyframe);
+  for (const auto& [key, look] : surfaces) touch(packed(block_key(key))).remove_look(cell_of(key), look);
+}
+
+void Evidence::make_final(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces) {
+  const auto removed = keyframes_.extract(keyframe);
+  if (!removed) return;
+  const KeyframeView& view = *removed.mapped().view;
+  std::unordered_map<BlockKey, std::vector<std::pair<std::uint16_t, SurfaceLook>>> looks;
+  for (const auto& [key, look] : surfaces) looks[packed(block_key(key))].emplace_back(cell_of(key), look);
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const BlockKey key = packed(view.key(i));
+    touch(key).make_final(keyframe, looks[key]);
+  }
+}
+
+/// Decides which surfaces of a keyframe count, by what all keyframes have seen.
+void Evidence::judge(Keyframe& keyframe) {
+  KeyframeView& view = *keyframe.view;
+  std::vector<SurfaceSupport> support(view.is_large().size());
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (!view.has_surfaces(i)) continue;
+    const BlockCounts& counts = blocks_.at(packed(view.key(i))).evidence.counts();
+    view.for_each_surface_voxel(i, [&](std::size_t cell, Observation observation, SurfacePart part) {
+      SurfaceSupport& surface = support[part.surface];
+      ++surface.voxels;
+      surface.doubtful += observation == Observation::kStatic ? 0U : 1U;
+      surface.confirmed += seen_apart(counts, cell, keyframe.time, apart_) ? 1U : 0U;
+      surface.transient += part.is_labelled == 0 && is_transient(counts, cell, apart_) ? 1U : 0U;
+    });
+  }
+  std::vector<SurfaceVerdict> verdicts(support.size(), SurfaceVerdict::kUndecided);
+  for (std::size_t s = 1; s < support.size(); ++s) verdicts[s] = verdict_on(support[s], view.is_large()[s]);
+  if (verdicts == view.verdicts()) return;
+  const auto before = view.verdicts();
+  view.set_verdicts(std::move(verdicts));
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    bool is_changed = false;
+    view.for_each_surface_voxel(i, [&](std::size_t, Observation, SurfacePart part) {
+      is_changed |= before[part.surface] != view.verdicts()[part.surface];
+    });
+    if (is_changed) touch(packed(view.key(i))).outdate(keyframe.id);
+  }
+}
+
+void Evidence::update(const Show& show) {
+  for (const std::uint64_t keyframe : new_)
+    if (const auto found = keyframes_.find(keyframe); found != keyframes_.end()) judge(found->second);
+  new_.clear();
+  auto next = keyframes_.upper_bound(judged_last_);
+  for (std::size_t i = 0; i < std::min(kJudgedAgain, keyframes_.size()); ++i) {
+    if (next == keyframes_.end()) next = keyframes_.begin();
+    judge(next->second);
+    judged_last_ = next++->first;
+  }
+  show_touched(show);
+}
+
+void Evidence::update_all(const Show& show) {
+  new_.clear();
+  for (auto& [id, keyframe] : keyframes_) judge(keyframe);
+  show_touched(show);
+}
+
+void Evidence::show_touched(const Show& show) {
+  for (const BlockKey key : touched_) {
+    Place& place = blocks_.at(key);
+    place.is_touched = false;
+    place.evidence.update();
+    show(unpacked(key), place.evidence);
+    if (place.evidence.empty()) blocks_.erase(key);
+  }
+  touched_.clear();
+}
+
+FinalMap Evidence::final_map() const {
+  FinalMap map;
+  map.origin_ms = origin_ms_;
+  for (const auto& [key, place] : blocks_)
+    if (const FinalBlock* block = place.evidence.final_part()) map.blocks.emplace(key, *block);
+  return map;
+}
+
+const EvidenceBlock* Evidence::block(const octomap::OcTreeKey& voxel) const {
+  const auto found = blocks_.find(packed(block_key(voxel)));
+  return found == blocks_.end() ? nullptr : &found->second.evidence;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/evidence/final_map.hpp"
+
+namespace rds::mapper {
+namespace {
+
+using map_file::ByteReader;
+using map_file::ByteWriter;
+
+constexpr std::uint16_t kOften = 1000;  // more keyframes than any that speak against a saved voxel
+constexpr std::size_t kVoxelBytes = 2 + 2 + 1 + 3 * 2 + 4 * 4;
+constexpr std::uint64_t kLastKey = 0xFFFF'FFFF'FFFF;
+
+bool says_something(const FinalBlock& block, std::size_t cell) {
+  return block.log_odds.known[cell] != 0 || block.counts.surfaces[cell] > 0 || block.counts.dynamics[cell] > 0;
+}
+
+/// Calls go(value) for each value of a cell but its look.
+template <class Block, class Go>
+void each_value(Block& block, std::size_t cell, Go go) {
+  go(block.log_odds.values[cell]);
+  go(block.log_odds.known[cell]);
+  go(block.counts.surfaces[cell]);
+  go(block.counts.statics[cell]);
+  go(block.counts.dynamics[cell]);
+  go(block.counts.first_static[cell]);
+  go(block.counts.last_static[cell]);
+  go(block.counts.first_dynamic[cell]);
+  go(block.counts.last_dynamic[cell]);
+}
+
+void put(ByteWriter& writer, const FinalBlock& block) {
+  std::size_t cells = 0;
+  for (std::size_t cell = 0; cell < kBlockCells; ++cell) cells += says_something(block, cell) ? 1 : 0;
+  writer.put_count(cells);
+  for (std::size_t cell = 0; cell < kBlockCells; ++cell) {
+    if (!says_something(block, cell)) continue;
+    writer.put(static_cast<std::uint16_t>(cell));
+    each_value(block, cell, [&](const auto& value) { writer.put(value); });
+  }
+  writer.put_count(block.looks.size());
+  for (const auto& [cell, look] : block.looks) {
+    writer.put(cell);
+    look.put(writer);
+  }
+}
+
+std::uint16_t get_cell(ByteReader& reader) {
+  const auto cell = reader.get<std::uint16_t>();
+  if (cell >= kBlockCells) reader.refuse("a voxel outside of its block");
+  return reader.ok() ? cell : std::uint16_t{0};
+}
+
+FinalBlock get_block(ByteReader& reader, std::size_t labels) {
+  FinalBlock block;
+  const std::size_t cells = reader.get_count(kVoxelBytes);
+  for (std::size_t i = 0; i < cells && reader.ok(); ++i) {
+    const auto cell = get_cell(reader);
+    each_value(block, cell, [&](auto& value) { value = reader.get<std::decay_t<decltype(value)>>(); });
+    const auto log_odds = block.log_odds.values[cell];
+    if (log_odds < kLowest || log_odds > kHighest) reader.refuse("log-odds beyond their limits");
+  }
+  const std::size_t looks = reader.get_count(sizeof(std::uint16_t));
+  for (std::size_t i = 0; i < looks && reader.ok(); ++i) {
+    const auto cell = get_cell(reader);
+    block.looks[cell] = VoxelLook::get(reader, labels);
+  }
+  return block;
+}
+
+}  // namespace
+
+void FinalMap::add(const octomap::OcTreeKey& key, LogOdds log_odds, const std::optional<VoxelLook>& look) {
+  FinalBlock& block = blocks[packed(block_key(key))];
+  const auto cell = cell_of(key);
+  block.log_odds.values[cell] = log_odds;
+  block.log_odds.known[cell] = 255;
+  if (log_odds <= 0) return;
+  block.counts.surfaces[cell] = block.counts.statics[cell] = kOften;
+  block.counts.first_static[cell] = kBeforeAll;
+  block.counts.last_static[cell] = kAfterAll;
+  if (look) block.looks[cell] = *look;
+}
+
+void FinalMap::put(ByteWriter& writer) const {
+  writer.put(static_cast<std::uint8_t>(origin_ms.has_value()));
+  writer.put(origin_ms.value_or(0));
+  writer.put_count(blocks.size());
+  for (const auto& [key, block] : blocks) {
+    writer.put(key);
+    mapper::put(writer, block);
+  }
+}
+
+FinalMap FinalMap::get(ByteReader& reader, std::size_t labels) {
+  FinalMap map;
+  const bool has_origin = reader.get<std::uint8_t>() != 0;
+  const auto origin_ms = reader.get<std::int64_t>();
+  if (has_origin) map.origin_ms = origin_ms;
+  const std::size_t blocks = reader.get_count(sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < blocks && reader.ok(); ++i) {
+    const auto key = reader.get<std::uint64_t>();
+    if (key > kLastKey || packed(block_key(unpacked(key))) != key) reader.refuse("a block outside of any map");
+    if (!map.blocks.emplace(key, get_block(reader, labels)).second) reader.refuse("a block twice");
+  }
+  return map;
+}
+
+}  // namespace rds::mapper

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "services/mapper/core/evidence/occupancy_model.hpp"
+#include "services/mapper/core/evidence/voxel_look.hpp"
+
+namespace rds::mapper {
+
+/// What is final in a block: it comes before all keyframes that are not.
+struct FinalBlock {
+  BlockLogOdds log_odds;
+  BlockCounts counts;
+  std::map<std::uint16_t, VoxelLook> looks;  // by cell
+};
+
+/// What is final in a map, by the key of the block's lowest voxel.
+struct FinalMap {
+  std::map<std::uint64_t, FinalBlock> blocks;
+  std::optional<std::int64_t> origin_ms;  // that the blocks' times count from; nullopt: they count from none
+
+  /// Adds a voxel that counts as seen at all times. @param look  of an occupied one.
+  void add(const octomap::OcTreeKey& key, LogOdds log_odds, const std::optional<VoxelLook>& look);
+
+  void put(map_file::ByteWriter& writer) const;
+  /// @param labels  of the label table. Refuses what put() cannot have written.
+  static FinalMap get(map_file::ByteReader& reader, std::size_t labels);
+};
+
+}  // namespace rds::mapper

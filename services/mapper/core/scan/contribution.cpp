@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/scan/contribution.hpp"
+
+#include <algorithm>
+
+namespace rds::mapper {
+namespace {
+
+constexpr double kLargeSurface = 0.1;            // of the picture
+constexpr std::uint16_t kMostSurfaces = 0x7FFF;  // those beyond are none
+
+Contribution::Surface surface_of(const SurfaceVoxel& voxel, const KeyframeRecord& record) {
+  Contribution::Surface surface{voxel.key, {{}, voxel.label, record.objects.looked_for, voxel.beside}};
+  const std::uint32_t pixels = voxel.static_pixels + voxel.doubtful_pixels;
+  for (std::size_t c = 0; c < 3; ++c)
+    surface.look.rgb[c] = static_cast<std::uint8_t>((voxel.rgb_sum[c] + pixels / 2) / pixels);
+  return surface;
+}
+
+std::vector<Contribution::Surface> surfaces_in(const Scan& scan, const KeyframeRecord& record) {
+  std::vector<Contribution::Surface> surfaces;
+  surfaces.reserve(scan.surfaces.size());
+  for (const SurfaceVoxel& voxel : scan.surfaces)
+    if (voxel.observation() >= Observation::kDoubtful) surfaces.push_back(surface_of(voxel, record));
+  return surfaces;
+}
+
+Observation observation_of(std::uint8_t flags, const ScanGrid::Block& block, std::size_t cell,
+                           const Scan& scan) {
+  if ((flags & kSurface) != 0) return scan.surfaces[block.slot[cell]].observation();
+  if ((flags & kFreeSpace) != 0) return Observation::kPassed;
+  return (flags & kNoReturnRay) != 0 ? Observation::kNoReturn : Observation::kNone;
+}
+
+SurfacePart part_of(const SurfaceVoxel& voxel) {
+  SurfacePart part{};
+  part.surface = static_cast<unsigned>(voxel.surface < kMostSurfaces ? voxel.surface : 0) & kMostSurfaces;
+  part.is_labelled = voxel.label != 0 ? 1U : 0U;
+  return part;
+}
+
+/// Which surfaces fill much of the picture, as walls and floors do.
+std::vector<bool> large_surfaces(const Scan& scan) {
+  std::vector<std::size_t> pixels(std::min<std::size_t>(scan.surfaces_of_picture + 1U, kMostSurfaces));
+  for (const auto surface : scan.surface_of_pixel)
+    if (surface < pixels.size()) ++pixels[surface];
+  std::vector<bool> is_large(pixels.size());
+  for (std::size_t s = 1; s < pixels.size(); ++s)
+    is_large[s] = static_cast<double>(pixels[s]) >=
+                  kLargeSurface * static_cast<double>(scan.surface_of_pixel.size());
+  return is_large;
+}
+
+/// @return false if nothing is observed in the block.
+bool observe(const ScanGrid::Block& block, const Scan& scan, BlockObservations& observations,
+             std::vector<SurfacePart>& parts) {
+  unsigned any = 0;
+  parts.clear();
+  for (std::size_t cell = 0; cell < kBlockCells; ++cell) {
+    const auto flags = block.flags[cell];
+    const auto observation = static_cast<unsigned>(observation_of(flags, block, cell, scan));
+    observations[cell] =
+        static_cast<std::uint8_t>(observation | ((flags & kDynamicPlace) != 0 ? kNearDynamic : 0U));
+    any |= observations[cell];
+    if (observation >= static_cast<unsigned>(Observation::kUnknown))
+      parts.push_back(part_of(scan.surfaces[block.slot[cell]]));
+  }
+  return any != 0;
+}
+
+}  // namespace
+
+Contribution contribution_of(const KeyframeRecord& record, const OctreeConfig& octree,
+                             const SamplingConfig& sampling, Scan& scan) {
+  find_surface_voxels(record, octree, sampling, scan);
+  cast_rays(record, octree, sampling, scan);
+  Contribution contribution;
+  contribution.surfaces = surfaces_in(scan, record);
+  contribution.view.set_surfaces(large_surfaces(scan));
+  BlockObservations observations;
+  std::vector<SurfacePart> parts;
+  for (const auto& block : scan.grid.blocks())
+    if (observe(block, scan, observations, parts)) contribution.view.add(block.key, observations, parts);
+  return contribution;
+}
+
+std::vector<Contribution::Surface> surfaces_of(const KeyframeRecord& record, const OctreeConfig& octree,
+                                               const SamplingConfig& sampling, Scan& scan) {
+  find_surface_voxels(record, octree, sampling, scan);
+  return surfaces_in(scan, record);
+}
+
+}  // namespace rds::mapper

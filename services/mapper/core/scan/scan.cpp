@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/mapper/core/scan/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/mapper/core/keyframe/voxel_projector.hpp"
+#include "services/mapper/core/segmentation/depth_surfaces.hpp"
+
+namespace rds::mapper {
+namespace {
+
+/// Voxels of a dynamic cube's side, log2.
+unsigned cube_bits(double resolution_m) {
+  return static_cast<unsigned>(std::max(0L, std::lround(std::log2(kDynamicCubeM / resolution_m))));
+}
+
+/// Label of the first object of which the pixel is within half a box's size; 0: of none.
+std::uint16_t object_around(const KeyframeRecord& record, std::size_t pixel) {
+  const double x = record.grid.column(pixel) * record.grid.stride;
+  const double y = record.grid.row(pixel) * record.grid.stride;
+  for (const ObjectSighting& sighting : record.objects.sightings) {
+    const geometry::Box2& box = sighting.box_px;
+    const double dx = box.width() / 2;
+    const double dy = box.height() / 2;
+    if (geometry::Box2{box.x0 - dx, box.y0 - dy, box.x1 + dx, box.y1 + dy}.contains(x, y))
+      return sighting.label;
+  }
+  return 0;
+}
+
+void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pixel) {
+  switch (record.classes[pixel]) {
+    case PixelClass::kDynamic: ++voxel.dynamic_pixels; return;
+    case PixelClass::kUnknown: ++voxel.unknown_pixels; return;
+    case PixelClass::kDoubtful: ++voxel.doubtful_pixels; break;
+    default: ++voxel.static_pixels; break;
+  }
+  for (std::size_t c = 0; c < 3; ++c) voxel.rgb_sum[c] += record.rgb[3 * pixel + c];
+  const std::uint16_t label = record.objects.labels.empty() ? std::uint16_t{0} : record.objects.labels[pixel];
+  if (voxel.label_balance == 0) voxel.label = label;
+  voxel.label_balance = voxel.label == label ? voxel.label_balance + 1 : voxel.label_balance - 1;
+}
+
+/// Index of a voxel's surface, made if there is none yet.
+std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, const KeyframeRecord& record,
+                      Scan& scan) {
+  auto& block = scan.grid.block_of(key);
+  const auto cell = cell_of(key);
+  if ((block.flags[cell] & kSurface) == 0) {
+    block.flags[cell] |= kSurface;
+    block.slot[cell] = static_cast<std::uint32_t>(scan.surfaces.size());
+    auto& voxel = scan.surfaces.emplace_back();
+    voxel.key = key;
+    voxel.beside = object_around(record, pixel);
+  }
+  return block.slot[cell];
+}
+
+/// One ray per voxel in which a ray ends, to the first pixel in it that is a `no_return` or, if not, static,
+/// doubtful or far.
+void carve(const VoxelProjector& project, bool no_return, Scan& scan) {
+  const PixelClasses& classes = project.record.classes;
+  VoxelRun run;
+  Eigen::Vector3d at;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (classes[i] == PixelClass::kDynamic || classes[i] == PixelClass::kUnknown ||
+        (classes[i] == PixelClass::kNoReturn) != no_return || !project.point(i, classes[i], at))
+      continue;
+    const auto key = key_at(at);
+    if (!run.begins_with(key)) continue;
+    auto& flags = scan.grid.block_of(key).flags[cell_of(key)];
+    if ((flags & kRayCast) != 0) continue;
+    flags |= kRayCast;
+    scan.grid.cast_ray(project.origin, at, no_return ? kNoReturnRay : kFreeSpace);
+  }
+}
+
+/// Marks the cubes within half a cube of a voxel.
+void mark_around(const octomap::OcTreeKey& key, unsigned bits, ScanGrid& grid) {
+  const int side = 1 << bits;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto first = [&](unsigned axis) {
+      return (key[axis] + ((corner >> axis & 1) != 0 ? side / 2 : -side / 2)) >> bits << bits;
+    };
+    const auto at = [](int k) { return static_cast<std::uint16_t>(k); };
+    const octomap::OcTreeKey lowest(at(first(0)), at(first(1)), at(first(2)));
+    if ((grid.block_of(lowest).flags[cell_of(lowest)] & kDynamicPlace) != 0) continue;
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          const octomap::OcTreeKey voxel(at(lowest[0] + x), at(lowest[1] + y), at(lowest[2] + z));
+          grid.block_of(voxel).flags[cell_of(voxel)] |= kDynamicPlace;
+        }
+  }
+}
+
+void mark_dynamic_places(const VoxelProjector& project, const SamplingConfig& sampling, unsigned bits,
+                         ScanGrid& grid) {
+  const KeyframeRecord& record = project.record;
+  const auto nearest = static_cast<float>(sampling.min_range_m);
+  const auto farthest = static_cast<float>(sampling.max_range_m);
+  VoxelRun run;
+  Eigen::Vector3d at;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (!is_dynamic(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
+    if (!project.point(i, PixelClass::kDynamic, at)) continue;
+    if (const auto key = key_at(at); run.begins_with(key)) mark_around(key, bits, grid);
+  }
+}
+
+/// Makes the grid cover all that the record shows, and the cubes around it. @return false if it shows nothing.
+bool cover(const VoxelProjector& project, unsigned bits, ScanGrid& grid) {
+  if (!in_key_range(project.origin)) {
+    grid.reset({0, 0, 0}, {0, 0, 0});
+    return false;
+  }
+  Eigen::Vector3d lowest = project.origin;
+  Eigen::Vector3d highest = project.origin;
+  Eigen::Vector3d at;
+  for (std::size_t i = 0; i < project.record.size(); ++i) {
+    const auto its_class = is_dynamic(project.record, i) ? PixelClass::kDynamic : project.record.classes[i];
+    if (!project.point(i, its_class, at)) continue;
+    lowest = lowest.cwiseMin(at);
+    highest = highest.cwiseMax(at);
+  }
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(2 << bits);
+  const Eigen::Vector3d last = Eigen::Vector3d::Constant(65535);
+  grid.reset(key_at((lowest - around).cwiseMax(0)), key_at((highest + around).cwiseMin(last)));
+  return true;
+}
+
+}  // namespace
+
+Observation SurfaceVoxel::observation() const {
+  const std::uint32_t still = static_pixels + doubtful_pixels;
+  if (still > 0 && still >= dynamic_pixels)
+    return static_pixels >= doubtful_pixels ? Observation::kStatic : Observation::kDoubtful;
+  return unknown_pixels > dynamic_pixels ? Observation::kUnknown : Observation::kPassed;
+}
+
+void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octree,
+                         const SamplingConfig& sampling, Scan& scan) {
+  const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
+  scan.surfaces.clear();
+  scan.surfaces_of_picture = find_surfaces(record, scan.surface_of_pixel);
+  if (!cover(project, cube_bits(octree.resolution_m), scan.grid)) return;
+  VoxelRun run;
+  std::uint32_t slot = 0;
+  Eigen::Vector3d at;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const PixelClass its_class = record.classes[i];
+    if (its_class == PixelClass::kFar || its_class == PixelClass::kNoReturn ||
+        !project.point(i, its_class, at))
+      continue;
+    if (const auto key = key_at(at); run.begins_with(key)) slot = slot_of(key, i, record, scan);
+    SurfaceVoxel& voxel = scan.surfaces[slot];
+    if (voxel.surface == 0) voxel.surface = scan.surface_of_pixel[i];
+    add_pixel(voxel, record, i);
+  }
+}
+
+void cast_rays(const KeyframeRecord& record, const OctreeConfig& octree, const SamplingConfig& sampling,
+               Scan& scan) {
+  const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
+  if (!in_key_range(project.origin)) return;
+  mark_dynamic_places(project, sampling, cube_bits(octree.resolution_m), scan.grid);
+  if (!octree.carve_rays) return;
+  carve(project, false, scan);
+  carve(project, true, scan);
+}
+
+}  // namespace rds::mapper

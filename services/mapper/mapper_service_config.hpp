@@ -13,7 +13,7 @@ struct MapperServiceConfig {
   int nice = 10;                 // the tracker has the processor first
   bool lockstep = false;         // no keyframe is ever dropped, and none integrated without its boxes
   bool expect_boxes = true;      // a keyframe waits for its boxes …
-  double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next rebuild
+  double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next correction
   int full_map_every = 20;       // keyframes; besides, whenever somebody new subscribes
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to

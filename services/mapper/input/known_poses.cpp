@@ -5,8 +5,7 @@
 
 namespace rds::mapper {
 namespace {
-constexpr int kKeyframesPerCorrection =
-    25;  // local bundle adjustment moves poses little, all of the map is made again
+constexpr int kKeyframesPerCorrection = 5;  // local bundle adjustment moves few keyframes, and little
 /// Of the tracker's messages. As often a loop closer repeats a correction, so a tracker that has not taken it
 /// over by then never will: it follows another loop closer, or the one that told of it is gone.
 constexpr int kPatience = 32;

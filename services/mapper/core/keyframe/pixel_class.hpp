@@ -8,7 +8,7 @@ namespace rds::mapper {
 
 /// What a sampled pixel is evidence of. Decided in segmentation/classify.cpp; the values stand in saved records.
 enum class PixelClass : std::uint8_t {
-  kInvalid = 0,   // no evidence: no depth, a flying pixel, or unconfirmed
+  kInvalid = 0,   // no evidence: no depth, or a flying pixel
   kStatic = 1,    // a hit in its voxel, misses along its ray
   kDynamic = 2,   // a miss in its voxel, no ray
   kFar = 3,       // measured beyond max_range_m: misses along its ray up to there

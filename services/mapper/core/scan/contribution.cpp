@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "services/mapper/core/segmentation/depth_surfaces.hpp"
+
 namespace rds::mapper {
 namespace {
 
@@ -72,6 +74,7 @@ bool observe(const ScanGrid::Block& block, const Scan& scan, BlockObservations& 
 
 Contribution contribution_of(const KeyframeRecord& record, const OctreeConfig& octree,
                              const SamplingConfig& sampling, Scan& scan) {
+  scan.surfaces_of_picture = find_surfaces(record, scan.surface_of_pixel);
   find_surface_voxels(record, octree, sampling, scan);
   cast_rays(record, octree, sampling, scan);
   Contribution contribution;
@@ -86,6 +89,7 @@ Contribution contribution_of(const KeyframeRecord& record, const OctreeConfig& o
 
 std::vector<Contribution::Surface> surfaces_of(const KeyframeRecord& record, const OctreeConfig& octree,
                                                const SamplingConfig& sampling, Scan& scan) {
+  scan.surface_of_pixel.clear();
   find_surface_voxels(record, octree, sampling, scan);
   return surfaces_in(scan, record);
 }

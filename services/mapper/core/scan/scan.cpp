@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "services/mapper/core/keyframe/voxel_projector.hpp"
-#include "services/mapper/core/segmentation/depth_surfaces.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -109,25 +108,17 @@ void mark_dynamic_places(const VoxelProjector& project, const SamplingConfig& sa
   }
 }
 
-/// Makes the grid cover all that the record shows, and the cubes around it. @return false if it shows nothing.
-bool cover(const VoxelProjector& project, unsigned bits, ScanGrid& grid) {
-  if (!in_key_range(project.origin)) {
-    grid.reset({0, 0, 0}, {0, 0, 0});
-    return false;
-  }
-  Eigen::Vector3d lowest = project.origin;
-  Eigen::Vector3d highest = project.origin;
-  Eigen::Vector3d at;
-  for (std::size_t i = 0; i < project.record.size(); ++i) {
-    const auto its_class = is_dynamic(project.record, i) ? PixelClass::kDynamic : project.record.classes[i];
-    if (!project.point(i, its_class, at)) continue;
-    lowest = lowest.cwiseMin(at);
-    highest = highest.cwiseMax(at);
-  }
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(2 << bits);
-  const Eigen::Vector3d last = Eigen::Vector3d::Constant(65535);
-  grid.reset(key_at((lowest - around).cwiseMax(0)), key_at((highest + around).cwiseMin(last)));
-  return true;
+/// Makes the grid cover all that the record can show, and the cubes around it.
+void cover(const VoxelProjector& project, const OctreeConfig& octree, ScanGrid& grid) {
+  constexpr float kLongest = VoxelProjector::kMaxObliqueness * VoxelProjector::kMaxObliqueness;
+  float longest = 0;
+  for (const Eigen::Vector3f& ray : *project.record.grid.rays)
+    if (const float length = ray.squaredNorm(); length <= kLongest) longest = std::max(longest, length);
+  const double reach = std::sqrt(double{longest}) * project.max_range_m / octree.resolution_m +
+                       (2 << cube_bits(octree.resolution_m));
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
+  grid.reset(key_at((project.origin - around).cwiseMax(0)),
+             key_at((project.origin + around).cwiseMin(Eigen::Vector3d::Constant(65535))));
 }
 
 }  // namespace
@@ -143,8 +134,8 @@ void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octre
                          const SamplingConfig& sampling, Scan& scan) {
   const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
   scan.surfaces.clear();
-  scan.surfaces_of_picture = find_surfaces(record, scan.surface_of_pixel);
-  if (!cover(project, cube_bits(octree.resolution_m), scan.grid)) return;
+  if (!in_key_range(project.origin)) return scan.grid.reset({0, 0, 0}, {0, 0, 0});
+  cover(project, octree, scan.grid);
   VoxelRun run;
   std::uint32_t slot = 0;
   Eigen::Vector3d at;
@@ -155,7 +146,7 @@ void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octre
       continue;
     if (const auto key = key_at(at); run.begins_with(key)) slot = slot_of(key, i, record, scan);
     SurfaceVoxel& voxel = scan.surfaces[slot];
-    if (voxel.surface == 0) voxel.surface = scan.surface_of_pixel[i];
+    if (voxel.surface == 0 && !scan.surface_of_pixel.empty()) voxel.surface = scan.surface_of_pixel[i];
     add_pixel(voxel, record, i);
   }
 }
@@ -167,7 +158,8 @@ void cast_rays(const KeyframeRecord& record, const OctreeConfig& octree, const S
   mark_dynamic_places(project, sampling, cube_bits(octree.resolution_m), scan.grid);
   if (!octree.carve_rays) return;
   carve(project, false, scan);
-  carve(project, true, scan);
+  if (std::ranges::find(record.classes, PixelClass::kNoReturn) != record.classes.end())
+    carve(project, true, scan);
 }
 
 }  // namespace rds::mapper

@@ -28,12 +28,12 @@ struct SurfaceVoxel {
 struct Scan {
   ScanGrid grid;
   std::vector<SurfaceVoxel> surfaces;
-  std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them
+  std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them; empty: it was not asked
   std::uint16_t surfaces_of_picture = 0;
 };
 
-/// Fills `scan` (its memory is reused) with the surfaces of a record; points outside the octree's key range
-/// are left out.
+/// Fills `scan` (its memory is reused) with the surface voxels of a record; points outside the octree's key
+/// range are left out.
 void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octree,
                          const SamplingConfig& sampling, Scan& scan);
 

@@ -57,7 +57,7 @@ std::string other_resolution(double saved_m, double expected_m) {
 VoxelLook look_of(const octomap::ColorOcTreeNode& node) {
   const auto color = node.getColor();
   VoxelLook look;
-  look.add(SurfaceLook{{color.r, color.g, color.b}, 0, false, 0});
+  look.add(SurfaceLook{{color.r, color.g, color.b}, 0, false, {}});
   return look;
 }
 

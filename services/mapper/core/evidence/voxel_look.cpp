@@ -22,7 +22,8 @@ void VoxelLook::count(const SurfaceLook& look, int by) {
   if (!look.looked_for) return;
   if (look.label != 0) return vote({look.label, 1, 0}, by);
   silent_ += by;
-  if (look.beside != 0) vote({look.beside, 0, 1}, by);
+  for (const std::uint16_t label : look.beside)
+    if (label != 0) vote({label, 0, 1}, by);
 }
 
 void VoxelLook::vote(const Votes& votes, int by) {

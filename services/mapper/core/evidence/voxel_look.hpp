@@ -14,8 +14,8 @@ namespace rds::mapper {
 struct SurfaceLook {
   std::array<std::uint8_t, 3> rgb{};
   std::uint16_t label = 0;        // of an object; 0: none
-  bool looked_for = false;   // whether a detector has seen the keyframe
-  std::uint16_t beside = 0;  // without a label: of an object that was found around it; 0: none
+  bool looked_for = false;                 // whether a detector has seen the keyframe
+  std::array<std::uint16_t, 4> beside{};  // without a label: those of objects found around it; 0: none
 };
 
 /// Colour and label of a voxel: sums over keyframes, so that a keyframe can be taken out again.

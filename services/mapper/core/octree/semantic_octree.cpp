@@ -86,6 +86,8 @@ bool SemanticOctree::show_voxel(Node* parent, unsigned index, const octomap::OcT
 bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell,
                                const Source& source) {
   const LogOdds log_odds = source.block.log_odds().values[cell];
+  const float value = in_nats(log_odds);
+  if (log_odds <= 0 && node->getLogOdds() == value) return false;  // free, as it was: no colour and no label
   const VoxelLook* look = log_odds > 0 ? source.block.look(static_cast<std::uint16_t>(cell)) : nullptr;
   const std::uint16_t label = look != nullptr ? look->label() : std::uint16_t{0};
   Node::Color color;
@@ -93,7 +95,6 @@ bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsign
     const Rgb rgb = label != 0 && config_.color_by_label ? source.labels.color(label) : look->color();
     color = {rgb[0], rgb[1], rgb[2]};
   }
-  const float value = in_nats(log_odds);
   const bool is_same =
       node->getLogOdds() == value && node->getColor() == color && this->label(key) == label;
   if (is_same) return false;

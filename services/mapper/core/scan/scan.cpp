@@ -14,18 +14,21 @@ unsigned cube_bits(double resolution_m) {
   return static_cast<unsigned>(std::max(0L, std::lround(std::log2(kDynamicCubeM / resolution_m))));
 }
 
-/// Label of the first object of which the pixel is within half a box's size; 0: of none.
-std::uint16_t object_around(const KeyframeRecord& record, std::size_t pixel) {
+/// Labels, each once, of objects of which the pixel is within half a box's size; 0: none.
+std::array<std::uint16_t, 4> objects_around(const KeyframeRecord& record, std::size_t pixel) {
+  std::array<std::uint16_t, 4> labels{};
+  auto next = labels.begin();
   const double x = record.grid.column(pixel) * record.grid.stride;
   const double y = record.grid.row(pixel) * record.grid.stride;
   for (const ObjectSighting& sighting : record.objects.sightings) {
     const geometry::Box2& box = sighting.box_px;
     const double dx = box.width() / 2;
     const double dy = box.height() / 2;
-    if (geometry::Box2{box.x0 - dx, box.y0 - dy, box.x1 + dx, box.y1 + dy}.contains(x, y))
-      return sighting.label;
+    const bool is_around = geometry::Box2{box.x0 - dx, box.y0 - dy, box.x1 + dx, box.y1 + dy}.contains(x, y);
+    if (is_around && next != labels.end() && std::find(labels.begin(), next, sighting.label) == next)
+      *next++ = sighting.label;
   }
-  return 0;
+  return labels;
 }
 
 void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pixel) {
@@ -51,7 +54,7 @@ std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, const Ke
     block.slot[cell] = static_cast<std::uint32_t>(scan.surfaces.size());
     auto& voxel = scan.surfaces.emplace_back();
     voxel.key = key;
-    voxel.beside = object_around(record, pixel);
+    voxel.beside = objects_around(record, pixel);
   }
   return block.slot[cell];
 }

@@ -6,12 +6,12 @@
 namespace rds::mapper {
 namespace {
 
-constexpr SurfaceLook kChair{{100, 0, 0}, 3, true, 0};
-constexpr SurfaceLook kTable{{0, 100, 0}, 2, true, 0};
-constexpr SurfaceLook kBesideChair{{0, 0, 100}, 0, true, 3};
-constexpr SurfaceLook kBesideTable{{0, 0, 100}, 0, true, 2};
-constexpr SurfaceLook kSilent{{0, 0, 0}, 0, true, 0};
-constexpr SurfaceLook kNobodyLooked{{200, 200, 200}, 0, false, 0};
+constexpr SurfaceLook kChair{{100, 0, 0}, 3, true, {}};
+constexpr SurfaceLook kTable{{0, 100, 0}, 2, true, {}};
+constexpr SurfaceLook kBesideChair{{0, 0, 100}, 0, true, {3}};
+constexpr SurfaceLook kBesideTable{{0, 0, 100}, 0, true, {2}};
+constexpr SurfaceLook kSilent{{0, 0, 0}, 0, true, {}};
+constexpr SurfaceLook kNobodyLooked{{200, 200, 200}, 0, false, {}};
 
 VoxelLook look_of(const SurfaceLook& look, int times = 1) {
   VoxelLook voxel;

@@ -10,6 +10,8 @@ namespace {
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
+constexpr std::uint32_t kForm = 2;  // of records and final maps; who changes one raises it
+
 bool begins_with(const LabelTable& labels, const LabelTable& first) {
   return labels.names().size() >= first.names().size() &&
          std::ranges::equal(first.names(), std::span(labels.names()).first(first.names().size()));
@@ -28,6 +30,7 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
     checkpoint.final_map = final_map.take();
   }
   ByteWriter state;
+  state.put(kForm);
   state.put(map_.epoch);
   state.put(saved_.checksum);
   state.put_count(archive->saved_final);
@@ -39,6 +42,7 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
 
 tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& checkpoint) {
   ByteReader state(checkpoint.state);
+  if (state.get<std::uint32_t>() != kForm) state.refuse("a checkpoint of another version of the mapper");
   const auto epoch = state.get<std::uint64_t>();
   const auto began_with = state.get<std::uint64_t>();
   if (saved_.voxels && began_with != saved_.checksum) state.refuse("a map that began with another saved map");

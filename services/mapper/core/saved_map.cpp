@@ -64,8 +64,8 @@ VoxelLook look_of(const octomap::ColorOcTreeNode& node) {
 std::shared_ptr<const FinalMap> voxels_of(const ColorOcTree& tree, const Looks& looks) {
   auto voxels = std::make_shared<FinalMap>();
   for_each_voxel(tree, [&](const OcTreeKey& key, const octomap::ColorOcTreeNode& node) {
-    const double hundredths = std::round(100.0 * double{node.getLogOdds()});
-    const auto log_odds = static_cast<LogOdds>(std::clamp(hundredths, double{kLowest}, double{kHighest}));
+    const double rounded = std::round(kPerNat * double{node.getLogOdds()});
+    const auto log_odds = static_cast<LogOdds>(std::clamp(rounded, double{kLowest}, double{kHighest}));
     const auto look = looks.find(packed(key));
     voxels->add(key, log_odds, look != looks.end() ? look->second : look_of(node));
   });
@@ -89,8 +89,8 @@ map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up) {
 
 ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config) {
   ByteReader reader(bytes);
-  SavedMap saved{nullptr, ObjectDatabase(config.objects), LabelTable::get(reader), map_file::get_vector(reader),
-                 map_file::checksum_of(bytes)};
+  SavedMap saved{nullptr, ObjectDatabase(config.objects), LabelTable::get(reader),
+                 map_file::get_vector(reader), map_file::checksum_of(bytes)};
   if (reader.ok() && std::abs(saved.up->norm() - 1) > 1e-6)
     reader.refuse("an upward direction that is no unit vector");
   const auto resolution = reader.get<double>();
@@ -110,8 +110,8 @@ ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& 
 ReadMap saved_map_from(ColorOcTree&& tree, const MapperConfig& config) {
   if (auto fault = other_resolution(tree.getResolution(), config.octree.resolution_m); !fault.empty())
     return tl::unexpected(std::move(fault));
-  return SavedMap{voxels_of(tree, {}), ObjectDatabase(config.objects), {}, {},
-                  map_file::checksum_of(to_bytes(tree))};
+  return SavedMap{
+      voxels_of(tree, {}), ObjectDatabase(config.objects), {}, {}, map_file::checksum_of(to_bytes(tree))};
 }
 
 }  // namespace rds::mapper

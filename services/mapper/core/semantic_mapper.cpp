@@ -7,6 +7,7 @@
 #include "services/mapper/core/segmentation/gravity.hpp"
 
 namespace rds::mapper {
+
 SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
                                std::unique_ptr<SpillStorage> storage)
     : config_(std::move(config)),

@@ -96,8 +96,8 @@ class SemanticMapper {
   ObjectDatabase final_objects_;                      // as those that are have left it
   bool has_final_ = false;                            // the map has parts that are
   bool are_objects_outdated_ = false;
-  bool is_hidden_ = false;                            // the evidence has changed since it was shown
-  Scan scan_;  // scratch
+  bool is_hidden_ = false;  // the evidence has changed since it was shown
+  Scan scan_;               // scratch
 };
 
 }  // namespace rds::mapper

@@ -10,6 +10,7 @@
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/segmentation/classify.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
+#include "services/mapper/spill_file.hpp"
 #include "tests/bench/mapper/recording.hpp"
 
 namespace {
@@ -81,6 +82,30 @@ void correct_map_after_loop(benchmark::State& state) {
   }
 }
 BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
+
+/// Local bundle adjustment or a late loop moves 15 keyframes of a long map.
+void correct_few_of_many(benchmark::State& state) {
+  if (skipped(state)) return;
+  constexpr std::size_t kMoved = 15;
+  const auto count = static_cast<std::size_t>(state.range(0));
+  mapper::SemanticMapper mapper(mapper::MapperConfig{}, 1,
+                                std::make_unique<mapper::SpillFile>(std::filesystem::path()));
+  std::vector<mapper::KeyframePose> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto input = keyframes()[i % keyframes().size()];
+    input.id = i;
+    input.stamp_ns += static_cast<std::int64_t>(i / keyframes().size()) * 60'000'000'000;
+    mapper.integrate(input);
+    if (i >= count - kMoved) poses.push_back({input.id, input.stamp_ns, input.map_from_camera});
+  }
+  double shift_m = 0.05;
+  for (auto _ : state) {
+    for (auto& pose : poses) pose.map_from_camera.translation().x() += shift_m;
+    shift_m = -shift_m;
+    benchmark::DoNotOptimize(mapper.apply_poses(poses));
+  }
+}
+BENCHMARK(correct_few_of_many)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond);
 
 /// The points that the mapper uses, in the map.
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {

@@ -26,7 +26,8 @@ constexpr double kTransientShare = 0.8;
 
 SurfaceVerdict verdict_on(const SurfaceSupport& surface, bool is_large) {
   const double voxels = surface.voxels;
-  if (surface.transient > 0 && surface.transient >= kTransientShare * voxels) return SurfaceVerdict::kTransient;
+  if (surface.transient > 0 && surface.transient >= kTransientShare * voxels)
+    return SurfaceVerdict::kTransient;
   if (surface.doubtful == 0) return SurfaceVerdict::kUndecided;
   const double needed = is_large ? kConfirmedShareOfLarge : kConfirmedShare;
   return surface.confirmed > 0 && surface.confirmed >= needed * voxels ? SurfaceVerdict::kConfirmed
@@ -61,11 +62,10 @@ EvidenceBlock& Evidence::touch(BlockKey key) {
 void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, Contribution contribution) {
   const auto view = std::make_shared<KeyframeView>(std::move(contribution.view));
   const EvidenceTime time = time_of(time_ns);
-  for (std::uint32_t i = 0; i < view->size(); ++i)
-    touch(packed(view->key(i))).add({keyframe, time, view, i});
+  for (std::uint32_t i = 0; i < view->size(); ++i) touch(packed(view->key(i))).add({keyframe, time, view, i});
   for (const auto& [key, look] : contribution.surfaces)
     touch(packed(block_key(key))).add_look(cell_of(key), look);
-  keyframes_[keyframe] = {keyframe, time, view};
+  keyframes_[keyframe] = {time, view};
   new_.push_back(keyframe);
 }
 
@@ -90,7 +90,7 @@ void Evidence::make_final(std::uint64_t keyframe, std::span<const Contribution::
 }
 
 /// Decides which surfaces of a keyframe count, by what all keyframes have seen.
-void Evidence::judge(Keyframe& keyframe) {
+void Evidence::judge(std::uint64_t id, Keyframe& keyframe) {
   KeyframeView& view = *keyframe.view;
   std::vector<SurfaceSupport> support(view.is_large().size());
   for (std::size_t i = 0; i < view.size(); ++i) {
@@ -114,18 +114,19 @@ void Evidence::judge(Keyframe& keyframe) {
     view.for_each_surface_voxel(i, [&](std::size_t, Observation, SurfacePart part) {
       is_changed |= before[part.surface] != view.verdicts()[part.surface];
     });
-    if (is_changed) touch(packed(view.key(i))).outdate(keyframe.id);
+    if (is_changed) touch(packed(view.key(i))).outdate(id);
   }
 }
 
 void Evidence::update(const Show& show) {
   for (const std::uint64_t keyframe : new_)
-    if (const auto found = keyframes_.find(keyframe); found != keyframes_.end()) judge(found->second);
+    if (const auto found = keyframes_.find(keyframe); found != keyframes_.end())
+      judge(keyframe, found->second);
   new_.clear();
   auto next = keyframes_.upper_bound(judged_last_);
   for (std::size_t i = 0; i < std::min(kJudgedAgain, keyframes_.size()); ++i) {
     if (next == keyframes_.end()) next = keyframes_.begin();
-    judge(next->second);
+    judge(next->first, next->second);
     judged_last_ = next++->first;
   }
   show_touched(show);
@@ -133,7 +134,7 @@ void Evidence::update(const Show& show) {
 
 void Evidence::update_all(const Show& show) {
   new_.clear();
-  for (auto& [id, keyframe] : keyframes_) judge(keyframe);
+  for (auto& [id, keyframe] : keyframes_) judge(id, keyframe);
   show_touched(show);
 }
 

@@ -54,12 +54,11 @@ class Evidence {
     bool is_touched = false;
   };
   struct Keyframe {
-    std::uint64_t id = 0;
     EvidenceTime time = 0;
     std::shared_ptr<KeyframeView> view;
   };
   EvidenceBlock& touch(BlockKey key);
-  void judge(Keyframe& keyframe);
+  void judge(std::uint64_t id, Keyframe& keyframe);
   void show_touched(const Show& show);
   [[nodiscard]] EvidenceTime time_of(std::int64_t time_ns);
 

@@ -91,10 +91,7 @@ void EvidenceBlock::update() {
 
 /// All entries, one after the other.
 void EvidenceBlock::add_up_all() {
-  if (is_equivocal_) {
-    verdicts_ = std::make_unique<BlockVerdicts>(decide(counts()));
-    last_static_ = std::make_unique<PerCell<EvidenceTime>>(counts().last_static);
-  }
+  if (is_equivocal_) verdicts_ = std::make_unique<BlockVerdicts>(decide(counts()));
   log_odds_ = final_ ? final_->log_odds : BlockLogOdds{};
   for (const Entry& entry : entries_) add_to(log_odds_, entry);
   added_up_ = entries_.size();
@@ -103,13 +100,7 @@ void EvidenceBlock::add_up_all() {
 
 /// Entries newer than all others: what they change is less than all, if they leave the verdicts as they are.
 void EvidenceBlock::add_up_new() {
-  if (is_equivocal_) {
-    bool is_same = decide(counts()) == *verdicts_;
-    for (std::size_t i = 0; i < kBlockCells; ++i)
-      is_same &= ((*verdicts_)[i] & kGhost) == 0 || (*last_static_)[i] == counts_->last_static[i];
-    if (!is_same) return add_up_all();
-    *last_static_ = counts_->last_static;
-  }
+  if (is_equivocal_ && decide(counts()) != *verdicts_) return add_up_all();
   for (auto entry = first_new(); entry != entries_.end(); ++entry) add_to(log_odds_, *entry);
   added_up_ = entries_.size();
 }
@@ -118,7 +109,7 @@ void EvidenceBlock::add_to(BlockLogOdds& log_odds, const Entry& entry) const {
   BlockObservations observations;
   entry.view->unpack_decided(entry.block, observations);
   if (is_equivocal_)
-    log_odds.add(observations, entry.time, *last_static_, *verdicts_);
+    log_odds.add(observations, entry.time, *verdicts_);
   else
     log_odds.add_plain(observations);
 }

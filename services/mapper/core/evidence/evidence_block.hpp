@@ -65,10 +65,9 @@ class EvidenceBlock {
   std::unique_ptr<BlockCounts> counts_;  // nullptr: they have to be made again, or all are 0
   bool is_equivocal_ = false;            // verdicts on voxels matter
   BlockLogOdds log_odds_;
-  std::unique_ptr<BlockVerdicts> verdicts_;         // with which log_odds_ was made
-  std::unique_ptr<PerCell<EvidenceTime>> last_static_;  // likewise
-  std::size_t added_up_ = 0;  // the first so many entries are in log_odds_; the rest is new
-  bool is_outdated_ = false;  // all has to be added up again
+  std::unique_ptr<BlockVerdicts> verdicts_;  // with which log_odds_ was made, where they matter
+  std::size_t added_up_ = 0;                 // the first so many entries are in log_odds_; the rest is new
+  bool is_outdated_ = false;                 // all has to be added up again
 };
 
 }  // namespace rds::mapper

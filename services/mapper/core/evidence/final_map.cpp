@@ -12,7 +12,8 @@ constexpr std::size_t kVoxelBytes = 2 + 2 + 1 + 3 * 2 + 4 * 4;
 constexpr std::uint64_t kLastKey = 0xFFFF'FFFF'FFFF;
 
 bool says_something(const FinalBlock& block, std::size_t cell) {
-  return block.log_odds.known[cell] != 0 || block.counts.surfaces[cell] > 0 || block.counts.dynamics[cell] > 0;
+  return block.log_odds.known[cell] != 0 || block.counts.surfaces[cell] > 0 ||
+         block.counts.dynamics[cell] > 0;
 }
 
 /// Calls go(value) for each value of a cell but its look.
@@ -51,14 +52,25 @@ std::uint16_t get_cell(ByteReader& reader) {
   return reader.ok() ? cell : std::uint16_t{0};
 }
 
+/// What put() cannot have written of a cell; nullptr if it can.
+const char* fault_of(const FinalBlock& block, std::size_t cell) {
+  const BlockCounts& counts = block.counts;
+  const LogOdds log_odds = block.log_odds.values[cell];
+  if (log_odds < kLowest || log_odds > kHighest) return "log-odds beyond their limits";
+  if (const auto known = block.log_odds.known[cell]; known != 0 && known != 255) return "a voxel half known";
+  for (const EvidenceTime time : {counts.first_static[cell], counts.last_static[cell],
+                                  counts.first_dynamic[cell], counts.last_dynamic[cell]})
+    if (time < kBeforeAll || time > kAfterAll) return "a time outside of all times";
+  return nullptr;
+}
+
 FinalBlock get_block(ByteReader& reader, std::size_t labels) {
   FinalBlock block;
   const std::size_t cells = reader.get_count(kVoxelBytes);
   for (std::size_t i = 0; i < cells && reader.ok(); ++i) {
     const auto cell = get_cell(reader);
     each_value(block, cell, [&](auto& value) { value = reader.get<std::decay_t<decltype(value)>>(); });
-    const auto log_odds = block.log_odds.values[cell];
-    if (log_odds < kLowest || log_odds > kHighest) reader.refuse("log-odds beyond their limits");
+    if (const auto fault = fault_of(block, cell); fault != nullptr) reader.refuse(fault);
   }
   const std::size_t looks = reader.get_count(sizeof(std::uint16_t));
   for (std::size_t i = 0; i < looks && reader.ok(); ++i) {
@@ -100,7 +112,8 @@ FinalMap FinalMap::get(ByteReader& reader, std::size_t labels) {
   const std::size_t blocks = reader.get_count(sizeof(std::uint64_t));
   for (std::size_t i = 0; i < blocks && reader.ok(); ++i) {
     const auto key = reader.get<std::uint64_t>();
-    if (key > kLastKey || packed(block_key(unpacked(key))) != key) reader.refuse("a block outside of any map");
+    if (key > kLastKey || packed(block_key(unpacked(key))) != key)
+      reader.refuse("a block outside of any map");
     if (!map.blocks.emplace(key, get_block(reader, labels)).second) reader.refuse("a block twice");
   }
   return map;

@@ -27,11 +27,11 @@
 //   passed          −.41; −1.2 if L > 0 and the voxel is a ghost that was not static later
 //   no return       if L > 0: −1.2 for such a ghost, −.41 if seldom; else 0
 //
-// A surface is a connected one of a keyframe's picture, and judged as a whole, so that the end of a table that
-// no other keyframe has seen stands or falls with the rest of it: it is confirmed if enough of it was seen as
-// static at another time, transient if most of it is and bears no label.
+// A surface is a connected one of a keyframe's picture, and judged as a whole, so that the end of a table
+// that no other keyframe has seen stands or falls with the rest of it: it is confirmed if enough of it was
+// seen as static at another time, transient if most of it is and bears no label.
 //
-// L is counted in hundredths, so that sums are exact.
+// L is counted in thousandths, so that sums are exact.
 
 namespace rds::mapper {
 
@@ -43,12 +43,13 @@ inline constexpr EvidenceTime kAfterAll = std::numeric_limits<EvidenceTime>::max
 template <class Value>
 using PerCell = std::array<Value, kBlockCells>;
 
-/// Log-odds × 100.
+/// Log-odds × 1000.
 using LogOdds = std::int16_t;
-inline constexpr LogOdds kLowest = -199;  // P = .12
-inline constexpr LogOdds kHighest = 348;  // P = .97
+inline constexpr LogOdds kLowest = -1992;  // P = .12
+inline constexpr LogOdds kHighest = 3476;  // P = .97
+inline constexpr double kPerNat = 1000;
 inline float in_nats(LogOdds log_odds) {
-  return static_cast<float>(log_odds / 100.0);
+  return static_cast<float>(log_odds / kPerNat);
 }
 
 /// How often and when keyframes have seen the voxels of a block as what.
@@ -75,22 +76,28 @@ struct BlockCounts {
 bool seen_apart(const BlockCounts& counts, std::size_t cell, EvidenceTime time, EvidenceTime apart);
 bool is_transient(const BlockCounts& counts, std::size_t cell, EvidenceTime apart);
 
-/// What all keyframes together say of a voxel: kGhost, kSeldom or both.
-using BlockVerdicts = PerCell<std::uint8_t>;
 inline constexpr std::uint8_t kGhost = 1;
 inline constexpr std::uint8_t kSeldom = 2;
+
+/// What all keyframes together say of the voxels of a block.
+struct BlockVerdicts {
+  PerCell<std::uint8_t> bits;               // kGhost, kSeldom
+  PerCell<EvidenceTime> ghost_static_last;  // when a ghost was static last; kBeforeAll for all others
+
+  bool operator==(const BlockVerdicts&) const = default;
+};
 BlockVerdicts decide(const BlockCounts& counts);
 
-/// The log-odds of the voxels of a block; 255 where they are known: passed, or a surface that counts.
+/// The log-odds of the voxels of a block.
 struct BlockLogOdds {
   PerCell<LogOdds> values{};
-  PerCell<std::uint8_t> known{};
+  PerCell<std::uint8_t> known{};  // 255 where a ray passed or a surface counts, else 0
 
-  /// The next keyframe, where no verdict matters. @param observations  none doubtful or unknown, here and below.
+  /// The next keyframe, where no verdict matters.
+  /// @param observations  none doubtful or unknown, here and below.
   void add_plain(const BlockObservations& observations);
-  /// The next keyframe. @param last_static, verdicts  by all keyframes.
-  void add(const BlockObservations& observations, EvidenceTime time, const PerCell<EvidenceTime>& last_static,
-           const BlockVerdicts& verdicts);
+  /// The next keyframe. @param verdicts  by all keyframes.
+  void add(const BlockObservations& observations, EvidenceTime time, const BlockVerdicts& verdicts);
 };
 
 }  // namespace rds::mapper

@@ -88,7 +88,8 @@ VoxelLook VoxelLook::get(map_file::ByteReader& reader, std::size_t labels) {
     votes.against = reader.get<std::int32_t>();
     if (votes.label >= labels || votes.label <= last)
       reader.refuse(fmt::format("label {} of {}", votes.label, labels));
-    if (!is_count(votes.count) || !is_count(votes.against) || votes.count + votes.against == 0) reader.refuse("an impossible number of votes");
+    if (!is_count(votes.count) || !is_count(votes.against) || votes.count + votes.against == 0)
+      reader.refuse("an impossible number of votes");
     last = votes.label;
   }
   return look;

@@ -13,8 +13,8 @@ namespace rds::mapper {
 /// What one keyframe says of how a surface voxel looks.
 struct SurfaceLook {
   std::array<std::uint8_t, 3> rgb{};
-  std::uint16_t label = 0;        // of an object; 0: none
-  bool looked_for = false;                 // whether a detector has seen the keyframe
+  std::uint16_t label = 0;                // of an object; 0: none
+  bool looked_for = false;                // whether a detector has seen the keyframe
   std::array<std::uint16_t, 4> beside{};  // without a label: those of objects found around it; 0: none
 };
 

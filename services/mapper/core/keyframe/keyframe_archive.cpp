@@ -47,7 +47,8 @@ void KeyframeArchive::add(KeyframeRecord& record) {
   record.time_ns = next == keyframes_.end()
                        ? clock_.go_to(record.stamp_ns).time_ns
                        : next->second.time_ns - (next->second.stamp_ns - record.stamp_ns);
-  keyframes_[record.id] = {record.stamp_ns, record.time_ns, record.map_from_camera, record.map_from_camera, record.time_ns};
+  keyframes_[record.id] = {record.stamp_ns, record.time_ns, record.map_from_camera, record.map_from_camera,
+                           record.time_ns};
   records_.put(record);
 }
 

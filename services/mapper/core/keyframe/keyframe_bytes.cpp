@@ -14,24 +14,15 @@ using map_file::ByteWriter;
 constexpr std::uint8_t kWhole = 255;  // a depth as it is follows; else: difference to the last one
 constexpr int kMaxSide = 8192;        // sampled pixels
 
-/// As ByteWriter::put(), which is slow for many.
-void append(map_file::Bytes& bytes, std::uint16_t value) {
-  bytes.push_back(static_cast<std::uint8_t>(value));
-  bytes.push_back(static_cast<std::uint8_t>(value >> 8));
-}
-
 void put_depths(ByteWriter& writer, const std::vector<std::uint16_t>& depths) {
-  map_file::Bytes bytes;
-  bytes.reserve(3 * depths.size());
   std::uint16_t last = 0;
   for (const std::uint16_t depth : depths) {
     const int step = depth - last;
     const int folded = step >= 0 ? 2 * step : -2 * step - 1;
-    bytes.push_back(static_cast<std::uint8_t>(std::min<int>(folded, kWhole)));
-    if (folded >= kWhole) append(bytes, depth);
+    writer.put(static_cast<std::uint8_t>(std::min<int>(folded, kWhole)));
+    if (folded >= kWhole) writer.put(depth);
     last = depth;
   }
-  writer.put_bytes(bytes);
 }
 
 void get_depths(ByteReader& reader, std::vector<std::uint16_t>& depths) {
@@ -51,15 +42,13 @@ void get_depths(ByteReader& reader, std::vector<std::uint16_t>& depths) {
 template <class Values>
 void put_runs(ByteWriter& writer, const Values& values) {
   writer.put_count(values.size());
-  map_file::Bytes bytes;
   for (std::size_t i = 0; i < values.size();) {
     std::size_t end = i + 1;
     while (end < values.size() && values[end] == values[i] && end - i < UINT16_MAX) ++end;
-    append(bytes, static_cast<std::uint16_t>(end - i));
-    append(bytes, static_cast<std::uint16_t>(values[i]));
+    writer.put(static_cast<std::uint16_t>(end - i));
+    writer.put(static_cast<std::uint16_t>(values[i]));
     i = end;
   }
-  writer.put_bytes(bytes);
 }
 
 /// @param size  that the list has if it is not empty.

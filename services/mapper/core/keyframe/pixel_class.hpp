@@ -6,7 +6,8 @@
 
 namespace rds::mapper {
 
-/// What a sampled pixel is evidence of. Decided in segmentation/classify.cpp; the values stand in saved records.
+/// What a sampled pixel is evidence of. Decided in segmentation/classify.cpp; the values stand in saved
+/// records.
 enum class PixelClass : std::uint8_t {
   kInvalid = 0,   // no evidence: no depth, or a flying pixel
   kStatic = 1,    // a hit in its voxel, misses along its ray

@@ -141,8 +141,7 @@ void ObjectDatabase::describe(Entry& entry) {
   object.size = entry.max - entry.min;
 }
 
-void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view,
-                          const LabelTable& labels) {
+void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view, const LabelTable& labels) {
   const auto box = boundary_in_map(sighting, view.map_from_camera);
   if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
   const auto& label = labels.names()[sighting.label];

@@ -39,7 +39,8 @@ void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& bl
   if (!show_children(top, key, 0, kBlockSide / 2, {block, labels, delta})) return;
   for (unsigned depth = kBlockDepth; depth-- > 0;) {
     Node* parent = path[depth];
-    const unsigned index = octomap::computeChildIdx(key, static_cast<int>(EditableOcTree::kDepth - 1 - depth));
+    const unsigned index =
+        octomap::computeChildIdx(key, static_cast<int>(EditableOcTree::kDepth - 1 - depth));
     if (!tree_.nodeHasChildren(path[depth + 1])) tree_.erase_child(parent, index);
     if (tree_.nodeHasChildren(parent)) EditableOcTree::refresh(parent);
   }
@@ -95,8 +96,7 @@ bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsign
     const Rgb rgb = label != 0 && config_.color_by_label ? source.labels.color(label) : look->color();
     color = {rgb[0], rgb[1], rgb[2]};
   }
-  const bool is_same =
-      node->getLogOdds() == value && node->getColor() == color && this->label(key) == label;
+  const bool is_same = node->getLogOdds() == value && node->getColor() == color && this->label(key) == label;
   if (is_same) return false;
   node->setLogOdds(value);
   node->setColor(color);

@@ -48,8 +48,8 @@ std::vector<bool> large_surfaces(const Scan& scan) {
     if (surface < pixels.size()) ++pixels[surface];
   std::vector<bool> is_large(pixels.size());
   for (std::size_t s = 1; s < pixels.size(); ++s)
-    is_large[s] = static_cast<double>(pixels[s]) >=
-                  kLargeSurface * static_cast<double>(scan.surface_of_pixel.size());
+    is_large[s] =
+        static_cast<double>(pixels[s]) >= kLargeSurface * static_cast<double>(scan.surface_of_pixel.size());
   return is_large;
 }
 

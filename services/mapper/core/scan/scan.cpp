@@ -33,10 +33,18 @@ std::array<std::uint16_t, 4> objects_around(const KeyframeRecord& record, std::s
 
 void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pixel) {
   switch (record.classes[pixel]) {
-    case PixelClass::kDynamic: ++voxel.dynamic_pixels; return;
-    case PixelClass::kUnknown: ++voxel.unknown_pixels; return;
-    case PixelClass::kDoubtful: ++voxel.doubtful_pixels; break;
-    default: ++voxel.static_pixels; break;
+    case PixelClass::kDynamic:
+      ++voxel.dynamic_pixels;
+      return;
+    case PixelClass::kUnknown:
+      ++voxel.unknown_pixels;
+      return;
+    case PixelClass::kDoubtful:
+      ++voxel.doubtful_pixels;
+      break;
+    default:
+      ++voxel.static_pixels;
+      break;
   }
   for (std::size_t c = 0; c < 3; ++c) voxel.rgb_sum[c] += record.rgb[3 * pixel + c];
   const std::uint16_t label = record.objects.labels.empty() ? std::uint16_t{0} : record.objects.labels[pixel];

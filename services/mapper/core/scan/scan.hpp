@@ -18,7 +18,7 @@ struct SurfaceVoxel {
   std::uint16_t surface = 0;               // of the picture: its first pixel's that is of one
   std::uint16_t label = 0;                 // majority candidate of these (Boyer–Moore)
   std::uint32_t label_balance = 0;
-  std::array<std::uint16_t, 4> beside{};   // labels of static objects around its first pixel; 0: none
+  std::array<std::uint16_t, 4> beside{};  // labels of static objects around its first pixel; 0: none
 
   /// The paper's rule per voxel: static pixels insert it unless dynamic ones outnumber them.
   [[nodiscard]] Observation observation() const;

@@ -18,8 +18,8 @@ inline constexpr double kSurfaceStepM = 0.03;
 /// pixels between two surfaces.
 bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config);
 
-/// Surfaces of a keyframe: connected components of the static, doubtful and unknown pixels; neighbours are connected if
-/// their depths differ by no more than kSurfaceStepM × max(1, depth / 1 m).
+/// Surfaces of a keyframe: connected components of the static, doubtful and unknown pixels; neighbours are
+/// connected if their depths differ by no more than kSurfaceStepM × max(1, depth / 1 m).
 ///
 /// @param surface  of each pixel, from 1; 0 for other classes and for components of fewer than 8 pixels.
 /// @return the number of surfaces.

@@ -9,9 +9,9 @@ namespace rds::mapper {
 namespace {
 
 constexpr double kPlaneDistanceM = 0.01;  // relief of walls and table tops, beside the noise of depth
-constexpr int kCellPx = 8;            // side of a cell in sampled pixels
-constexpr double kMinMeasured = 0.5;  // share of a cell's pixels
-constexpr std::size_t kBlock = 9;     // cells, 3×3, that a plane begins with
+constexpr int kCellPx = 8;                // side of a cell in sampled pixels
+constexpr double kMinMeasured = 0.5;      // share of a cell's pixels
+constexpr std::size_t kBlock = 9;         // cells, 3×3, that a plane begins with
 
 using CellIndices = std::vector<std::size_t>;
 
@@ -31,8 +31,7 @@ class Cells {
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
     for (std::size_t i = 0; i < record.size(); ++i)
-      if (looks_static(record.classes[i]))
-        sums_[cell_of(i)].add(record.point_in_camera(i).cast<double>());
+      if (looks_static(record.classes[i])) sums_[cell_of(i)].add(record.point_in_camera(i).cast<double>());
     for (std::size_t i = 0; i < sums_.size(); ++i)
       free_[i] = sums_[i].count() >= kMinMeasured * kCellPx * kCellPx;
   }

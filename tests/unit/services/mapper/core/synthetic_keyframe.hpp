@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/mapper/core/segmentation/classify.hpp"
 #include "services/mapper/core/pipeline.hpp"
+#include "services/mapper/core/segmentation/classify.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 
 namespace rds::mapper::test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever the order in which keyframes come, go and come again: the map is a function of those that are there.
+// Whatever the order in which keyframes come, go and come again: the map is a function of those that are
+// there.
 #include "services/mapper/core/evidence/evidence.hpp"
 
 #include <algorithm>

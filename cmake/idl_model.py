@@ -154,3 +154,10 @@ def msg_lines(struct):
         return base + bound + (f"[{field.array}]" if field.array else "[]" if field.sequence else "")
     return ([f"{PRIMITIVES[t][0]} {name}={value}" for t, name, value in struct.constants] +
             [f"{ros_type(f)} {f.name}" for f in struct.fields])
+
+
+def definition(struct, structs):
+    """The struct as ROS 2 writes it into recordings (encoding ros2msg): its .msg lines, then those of all that it contains."""
+    def block(name):
+        return "=" * 80 + f"\nMSG: {name.replace('/msg/', '/')}\n" + "\n".join(msg_lines(structs[name])) + "\n"
+    return "\n".join(msg_lines(struct)) + "\n" + "".join(block(name) for name in sorted(_referenced(struct, structs)))

@@ -4,7 +4,7 @@
     idl_support.py --root DIR... --out DIR
 
 writes OUT/<package>/message_fields.hpp (names, type hash, members, layout on the wire), OUT/<package>/message_support.cpp
-(codec and JSON of each type) and OUT/message_registry.cpp (the list of all types).
+(codec and JSON of each type), OUT/message_registry.cpp (the list of all types) and OUT/message_definitions.cpp (each type as text).
 """
 
 import argparse
@@ -85,6 +85,14 @@ def registry_source(packages):
             f"void add_all_types(std::vector<MessageType>& types) {{\n{calls}}}\n}}  // namespace rds::messages\n")
 
 
+def definitions_source(structs):
+    rows = "".join(f'    {{"{s.ros_name}", R"msg({idl_model.definition(s, structs)})msg"}},\n'
+                   for s in sorted(structs.values(), key=lambda s: s.ros_name))
+    return (f'{HEADER}#include "common/messages/definitions.hpp"\n\nnamespace rds::messages {{\n\n'
+            f"std::span<const Definition> definitions() {{\n  static constexpr Definition kDefinitions[] = {{\n{rows}  }};\n"
+            "  return kDefinitions;\n}\n\n}  // namespace rds::messages\n")
+
+
 def write_if_different(path, text):
     path.parent.mkdir(parents=True, exist_ok=True)
     if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -103,6 +111,7 @@ def main():
         write_if_different(args.out / package / "message_fields.hpp", fields_header(package, members, structs))
         write_if_different(args.out / package / "message_support.cpp", support_source(package, members))
     write_if_different(args.out / "message_registry.cpp", registry_source(packages))
+    write_if_different(args.out / "message_definitions.cpp", definitions_source(structs))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 # setup.sh [--ros]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
 # (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
 #
-# --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs.
+# --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs, and readers of
+#             ROS 2's recordings in .venv-records.
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -65,6 +66,7 @@ set_up_ros() {
   for distribution in jazzy kilted; do
     set_up_venv ".venv-$distribution" "ROS 2 $distribution" "$root/tests/ros/requirements-$distribution.txt"
   done
+  set_up_venv .venv-records "readers of recordings" "$root/tests/records/requirements.txt"
 }
 
 set_up_network() {

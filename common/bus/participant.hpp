@@ -61,6 +61,8 @@ struct DiscoveredEndpoint {
   std::string type_hash =
       {};                 // "RIHS01_…"; empty if not announced, as by plain DDS programs and ROS 2 Humble
   std::string guid = {};  // as `ros2 topic info --verbose` writes it
+  bool reliable = true;   // what a publisher offers, or a subscriber asks for
+  bool transient_local = false;
 };
 
 /// An endpoint of somebody on a topic of ours whose type has the name of ours, but is defined otherwise: his

@@ -13,7 +13,7 @@ class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
  public:
   WriterEndpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type,
                  const Qos& qos)
-      : Endpoint(std::move(state), std::move(topic), type, true),
+      : Endpoint(std::move(state), std::move(topic), type, qos, true),
         writer_(state_->backend->make_writer(kRosPrefix + topic_, type, qos)) {
     state_->announcer.add_writer(guid());
     enter();
@@ -47,10 +47,9 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
   ReaderEndpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type,
                  const Qos& qos, Callback callback)
-      : Endpoint(std::move(state), std::move(topic), type, false),
+      : Endpoint(std::move(state), std::move(topic), type, qos, false),
         callback_(std::move(callback)),
         pool_(type),
-        counts_lost_(qos.counts_lost),
         reader_(state_->backend->make_reader(kRosPrefix + topic_, type, qos)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
     state_->announcer.add_reader(guid());
@@ -68,7 +67,7 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
  private:
   [[nodiscard]] Guid guid() const override { return reader_->guid(); }
-  [[nodiscard]] std::uint64_t lost() const override { return counts_lost_ ? reader_->lost() : 0; }
+  [[nodiscard]] std::uint64_t lost() const override { return qos_.counts_lost ? reader_->lost() : 0; }
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -108,7 +107,6 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
 
   Callback callback_;
   MessagePool pool_;
-  bool counts_lost_;
   std::unique_ptr<BackendReader> reader_;
   std::jthread thread_;  // last: it uses the others
 };

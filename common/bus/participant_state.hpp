@@ -56,8 +56,9 @@ inline const std::string kRosPrefix = "rt/";
 /// What writers and readers have in common: what they are on the bus, and what has passed them.
 class Endpoint {
  public:
-  Endpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type, bool publisher)
-      : state_(std::move(state)), topic_(std::move(topic)), type_(type), publisher_(publisher) {}
+  Endpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type, const Qos& qos,
+           bool publisher)
+      : state_(std::move(state)), topic_(std::move(topic)), type_(type), qos_(qos), publisher_(publisher) {}
   Endpoint(const Endpoint&) = delete;
   Endpoint& operator=(const Endpoint&) = delete;
 
@@ -65,7 +66,8 @@ class Endpoint {
     return {topic_, publisher_, messages_, bytes_, dropped_ + lost(), matched(), another_version_};
   }
   [[nodiscard]] DiscoveredEndpoint description() const {
-    return {topic_, type_.dds_name, publisher_, type_.type_hash, text_of(guid())};
+    return {topic_,          type_.dds_name, publisher_,          type_.type_hash,
+            text_of(guid()), qos_.reliable,  qos_.transient_local};
   }
 
  protected:
@@ -91,6 +93,7 @@ class Endpoint {
   std::shared_ptr<ParticipantState> state_;
   std::string topic_;
   const TypeOps& type_;
+  Qos qos_;
   bool publisher_;
   std::atomic<std::uint64_t> messages_ = 0;
   std::atomic<std::uint64_t> bytes_ = 0;

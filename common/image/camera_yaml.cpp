@@ -34,7 +34,7 @@ void read_distortion(config::ConfigReader& reader, std::array<double, kDistortio
     reader.violation("distortion", fmt::format("{} terms", terms.size()), "expected [k1, k2, p1, p2, k3]");
 }
 
-CameraDescription tum_camera(double fx, double fy, double cx, double cy, std::array<double, 5> distortion) {
+CameraDescription vga_camera(double fx, double fy, double cx, double cy, std::array<double, 5> distortion) {
   return {{.width = 640, .height = 480, .fx = fx, .fy = fy, .cx = cx, .cy = cy, .distortion = distortion},
           5000,
           30};
@@ -65,12 +65,15 @@ tl::expected<CameraDescription, std::string> read_camera_yaml(const std::filesys
   }
 }
 
-std::optional<CameraDescription> tum_camera_of_folder(const std::string& folder_name) {
+std::optional<CameraDescription> known_camera_of_folder(const std::string& folder_name) {
   if (folder_name.find("freiburg1") != std::string::npos)
-    return tum_camera(517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633});
+    return vga_camera(517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633});
   if (folder_name.find("freiburg2") != std::string::npos)
-    return tum_camera(520.9, 521.0, 325.1, 249.7, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172});
-  if (folder_name.find("freiburg3") != std::string::npos) return tum_camera(535.4, 539.2, 320.1, 247.6, {});
+    return vga_camera(520.9, 521.0, 325.1, 249.7, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172});
+  if (folder_name.find("freiburg3") != std::string::npos) return vga_camera(535.4, 539.2, 320.1, 247.6, {});
+  if (folder_name.find("rgbd_bonn") != std::string::npos)
+    return vga_camera(542.822841, 542.576870, 315.593520, 237.756098,
+                      {0.039903, -0.099343, -0.000730, -0.000144, 0});
   return std::nullopt;
 }
 

@@ -24,8 +24,8 @@ struct CameraDescription {
 /// @return or one sentence per violation, each naming the file, the key and what was expected.
 tl::expected<CameraDescription, std::string> read_camera_yaml(const std::filesystem::path& file);
 
-/// TUM's published intrinsics for the camera ("freiburg1", "freiburg2", "freiburg3") that a folder's name
-/// mentions.
-std::optional<CameraDescription> tum_camera_of_folder(const std::string& folder_name);
+/// The published intrinsics of the camera that a folder's name mentions: of TUM RGB-D ("freiburg1",
+/// "freiburg2", "freiburg3") or of Bonn RGB-D Dynamic ("rgbd_bonn").
+std::optional<CameraDescription> known_camera_of_folder(const std::string& folder_name);
 
 }  // namespace rds::image

@@ -1,26 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/image/tum_dataset.hpp"
 
-#include <algorithm>
-#include <span>
-
 #include <fmt/format.h>
 
-#include "common/geometry/association.hpp"
-#include "common/geometry/stamp.hpp"
 #include "common/image/picture_file.hpp"
 
 namespace rds::image {
-namespace {
-
-std::vector<std::int64_t> stamps_of(const TumList& list) {
-  std::vector<std::int64_t> stamps;
-  stamps.reserve(list.entries.size());
-  for (const auto& entry : list.entries) stamps.push_back(entry.stamp_ns);
-  return stamps;
-}
-
-}  // namespace
 
 tl::expected<TumDataset, std::string> TumDataset::open(const std::filesystem::path& folder,
                                                        const TumDatasetOptions& options) {
@@ -36,7 +21,7 @@ tl::expected<TumDataset, std::string> TumDataset::open(const std::filesystem::pa
   if (!depth) return tl::unexpected(depth.error());
   dataset.color_ = std::move(*color);
   dataset.depth_ = std::move(*depth);
-  if (auto paired = dataset.pair_frames(options); !paired) return tl::unexpected(paired.error());
+  if (auto paired = dataset.pair_lists(options); !paired) return tl::unexpected(paired.error());
   if (std::filesystem::exists(folder / "groundtruth.txt")) {
     auto truth = geometry::read_trajectory(folder / "groundtruth.txt");
     if (!truth) return tl::unexpected(truth.error());
@@ -47,68 +32,59 @@ tl::expected<TumDataset, std::string> TumDataset::open(const std::filesystem::pa
 
 tl::expected<void, std::string> TumDataset::read_camera() {
   const auto file = folder_ / "camera.yaml";
+  tl::expected<CameraDescription, std::string> description;
   if (std::filesystem::exists(file)) {
-    auto description = read_camera_yaml(file);
+    description = read_camera_yaml(file);
     if (!description) return tl::unexpected(description.error());
-    camera_ = *description;
-    return {};
+  } else {
+    const auto known = known_camera_of_folder(std::filesystem::weakly_canonical(folder_).filename().string());
+    if (!known)
+      return tl::unexpected(fmt::format(
+          "{}: no such file, expected the camera's description (or a folder named after freiburg1, "
+          "freiburg2, freiburg3 or rgbd_bonn)",
+          file.string()));
+    description = *known;
   }
-  const auto known = tum_camera_of_folder(std::filesystem::weakly_canonical(folder_).filename().string());
-  if (!known)
-    return tl::unexpected(
-        fmt::format("{}: no such file, expected the camera's description (or a folder named after freiburg1, "
-                    "freiburg2 or freiburg3)",
-                    file.string()));
-  camera_ = *known;
+  camera_ = description->camera;
+  fps_ = description->fps;
+  depth_scale_ = description->depth_scale;
   return {};
 }
 
-tl::expected<void, std::string> TumDataset::pair_frames(const TumDatasetOptions& options) {
-  const auto color_stamps = stamps_of(color_);
-  const auto depth_stamps = stamps_of(depth_);
-  const auto pairs = geometry::pair_in_order(color_stamps, depth_stamps, options.pairing_tolerance_ns);
+tl::expected<void, std::string> TumDataset::pair_lists(const TumDatasetOptions& options) {
+  repeated_ = color_.repeated + depth_.repeated;
+  std::vector<FrameRef> frames;
   for (const auto& color : color_.entries)
-    frames_.push_back({frames_.size(), color.stamp_ns, color.stamp_text, color.picture, color.stamp_ns, {}});
-  for (const auto& [i, j] : pairs) {
-    frames_[i].depth_stamp_ns = depth_.entries[j].stamp_ns;
-    frames_[i].depth_path = depth_.entries[j].picture;
-  }
-  if (pairs.empty())
-    return tl::unexpected(
-        fmt::format("{}: no colour picture has a depth picture within {} ms (colour {} … {}, depth {} … {}), "
-                    "expected rgb.txt and "
-                    "depth.txt of one recording",
-                    folder_.string(), options.pairing_tolerance_ns / 1'000'000,
-                    color_.entries.front().stamp_text, color_.entries.back().stamp_text,
-                    depth_.entries.front().stamp_text, depth_.entries.back().stamp_text));
-  return {};
+    frames.push_back({frames.size(), color.stamp_ns, color.stamp_text});
+  std::vector<std::int64_t> depth_stamps;
+  for (const auto& depth : depth_.entries) depth_stamps.push_back(depth.stamp_ns);
+  if (pair_frames(std::move(frames), std::move(depth_stamps), options.pairing_tolerance_ns) > 0) return {};
+  return tl::unexpected(fmt::format(
+      "{}: no colour picture has a depth picture within {} ms (colour {} … {}, depth {} … {}), "
+      "expected rgb.txt and depth.txt of one recording",
+      folder_.string(), options.pairing_tolerance_ns / 1'000'000, color_.entries.front().stamp_text,
+      color_.entries.back().stamp_text, depth_.entries.front().stamp_text, depth_.entries.back().stamp_text));
 }
 
-std::size_t TumDataset::without_depth() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(frames_, [](const FrameRef& frame) { return !frame.has_depth(); }));
+std::vector<std::filesystem::path> TumDataset::missing() const {
+  std::vector<std::filesystem::path> missing;
+  std::error_code error;
+  for (const TumList* list : {&color_, &depth_})
+    for (const auto& entry : list->entries)
+      if (!std::filesystem::is_regular_file(entry.picture, error)) missing.push_back(entry.picture);
+  return missing;
 }
 
-std::string TumDataset::stamp_text(std::int64_t stamp_ns) const {
-  const auto found = std::ranges::lower_bound(frames_, stamp_ns, {}, &FrameRef::stamp_ns);
-  return found != frames_.end() && found->stamp_ns == stamp_ns ? found->stamp_text
-                                                               : geometry::format_stamp(stamp_ns);
+tl::expected<ColorImage, std::string> TumDataset::load_color(std::size_t index) const {
+  auto pixels = read_color_picture(color_.entries[index].picture, {camera_.width, camera_.height});
+  if (!pixels) return tl::unexpected(pixels.error());
+  return ColorImage{std::move(*pixels), ChannelOrder::kBgr, nullptr};
 }
 
-tl::expected<RgbdFrame, std::string> TumDataset::load(const FrameRef& frame) const {
-  const cv::Size size(camera_.camera.width, camera_.camera.height);
-  auto color = read_color_picture(frame.color_path, size);
-  if (!color) return tl::unexpected(color.error());
-  tl::expected<cv::Mat, std::string> depth = empty_depth(size).values;
-  if (frame.has_depth()) depth = read_depth_picture(frame.depth_path, size);
-  if (!depth) return tl::unexpected(depth.error());
-  RgbdFrame result;
-  result.stamp_ns = frame.stamp_ns;
-  result.color.pixels = std::move(*color);
-  result.depth.values = std::move(*depth);
-  result.depth.metres_per_unit = static_cast<float>(1.0 / camera_.depth_scale);
-  result.camera = camera_.camera;
-  return result;
+tl::expected<DepthImage, std::string> TumDataset::load_depth(std::size_t index) const {
+  auto values = read_depth_picture(depth_.entries[index].picture, {camera_.width, camera_.height});
+  if (!values) return tl::unexpected(values.error());
+  return DepthImage{std::move(*values), static_cast<float>(1.0 / depth_scale_), nullptr};
 }
 
 }  // namespace rds::image

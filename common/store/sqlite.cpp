@@ -81,11 +81,22 @@ void Connection::Close::operator()(sqlite3* connection) const {
 }
 
 SqliteResult<Connection> Connection::open(const std::string& file) {
-  constexpr int kFlags =
-      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_FULLMUTEX;
+  return open(file,
+              SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_FULLMUTEX);
+}
+
+SqliteResult<Connection> Connection::open_to_read(const std::string& file) {
+  auto opened = open(file, SQLITE_OPEN_READONLY | SQLITE_OPEN_FULLMUTEX);
+  if (!opened) return opened;
+  sqlite3_db_config(opened->get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(opened->get(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  return opened;
+}
+
+SqliteResult<Connection> Connection::open(const std::string& file, int flags) {
   Connection opened;
   sqlite3* connection = nullptr;
-  const int code = sqlite3_open_v2(file.c_str(), &connection, kFlags, nullptr);
+  const int code = sqlite3_open_v2(file.c_str(), &connection, flags, nullptr);
   opened.connection_.reset(connection);
   if (code != SQLITE_OK) return tl::unexpected(error_of(connection, code));
   return opened;

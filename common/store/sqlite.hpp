@@ -51,11 +51,14 @@ class Statement {
   int fault_;  // of making or binding it; the next step returns it
 };
 
-/// A connection to a file, without following links.
+/// A connection to a file.
 class Connection {
  public:
-  /// @param file  made if it is not there.
+  /// @param file  made if it is not there; links are not followed.
   static SqliteResult<Connection> open(const std::string& file);
+  /// A file of somebody else, links followed: it is not changed, and none of its views and triggers is
+  /// trusted.
+  static SqliteResult<Connection> open_to_read(const std::string& file);
 
   [[nodiscard]] Statement prepare(std::string_view sql) const { return {connection_.get(), sql}; }
   /// Statements without results.
@@ -66,6 +69,7 @@ class Connection {
   [[nodiscard]] SqliteError last_error() const;
 
  private:
+  static SqliteResult<Connection> open(const std::string& file, int flags);
   struct Close {
     void operator()(sqlite3* connection) const;
   };

@@ -44,6 +44,19 @@ TEST_F(BadInput, MissingFolder) {
   expect_refused({data().string()});
 }
 
+TEST_F(BadInput, BagsThatAreNone) {
+  std::filesystem::remove_all(data());
+  for (const std::string name : {"a.mcap", "a.db3"}) {
+    const auto file = place_ / name;
+    write_text(file,
+               "this is text, and long enough to have the header of a file of either kind, and more of it\n");
+    const ProcessResult result = run(file, place_ / "out", {"--rate", "max"}, std::chrono::seconds(60));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.standard_error, HasSubstr(name));
+    EXPECT_EQ(std::ranges::count(result.standard_error, '\n'), 1) << result.standard_error;
+  }
+}
+
 TEST_F(BadInput, MissingList) {
   std::filesystem::remove(data() / "depth.txt");
   expect_refused({"depth.txt"});

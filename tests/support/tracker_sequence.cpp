@@ -137,7 +137,7 @@ void TrackerSequence::draw_removal(const image::RgbdFrame& frame, std::size_t i,
 }
 
 void TrackerSequence::compare_removal(std::size_t i, const tracker::FrameResult& result) {
-  const auto name = dataset_.frames()[i].color_path.stem().string() + ".png";
+  const auto name = dataset_.color_list().entries[i].picture.stem().string() + ".png";
   const cv::Mat1b people = cv::imread((dataset_.folder() / "masks" / name).string(), cv::IMREAD_GRAYSCALE);
   if (people.empty()) throw std::runtime_error("masks/" + name + ": cannot be read");
   const int on_people = cv::countNonZero(people);

@@ -11,6 +11,8 @@ int main(int argc, char** argv) {
   rds.require_subcommand(1);
   rds::run::add_run_command(rds);
   rds::play::add_play_command(rds);
+  rds::record::add_record_command(rds);
+  rds::tools::add_convert_command(rds);
   rds::tools::add_eval_command(rds);
   rds::tools::add_hosts_command(rds);
   rds::tools::add_map_command(rds);

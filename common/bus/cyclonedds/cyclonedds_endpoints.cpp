@@ -22,6 +22,16 @@ dds_entity_t read_list(dds_entity_t participant, dds_entity_t topic, dds_on_data
   return dds_create_reader(participant, topic, nullptr, listener.get());
 }
 
+bool is_reliable(const dds_qos_t* qos) {
+  dds_reliability_kind_t kind{};
+  return dds_qget_reliability(qos, &kind, nullptr) && kind == DDS_RELIABILITY_RELIABLE;
+}
+
+bool is_transient_local(const dds_qos_t* qos) {
+  dds_durability_kind_t kind{};
+  return dds_qget_durability(qos, &kind) && kind >= DDS_DURABILITY_TRANSIENT_LOCAL;
+}
+
 std::string type_hash_of(const dds_qos_t* qos) {
   void* data = nullptr;
   std::size_t size = 0;
@@ -73,10 +83,11 @@ void CycloneEndpoints::take_all(dds_entity_t list, bool publisher) {
 void CycloneEndpoints::take(const dds_builtintopic_endpoint_t& endpoint, dds_instance_handle_t handle,
                             bool publisher) {
   if (to_guid(endpoint.participant_key) == self_) return;
-  directory_.put(handle,
-                 {endpoint.topic_name, endpoint.type_name, publisher, type_hash_of(endpoint.qos),
-                  text_of(to_guid(endpoint.key))},
-                 to_guid(endpoint.key));
+  directory_.put(
+      handle,
+      {endpoint.topic_name, endpoint.type_name, publisher, type_hash_of(endpoint.qos),
+       text_of(to_guid(endpoint.key)), is_reliable(endpoint.qos), is_transient_local(endpoint.qos)},
+      to_guid(endpoint.key));
 }
 
 }  // namespace rds::bus::detail

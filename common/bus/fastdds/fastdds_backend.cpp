@@ -55,11 +55,12 @@ class DiscoveryListener final : public dds::DomainParticipantListener {
       return;
     }
     const auto& user_data = proxy.m_qos.m_userData.data_vec();
-    directory_.put(
-        guid,
-        {proxy.topicName().to_string(), proxy.typeName().to_string(), publisher,
-         type_hash_in({reinterpret_cast<const char*>(user_data.data()), user_data.size()}), text_of(guid)},
-        guid);
+    directory_.put(guid,
+                   {proxy.topicName().to_string(), proxy.typeName().to_string(), publisher,
+                    type_hash_in({reinterpret_cast<const char*>(user_data.data()), user_data.size()}),
+                    text_of(guid), proxy.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS,
+                    proxy.m_qos.m_durability.kind >= dds::TRANSIENT_LOCAL_DURABILITY_QOS},
+                   guid);
   }
 
   EndpointDirectory<Guid> directory_;

@@ -45,6 +45,19 @@ class TypeHash(unittest.TestCase):
         self.assertEqual({name: idl_model.type_hash(STRUCTS[name], STRUCTS) for name in hashes}, hashes)
 
 
+class Definition(unittest.TestCase):
+    def test_names_what_a_type_contains_each_once(self):
+        text = idl_model.definition(STRUCTS["vision_msgs/msg/Detection2DArray"], STRUCTS)
+        main, *parts = text.split("=" * 80 + "\n")
+        self.assertEqual(main.splitlines(), idl_model.msg_lines(STRUCTS["vision_msgs/msg/Detection2DArray"]))
+        names = [part.splitlines()[0] for part in parts]
+        self.assertEqual(names, sorted(set(names)))
+        self.assertIn("MSG: std_msgs/Header", names)
+        for part in parts:
+            name, *lines = part.splitlines()
+            self.assertEqual(lines, idl_model.msg_lines(STRUCTS[name.removeprefix("MSG: ").replace("/", "/msg/")]))
+
+
 class Parser(unittest.TestCase):
     def test_reads_every_kind_of_member(self):
         struct = parse("module p { module msg { module Name_Constants { const uint8 A = 1; };"

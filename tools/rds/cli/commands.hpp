@@ -5,9 +5,9 @@
 
 /// The subcommands of `rds`; each adds itself with its options.
 ///
-/// Their callbacks print to stdout. Bad usage and files that cannot be read or written: one sentence to stderr
-/// and CLI::RuntimeError(2). What was asked for is not so (a fault, a difference, nobody on the bus in time):
-/// CLI::RuntimeError(1). Ctrl-C ends them early, as if all had been seen.
+/// Their callbacks print to stdout. Bad usage and files that cannot be read or written: one sentence to
+/// stderr and CLI::RuntimeError(2). What was asked for is not so (a fault, a difference, nobody on the bus in
+/// time): CLI::RuntimeError(1). Ctrl-C ends them early, as if all had been seen.
 namespace rds {
 
 namespace run {
@@ -20,6 +20,11 @@ namespace play {
 void add_play_command(CLI::App& rds);
 }  // namespace play
 
+namespace record {
+/// `rds record FILE [TOPIC...]`: records topics; `rds record --recover FILE`: makes a torn file whole.
+void add_record_command(CLI::App& rds);
+}  // namespace record
+
 namespace doctor {
 /// `rds doctor`: is this machine ready? `rds doctor --dataset DIR`: is this recording fit to be run?
 void add_doctor_command(CLI::App& rds);
@@ -31,12 +36,15 @@ void add_secure_command(CLI::App& rds);
 }  // namespace secure
 
 namespace tools {
+/// `rds convert FROM TO`: writes a recording in another form.
+void add_convert_command(CLI::App& rds);
 /// `rds eval GROUNDTRUTH TRAJECTORY`: ATE and RPE of a trajectory, with a plot.
 /// `rds eval DATASET OUT [--background DIR]`: the figures of a whole run.
 void add_eval_command(CLI::App& rds);
 /// `rds hosts compose`: services on several machines.
 void add_hosts_command(CLI::App& rds);
-/// `rds map info|save|export|query|diff|list|load`: a map from a file (--map map.ot) or, without it, the live one.
+/// `rds map info|save|export|query|diff|list|load`: a map from a file (--map map.ot) or, without it, the live
+/// one.
 void add_map_command(CLI::App& rds);
 /// `rds topic list|echo|hz|bw`: looks at the live bus, whichever process publishes.
 void add_topic_command(CLI::App& rds);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,8 +8,10 @@
 
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
+#include "tools/rds/cli/recording_option.hpp"
 #include "tools/rds/doctor/checks/dataset_check.hpp"
 #include "tools/rds/doctor/host_check.hpp"
+#include "tools/recording/open_recording.hpp"
 
 namespace rds::doctor {
 namespace {
@@ -16,7 +19,7 @@ namespace {
 constexpr std::size_t kMostFrames = 1500;  // a quarter of a minute
 
 struct DoctorOptions {
-  std::string dataset;
+  std::filesystem::path dataset;
   std::size_t every = 0;  // 0: such that at most kMostFrames are looked at
 };
 
@@ -26,7 +29,9 @@ void conclude(const std::vector<Finding>& findings) {
 }
 
 std::vector<Finding> check_recording(const DoctorOptions& options) {
-  const auto dataset = tools::value_or_exit(image::TumDataset::open(options.dataset));
+  const auto opened = tools::value_or_exit(recording::open_recording(options.dataset));
+  fmt::print(stderr, "{}", opened.notes);
+  const image::Recording& dataset = *opened.recording;
   const std::size_t needed = (dataset.frames().size() + kMostFrames - 1) / kMostFrames;
   return check_dataset(dataset, options.every > 0 ? options.every : needed);
 }
@@ -36,7 +41,7 @@ std::vector<Finding> check_recording(const DoctorOptions& options) {
 void add_doctor_command(CLI::App& rds) {
   auto* command = rds.add_subcommand("doctor", "Check this machine, or a recording");
   const auto options = std::make_shared<DoctorOptions>();
-  command->add_option("--dataset", options->dataset, "Folder of a recording to check");
+  add_recording_option(*command, options->dataset);
   command
       ->add_option("--every", options->every,
                    "Look at every n-th frame's pictures only (default: all, of long ones up to 1500 evenly)")

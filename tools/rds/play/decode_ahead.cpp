@@ -12,7 +12,7 @@ constexpr int kNice = 10;  // a camera takes no processor time from the services
 
 }  // namespace
 
-DecodeAhead::DecodeAhead(const image::TumDataset& dataset, std::size_t first, std::size_t last, bool loop)
+DecodeAhead::DecodeAhead(const image::Recording& dataset, std::size_t first, std::size_t last, bool loop)
     : dataset_(dataset),
       thread_([this, first, last, loop](const std::stop_token& stop) { decode(stop, first, last, loop); }) {}
 

@@ -12,7 +12,7 @@
 
 #include <tl/expected.hpp>
 
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 
 namespace rds::play {
 
@@ -25,7 +25,7 @@ class DecodeAhead {
     tl::expected<image::RgbdFrame, std::string> frame;
   };
 
-  DecodeAhead(const image::TumDataset& dataset, std::size_t first, std::size_t last, bool loop);
+  DecodeAhead(const image::Recording& dataset, std::size_t first, std::size_t last, bool loop);
 
   /// The next frame in order; nullopt at the end, or when stop is requested.
   std::optional<Decoded> next(const std::stop_token& stop);
@@ -35,7 +35,7 @@ class DecodeAhead {
   void decode(const std::stop_token& stop, std::size_t first, std::size_t last, bool loop);
   bool push(const std::stop_token& stop, Decoded decoded);
 
-  const image::TumDataset& dataset_;
+  const image::Recording& dataset_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Decoded> decoded_;

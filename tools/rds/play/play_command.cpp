@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,9 @@
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
+#include "tools/rds/cli/recording_option.hpp"
 #include "tools/rds/play/player.hpp"
+#include "tools/recording/open_recording.hpp"
 
 namespace rds::play {
 namespace {
@@ -23,7 +26,7 @@ constexpr std::chrono::seconds kReaderLimit{10};
 constexpr std::chrono::seconds kAcknowledgeLimit{30};
 
 struct PlayOptions {
-  std::string dataset;
+  std::filesystem::path dataset;
   PlayerOptions player;
   BusOptions bus;
 };
@@ -64,13 +67,15 @@ void wait_for_reader(const Player& player, const std::stop_token& stop) {
 }
 
 int play(const PlayOptions& options) {
-  const auto dataset = image::TumDataset::open(options.dataset);
-  if (!dataset) throw std::runtime_error(dataset.error());
-  check_first_frame(*dataset, options.player.start);
+  const auto opened = recording::open_recording(options.dataset);
+  if (!opened) throw std::runtime_error(opened.error());
+  fmt::print(stderr, "{}", opened->notes);
+  const image::Recording& recording = *opened->recording;
+  check_first_frame(recording, options.player.start);
   const Interrupt interrupt;
   const auto bus = bus::Participant::create(options.bus.participant("rds_play"));
   Acknowledgements acknowledgements(*bus);
-  Player player(*bus, *dataset, options.player);
+  Player player(*bus, recording, options.player);
   wait_for_reader(player, interrupt.token());
   bool acknowledged = true;
   const PlayerReport report = player.run(interrupt.token(), [&](const image::RgbdFrame& frame, std::size_t) {
@@ -90,7 +95,7 @@ void add_play_command(CLI::App& rds) {
   auto* command = rds.add_subcommand("play", "publish a recording as a camera would");
   auto options = std::make_shared<PlayOptions>();
   options->bus.secure.identities = {"player", "operator"};
-  command->add_option("dataset", options->dataset, "folder in TUM RGB-D form")->required();
+  add_recording_option(*command, options->dataset)->required();
   add_rate_option(*command, options->player.rate);
   command->add_option("--start", options->player.start, "first frame");
   command->add_option("--frames", options->player.frames, "number of frames")->check(CLI::PositiveNumber);

@@ -8,15 +8,13 @@
 #include <fmt/format.h>
 
 #include "common/concurrency/mailbox.hpp"
-#include "common/messages/conversions.hpp"
-#include "common/messages/image_conversions.hpp"
 #include "common/topics/endpoints.hpp"
 #include "tools/rds/play/decode_ahead.hpp"
+#include "tools/recording/camera_messages.hpp"
 
 namespace rds::play {
 namespace {
 
-const std::string kFrameId = "camera_color_optical_frame";
 constexpr std::int64_t kFallbackFrameIntervalNs = 33'333'333;
 
 /// Sleeps until `due`, or until stop is requested.
@@ -35,7 +33,7 @@ std::int64_t pass_length_ns(const std::vector<image::FrameRef>& frames, std::siz
 
 }  // namespace
 
-void check_first_frame(const image::TumDataset& dataset, std::size_t start) {
+void check_first_frame(const image::Recording& dataset, std::size_t start) {
   if (start >= dataset.frames().size())
     throw std::runtime_error(
         fmt::format("--start {}: the recording has {} frames", start, dataset.frames().size()));
@@ -43,7 +41,7 @@ void check_first_frame(const image::TumDataset& dataset, std::size_t start) {
   if (!frame) throw std::runtime_error(frame.error());
 }
 
-Player::Player(bus::Participant& bus, const image::TumDataset& dataset, const PlayerOptions& options)
+Player::Player(bus::Participant& bus, const image::Recording& dataset, const PlayerOptions& options)
     : dataset_(dataset),
       options_(options),
       color_(topics::advertise(bus, topics::kColor, topics::kPlayer)),
@@ -85,10 +83,9 @@ PlayerReport Player::run(const std::stop_token& stop, const AfterFrame& after_fr
 }
 
 void Player::publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns) {
-  const auto header = messages::make_header(frame.stamp_ns, kFrameId);
-  camera_info_.write(messages::to_camera_info(frame.camera, header));
-  color_.write(messages::to_image_message(frame.color, header));
-  depth_.write(messages::to_image_message(frame.depth, messages::make_header(depth_stamp_ns, kFrameId)));
+  camera_info_.write(recording::camera_info_message(frame.camera, frame.stamp_ns));
+  color_.write(recording::color_message(frame.color, frame.stamp_ns));
+  depth_.write(recording::depth_message(frame.depth, depth_stamp_ns));
 }
 
 }  // namespace rds::play

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/bus/participant.hpp"
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 
@@ -29,7 +29,7 @@ struct PlayerReport {
 
 /// Decodes the first frame that will be played: a recording that is wrong from the start is refused.
 /// @throws std::runtime_error with one sentence.
-void check_first_frame(const image::TumDataset& dataset, std::size_t start);
+void check_first_frame(const image::Recording& dataset, std::size_t start);
 
 /// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour; an empty
 /// depth picture with the same stamp where the recording has none.
@@ -41,7 +41,7 @@ class Player {
   /// Called after each frame was sent. At rate 0 the player goes on when it returns. @return false to end.
   using AfterFrame = std::function<bool(const image::RgbdFrame& frame, std::size_t index)>;
 
-  Player(bus::Participant& bus, const image::TumDataset& dataset, const PlayerOptions& options);
+  Player(bus::Participant& bus, const image::Recording& dataset, const PlayerOptions& options);
 
   /// Frames of one pass.
   [[nodiscard]] std::size_t frame_count() const;
@@ -54,7 +54,7 @@ class Player {
  private:
   void publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns);
 
-  const image::TumDataset& dataset_;
+  const image::Recording& dataset_;
   PlayerOptions options_;
   bus::Publisher<sensor_msgs::msg::Image> color_;
   bus::Publisher<sensor_msgs::msg::CameraInfo> camera_info_;

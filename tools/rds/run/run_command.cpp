@@ -12,11 +12,13 @@
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
+#include "tools/rds/cli/recording_option.hpp"
 #include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/far/far_run.hpp"
 #include "tools/rds/run/far/terms.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
 #include "tools/rds/run/session.hpp"
+#include "tools/recording/open_recording.hpp"
 
 namespace rds::run {
 namespace {
@@ -66,7 +68,7 @@ void check_secured(const RunOptions& options) {
 }
 
 /// The poses can be read, and reach into what is played.
-void check_poses(const RunOptions& options, const image::TumDataset& dataset) {
+void check_poses(const RunOptions& options, const image::Recording& dataset) {
   if (options.poses.empty()) return;
   const auto poses = geometry::read_trajectory(options.poses);
   if (!poses) throw std::runtime_error(poses.error());
@@ -128,12 +130,14 @@ int run(RunOptions& options, const std::string& vendors, const HostsOptions& whe
       return FarRun(options, elsewhere->hosts, elsewhere->here).run(interrupt.token());
     if (elsewhere) check_placement(options, elsewhere->hosts, elsewhere->hosts.machine(elsewhere->here));
     if (options.dataset.empty() || options.out.empty())
-      throw std::runtime_error("--dataset and --out: expected where the camera is");
-    const auto dataset = image::TumDataset::open(options.dataset);
-    if (!dataset) throw std::runtime_error(dataset.error());
-    play::check_first_frame(*dataset, options.start);
-    check_poses(options, *dataset);
-    Session session(options, *dataset, elsewhere);
+      throw std::runtime_error("the recording and --out: expected where the camera is");
+    const auto opened = recording::open_recording(options.dataset);
+    if (!opened) throw std::runtime_error(opened.error());
+    fmt::print(stderr, "{}", opened->notes);
+    const image::Recording& dataset = *opened->recording;
+    play::check_first_frame(dataset, options.start);
+    check_poses(options, dataset);
+    Session session(options, dataset, elsewhere);
     return session.run(interrupt.token());
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());
@@ -149,7 +153,7 @@ void add_run_command(CLI::App& rds) {
   auto vendors = std::make_shared<std::string>("fastdds");
   auto where = std::make_shared<HostsOptions>();
   auto no_dynamics = std::make_shared<bool>(false);
-  command->add_option("--dataset", options->dataset, "folder in TUM RGB-D form");
+  add_recording_option(*command, options->dataset);
   command->add_option("--out", options->out, "folder for the results");
   command
       ->add_option("--bus", *vendors,
@@ -179,7 +183,8 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--machine", where->machine, "which of them this is (default: the computer's name)");
   command->add_flag("--network", options->network,
                     "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");
-  command->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
+  command
+      ->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
       ->envname("RDS_SECURE");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");

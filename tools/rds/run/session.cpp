@@ -30,7 +30,7 @@ const std::string kPartsFolder = kMapsFolder + "/.saving";  // of the map, until
 
 }  // namespace
 
-Session::Session(const RunOptions& options, const image::TumDataset& dataset,
+Session::Session(const RunOptions& options, const image::Recording& dataset,
                  const std::optional<Elsewhere>& elsewhere)
     : options_(options),
       dataset_(dataset),
@@ -54,7 +54,8 @@ int Session::run(const std::stop_token& stop) {
   Answers answers;
   if (!stop.stop_requested()) report = play(stop);
   if (!stop.stop_requested()) answers = drain(stop);
-  Recording recording = recorder_.recording();  // what is said after the services have left is nobody's of the run
+  Recording recording =
+      recorder_.recording();  // what is said after the services have left is nobody's of the run
   const auto usage = services_.stop(stop);
   overlay_->finish();
   if (stop.stop_requested()) {
@@ -75,8 +76,8 @@ void Session::wait_until_connected(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     services_.watch();
     const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
-    missing = missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only,
-                            services_.elsewhere());
+    missing =
+        missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only, services_.elsewhere());
     if (missing.empty()) return;
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
@@ -132,8 +133,8 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   return answers;
 }
 
-/// Every service that has a part of the map writes it; together they are map.rds. The tracker is here, and last:
-/// then the parts of other machines are here, too.
+/// Every service that has a part of the map writes it; together they are map.rds. The tracker is here, and
+/// last: then the parts of other machines are here, too.
 void Session::save_map(const std::stop_token& stop) {
   nlohmann::json order{{"name", kMapName}, {"id", "run"}, {"parts", nlohmann::json::array()}};
   std::vector<std::string> services;

@@ -7,15 +7,15 @@
 #include <stop_token>
 #include <string>
 
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/output/output_folder.hpp"
 #include "tools/rds/run/progress.hpp"
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
-#include "tools/rds/run/services/domain_lock.hpp"
 #include "tools/rds/run/run_services.hpp"
+#include "tools/rds/run/services/domain_lock.hpp"
 
 namespace rds::run {
 
@@ -24,7 +24,7 @@ namespace rds::run {
 class Session {
  public:
   /// @throws std::runtime_error with one sentence when the run cannot start.
-  Session(const RunOptions& options, const image::TumDataset& dataset,
+  Session(const RunOptions& options, const image::Recording& dataset,
           const std::optional<Elsewhere>& elsewhere = {});
 
   /// @return the process's exit status: 0 if every service stayed healthy, 1 otherwise.
@@ -50,7 +50,7 @@ class Session {
                      const std::map<std::string, ServiceUsage>& usage);
 
   const RunOptions& options_;
-  const image::TumDataset& dataset_;
+  const image::Recording& dataset_;
   OutputFolder folder_;
   DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;

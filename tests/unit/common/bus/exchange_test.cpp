@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every combination of vendors, over 127.0.0.1.
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
+#include "common/messages/serialized.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
 #include "tests/unit/common/bus/bus_test_support.hpp"
@@ -175,6 +177,43 @@ TEST_P(Exchange, EachDiscoversTheOther) {
     return numbers && images;
   };
   EXPECT_TRUE(eventually([&] { return knows_both(*writer_side) && knows_both(*reader_side); }));
+}
+
+TEST_P(Exchange, EachKnowsWhatTheOtherOffersAndAsksFor) {
+  auto latched = writer_side->advertise<Header>("latched", kLatched);
+  auto plain = writer_side->advertise<Header>("plain", kSensorBestEffort);
+  const auto offered = [&](const std::string& topic, bool reliable, bool transient_local) {
+    return eventually([&] {
+      return std::ranges::any_of(reader_side->discovered(), [&](const DiscoveredEndpoint& e) {
+        return e.topic == topic && e.publisher && e.reliable == reliable &&
+               e.transient_local == transient_local;
+      });
+    });
+  };
+  EXPECT_TRUE(offered("latched", true, true));
+  EXPECT_TRUE(offered("plain", false, false));
+}
+
+TEST_P(Exchange, ATypeMayBeCarriedAsItsBytes) {
+  static const TypeOps kSerialized = messages::serialized(type_ops<Header>());
+  std::mutex mutex;
+  std::vector<std::vector<std::uint8_t>> received;
+  auto publisher = writer_side->advertise<Header>("numbers", kTransform);
+  const auto subscription = reader_side->make_subscription(
+      "numbers", kSerialized, kTransform, [&](std::shared_ptr<const void> message, const ParticipantId&) {
+        const std::lock_guard lock(mutex);
+        received.push_back(static_cast<const messages::SerializedMessage*>(message.get())->bytes);
+      });
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1 && subscription->matched() == 1; }));
+  publisher.write(numbered(7));
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return !received.empty();
+  }));
+  const std::lock_guard lock(mutex);
+  Header header;
+  ASSERT_TRUE(type_ops<Header>().decode(received[0].data(), received[0].size(), &header));
+  EXPECT_EQ(header, numbered(7));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllVendors, Exchange, ::testing::ValuesIn(kAllPairs),

@@ -54,10 +54,11 @@ TEST(CameraYaml, NamesEveryViolation) {
 }
 
 TEST(TumCamera, IsKnownByTheFoldersName) {
-  EXPECT_EQ(tum_camera_of_folder("rgbd_dataset_freiburg1_rpy")->camera.fx, 517.3);
-  EXPECT_EQ(tum_camera_of_folder("rgbd_dataset_freiburg2_desk")->camera.cy, 249.7);
-  EXPECT_FALSE(tum_camera_of_folder("rgbd_dataset_freiburg3_walking_xyz")->camera.has_distortion());
-  EXPECT_FALSE(tum_camera_of_folder("kitchen"));
+  EXPECT_EQ(known_camera_of_folder("rgbd_dataset_freiburg1_rpy")->camera.fx, 517.3);
+  EXPECT_EQ(known_camera_of_folder("rgbd_dataset_freiburg2_desk")->camera.cy, 249.7);
+  EXPECT_FALSE(known_camera_of_folder("rgbd_dataset_freiburg3_walking_xyz")->camera.has_distortion());
+  EXPECT_EQ(known_camera_of_folder("rgbd_bonn_balloon")->depth_scale, 5000);
+  EXPECT_FALSE(known_camera_of_folder("kitchen"));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(TumDatasetTest, PairsEachDepthOnceAndKeepsColourWithoutDepth) {
   EXPECT_FALSE(dataset->frames()[0].has_depth());
   EXPECT_EQ(dataset->frames()[0].depth_stamp_ns, 10000000000);
   EXPECT_EQ(dataset->frames()[1].depth_stamp_ns, 10008000000);
-  EXPECT_EQ(dataset->frames()[2].depth_path.filename(), "C");
+  EXPECT_EQ(dataset->depth_list().entries[dataset->frames()[2].depth.value()].picture.filename(), "C");
   EXPECT_EQ(dataset->frames()[2].index, 2U);
   EXPECT_EQ(dataset->without_depth(), 2U);
   EXPECT_EQ(dataset->color_list().repeated, 1U);
@@ -92,7 +92,7 @@ TEST_F(TumDatasetTest, NeedsACameraDescription) {
   EXPECT_THAT(open_error(), HasSubstr("camera.yaml: height: missing"));
 }
 
-TEST_F(TumDatasetTest, KnowsTumsCamerasByFolder) {
+TEST_F(TumDatasetTest, KnowsPublishedCamerasByFolder) {
   std::filesystem::remove(folder / "camera.yaml");
   const test::TemporaryFolder other;
   const auto named = other / "rgbd_dataset_freiburg3_walking_static";
@@ -101,6 +101,9 @@ TEST_F(TumDatasetTest, KnowsTumsCamerasByFolder) {
   ASSERT_TRUE(dataset) << dataset.error();
   EXPECT_EQ(dataset->camera().fx, 535.4);
   EXPECT_EQ(dataset->depth_scale(), 5000);
+  const auto bonn = other / "rgbd_bonn_crowd";
+  std::filesystem::rename(named, bonn);
+  EXPECT_EQ(TumDataset::open(bonn)->camera().fx, 542.822841);
 }
 
 TEST_F(TumDatasetTest, TruthIsOptionalButNeverHalfRead) {
@@ -113,8 +116,8 @@ TEST_F(TumDatasetTest, TruthIsOptionalButNeverHalfRead) {
 
 TEST_F(TumDatasetTest, OneUnreadablePictureIsAnErrorOfThatFrameOnly) {
   const auto dataset = TumDataset::open(folder.path());
-  std::filesystem::resize_file(dataset->frames()[2].color_path, 700);
-  std::filesystem::remove(dataset->frames()[3].depth_path);
+  std::filesystem::resize_file(dataset->color_list().entries[2].picture, 700);
+  std::filesystem::remove(dataset->depth_list().entries[3].picture);
   EXPECT_TRUE(dataset->load(dataset->frames()[1]));
   EXPECT_THAT(dataset->load(dataset->frames()[2]).error(), HasSubstr("truncated after 700 bytes"));
   EXPECT_THAT(dataset->load(dataset->frames()[3]).error(), HasSubstr("no such file"));

@@ -24,7 +24,7 @@ Finding check_unreadable(const RecordingLooks& looks) {
                       looks.unreadable.front())};
 }
 
-std::vector<Finding> check_dataset(const image::TumDataset& dataset, std::size_t every) {
+std::vector<Finding> check_dataset(const image::Recording& dataset, std::size_t every) {
   const auto& camera = dataset.camera();
   const auto lists = lists_of(dataset);
   std::vector<Finding> findings{check_camera(camera),

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 
 namespace rds::doctor {
 
@@ -21,6 +21,6 @@ struct RecordingLists {
   std::vector<std::filesystem::path> missing;  // pictures that are listed but not there
 };
 
-RecordingLists lists_of(const image::TumDataset& dataset);
+RecordingLists lists_of(const image::Recording& dataset);
 
 }  // namespace rds::doctor

@@ -33,7 +33,7 @@ FrameLook look_at(const image::RgbdFrame& frame, const Pictures& now, const Pict
 
 }  // namespace
 
-RecordingLooks look_at_pictures(const image::TumDataset& dataset, std::size_t every) {
+RecordingLooks look_at_pictures(const image::Recording& dataset, std::size_t every) {
   RecordingLooks looks;
   Pictures before;
   const std::size_t looked_at = (dataset.frames().size() + every - 1) / every;

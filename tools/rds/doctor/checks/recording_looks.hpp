@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 #include "tools/rds/doctor/checks/frame_look.hpp"
 #include "tools/rds/doctor/registration/depth_registration.hpp"
 
@@ -19,6 +19,6 @@ struct RecordingLooks {
 };
 
 /// Decodes every `every`-th frame once and measures it.
-RecordingLooks look_at_pictures(const image::TumDataset& dataset, std::size_t every);
+RecordingLooks look_at_pictures(const image::Recording& dataset, std::size_t every);
 
 }  // namespace rds::doctor

@@ -23,12 +23,12 @@ void check(const tl::expected<void, std::string>& written) {
   if (!written) throw std::runtime_error(written.error());
 }
 
-std::span<const StampedPose> truth_of(const image::TumDataset& dataset) {
+std::span<const StampedPose> truth_of(const image::Recording& dataset) {
   if (!dataset.ground_truth()) return {};
   return *dataset.ground_truth();
 }
 
-std::optional<double> ate_of(const image::TumDataset& dataset, const std::vector<StampedPose>& poses) {
+std::optional<double> ate_of(const image::Recording& dataset, const std::vector<StampedPose>& poses) {
   const auto errors = evaluation::evaluate_trajectory(truth_of(dataset), poses);
   return errors ? std::optional(errors->absolute_m.rmse) : std::nullopt;
 }
@@ -54,7 +54,7 @@ void print_main_figures(const nlohmann::ordered_json& s) {
 
 }  // namespace
 
-void write_all_results(SummaryInput input, const image::TumDataset& dataset,
+void write_all_results(SummaryInput input, const image::Recording& dataset,
                        const std::filesystem::path& folder) {
   write_run_files(input.recording, folder);
   const std::vector<StampedPose> optimized = optimized_trajectory(input.recording);

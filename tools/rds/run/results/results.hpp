@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "common/image/tum_dataset.hpp"
+#include "common/image/recording.hpp"
 #include "tools/rds/run/results/summary.hpp"
 
 namespace rds::run {
@@ -13,7 +13,7 @@ namespace rds::run {
 ///
 /// @param folder  already holds what the mapper saved (map.ot, objects.json, grid.*), if it did.
 /// @throws std::runtime_error naming the file that cannot be written.
-void write_all_results(SummaryInput input, const image::TumDataset& dataset,
+void write_all_results(SummaryInput input, const image::Recording& dataset,
                        const std::filesystem::path& folder);
 
 }  // namespace rds::run

@@ -20,7 +20,7 @@ class DatasetCheckTest : public testing::Test {
   void SetUp() override { test::make_small_dataset(folder.path(), 12); }
   [[nodiscard]] image::TumDataset open() const { return image::TumDataset::open(folder.path()).value(); }
   [[nodiscard]] std::filesystem::path color(std::size_t frame) const {
-    return open().frames().at(frame).color_path;
+    return open().color_list().entries.at(frame).picture;
   }
   [[nodiscard]] Finding finding_about(const std::string& subject) const {
     const auto findings = check_dataset(open(), 1);

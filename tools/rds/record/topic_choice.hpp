@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace rds::record {
+
+/// Which topics a recording is to have.
+class TopicChoice {
+ public:
+  /// The camera's, and tf_static.
+  static TopicChoice camera();
+  /// The camera's and what the services say to others: not what they only tell each other.
+  static TopicChoice camera_and_outputs();
+  static TopicChoice all();
+  /// @param topics  names, with or without a leading slash.
+  static TopicChoice named(const std::vector<std::string>& topics);
+
+  /// @param topic  without a leading slash.
+  [[nodiscard]] bool contains(const std::string& topic) const;
+
+ private:
+  bool all_ = false;
+  std::set<std::string> topics_;
+};
+
+}  // namespace rds::record

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/image/recording.hpp"
+#include "tools/recording/stream.hpp"
+
+namespace rds::recording {
+
+/// An RGB-D camera's topics in a bag, found by their types: colour and depth (Image or CompressedImage), the
+/// CameraInfo beside colour, and, if there is a topic with "ground" and "truth" in its name, the true path
+/// (PoseStamped or Odometry).
+///
+/// Of several topics of one kind those of this project's names are taken, then those that a name marks as
+/// colour or as registered depth, then those with the most pictures.
+class BagRecording final : public image::Recording {
+ public:
+  /// Reads the whole bag once; keeps where the pictures lie.
+  /// @return or one sentence that names the file and what was expected.
+  static tl::expected<std::unique_ptr<BagRecording>, std::string> open(const std::filesystem::path& path);
+
+  /// Which topics are read, and what is wrong with a bag that is torn; for the user, one sentence a line.
+  [[nodiscard]] const std::string& notes() const { return notes_; }
+  [[nodiscard]] const Stream& color_stream() const { return color_; }
+  [[nodiscard]] const Stream& depth_stream() const { return depth_; }
+
+  [[nodiscard]] tl::expected<image::ColorImage, std::string> load_color(std::size_t index) const override;
+  [[nodiscard]] tl::expected<image::DepthImage, std::string> load_depth(std::size_t index) const override;
+
+ private:
+  struct Found;
+  BagRecording(std::filesystem::path path, std::unique_ptr<Bag> bag)
+      : path_(std::move(path)), bag_(std::move(bag)) {}
+  tl::expected<void, std::string> choose(Found found);
+  tl::expected<void, std::string> take_camera(const Found& found);
+  [[nodiscard]] tl::unexpected<std::string> fault(const std::string& text) const;
+  [[nodiscard]] std::string place_of(const Stream& stream, std::size_t index) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<Bag> bag_;
+  Stream color_;
+  Stream depth_;
+  std::string notes_;
+};
+
+}  // namespace rds::recording

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/recording/conversion.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/definitions.hpp"
+#include "common/messages/registry.hpp"
+#include "common/topics/topics.hpp"
+#include "geometry_msgs/msg/PoseStamped.h"
+#include "tools/recording/bag/qos_profiles.hpp"
+#include "tools/recording/camera_messages.hpp"
+
+namespace rds::recording {
+namespace {
+
+using geometry_msgs::msg::PoseStamped;
+using Result = tl::expected<void, std::string>;
+
+/// What an older bag does not say of a type that is ours.
+BagTopic completed(BagTopic topic) {
+  if (!topic.definition.empty()) return topic;
+  for (const auto& type : messages::message_types())
+    if (type.ops->ros_name == topic.type) return topic_of(topic.name, *type.ops, topic.qos);
+  return topic;
+}
+
+/// A camera's topics in a bag that is being written.
+class CameraBag {
+ public:
+  explicit CameraBag(BagWriter& bag) : bag_(bag) {}
+
+  Result add_topics(bool with_truth) {
+    for (const auto& [number, name, type] : topics(with_truth)) {
+      const auto added =
+          bag_.add_topic(topic_of(std::string("/") + name, *type, offered_qos_profile(true, false)));
+      if (!added) return tl::unexpected(added.error());
+      *number = *added;
+    }
+    return {};
+  }
+  Result write_color(const image::ColorImage& color, const geometry::CameraModel& camera,
+                     std::int64_t stamp_ns) {
+    if (auto done = write(camera_info_, camera_info_message(camera, stamp_ns), stamp_ns); !done) return done;
+    return write(color_, color_message(color, stamp_ns), stamp_ns);
+  }
+  Result write_depth(const image::DepthImage& depth, std::int64_t stamp_ns) {
+    return write(depth_, depth_message(depth, stamp_ns), stamp_ns);
+  }
+  Result write_truth(const geometry::StampedPose& pose) {
+    PoseStamped message;
+    message.header(messages::make_header(pose.stamp_ns, "world"));
+    message.pose(messages::to_pose_message(pose.map_from_camera));
+    return write(truth_, message, pose.stamp_ns);
+  }
+  [[nodiscard]] std::uint64_t written() const { return written_; }
+
+ private:
+  using NewTopic = std::tuple<std::size_t*, const char*, const bus::TypeOps*>;
+  std::vector<NewTopic> topics(bool with_truth) {
+    const auto& image = bus::type_ops<sensor_msgs::msg::Image>();
+    std::vector<NewTopic> topics{
+        {&color_, topics::kColor.name, &image},
+        {&camera_info_, topics::kCameraInfo.name, &bus::type_ops<sensor_msgs::msg::CameraInfo>()},
+        {&depth_, topics::kDepth.name, &image}};
+    if (with_truth) topics.emplace_back(&truth_, "groundtruth", &bus::type_ops<PoseStamped>());
+    return topics;
+  }
+  template <class Message>
+  Result write(std::size_t topic, const Message& message, std::int64_t stamp_ns) {
+    const auto& type = bus::type_ops<Message>();
+    Bytes bytes(type.encoded_size(&message));
+    bytes.resize(type.encode(&message, bytes.data(), bytes.size()));
+    ++written_;
+    return bag_.write(topic, {stamp_ns, stamp_ns, bytes});
+  }
+
+  BagWriter& bag_;
+  std::size_t color_ = 0;
+  std::size_t camera_info_ = 0;
+  std::size_t depth_ = 0;
+  std::size_t truth_ = 0;
+  std::uint64_t written_ = 0;
+};
+
+enum class Kind { kTruth, kColor, kDepth };
+
+/// Everything of a recording by stamp: (stamp, what, index).
+std::vector<std::tuple<std::int64_t, Kind, std::size_t>> in_order_of_time(const image::Recording& recording) {
+  std::vector<std::tuple<std::int64_t, Kind, std::size_t>> all;
+  for (const auto& frame : recording.frames()) all.emplace_back(frame.stamp_ns, Kind::kColor, frame.index);
+  for (std::size_t i = 0; i < recording.depth_stamps().size(); ++i)
+    all.emplace_back(recording.depth_stamps()[i], Kind::kDepth, i);
+  if (recording.ground_truth())
+    for (std::size_t i = 0; i < recording.ground_truth()->size(); ++i)
+      all.emplace_back((*recording.ground_truth())[i].stamp_ns, Kind::kTruth, i);
+  std::ranges::sort(all);
+  return all;
+}
+
+}  // namespace
+
+BagTopic topic_of(const std::string& name, const bus::TypeOps& type, const std::string& qos) {
+  return {.name = name,
+          .type = type.ros_name,
+          .qos = qos,
+          .type_hash = type.type_hash,
+          .definition_encoding = "ros2msg",
+          .definition = std::string(messages::definition_of(type.ros_name))};
+}
+
+tl::expected<Converted, std::string> copy_bag(Bag& from, BagWriter& to) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> numbers;  // by name, type, QoS
+  Result result;
+  const auto scan = from.scan([&](const BagTopic& topic, const BagMessage& message, const BagPlace&) {
+    if (!result) return;
+    const auto [number, is_new] = numbers.try_emplace({topic.name, topic.type, topic.qos});
+    if (is_new) {
+      const auto added = to.add_topic(completed(topic));
+      if (!added) result = tl::unexpected(added.error());
+      if (added) number->second = *added;
+    }
+    if (result) result = to.write(number->second, message);
+  });
+  if (!scan) return tl::unexpected(scan.error());
+  if (result) result = to.finish();
+  if (!result) return tl::unexpected(result.error());
+  return Converted{scan->messages, 0, scan->fault};
+}
+
+tl::expected<Converted, std::string> write_bag(const image::Recording& recording, BagWriter& to) {
+  CameraBag bag(to);
+  Converted converted;
+  const auto note_unreadable = [&](const std::string& sentence) {
+    if (converted.unreadable++ == 0) converted.fault = sentence;
+    return Result();
+  };
+  const auto write_one = [&](Kind kind, std::int64_t stamp_ns, std::size_t index) -> Result {
+    if (kind == Kind::kTruth) return bag.write_truth((*recording.ground_truth())[index]);
+    if (kind == Kind::kColor) {
+      const auto color = recording.load_color(index);
+      return color ? bag.write_color(*color, recording.camera(), stamp_ns) : note_unreadable(color.error());
+    }
+    const auto depth = recording.load_depth(index);
+    return depth ? bag.write_depth(*depth, stamp_ns) : note_unreadable(depth.error());
+  };
+  Result result = bag.add_topics(recording.ground_truth().has_value());
+  for (const auto& [stamp_ns, kind, index] : in_order_of_time(recording))
+    if (result) result = write_one(kind, stamp_ns, index);
+  if (result) result = to.finish();
+  if (!result) return tl::unexpected(result.error());
+  converted.items = bag.written();
+  return converted;
+}
+
+}  // namespace rds::recording

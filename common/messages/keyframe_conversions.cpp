@@ -24,6 +24,18 @@ std::shared_ptr<const Member> part_of(const std::shared_ptr<const Message>& mess
   return {message, &member};
 }
 
+/// What is wrong with an array of `count` poses.
+std::string fault_of_poses(const std::vector<double>& poses, std::size_t count) {
+  if (poses.size() != kPoseNumbers * count) return "arrays of lengths that do not fit";
+  if (!std::ranges::all_of(poses, [](double x) { return std::abs(x) < kFarthest_m; }))
+    return "a pose that is not finite, or not on this planet";
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto* q = &poses[kPoseNumbers * i + 3];
+        std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) > 0.01)
+      return "a quaternion that is no rotation";
+  return {};
+}
+
 }  // namespace
 
 tl::expected<image::RgbdFrame, std::string> to_rgbd_frame(
@@ -55,7 +67,7 @@ geometry::Pose pose_at(const std::vector<double>& flat, std::size_t i) {
 
 std::string fault_of(const rds_msgs::msg::KeyFramePoses& message) {
   const std::size_t count = message.keyframe_ids().size();
-  if (message.stamps().size() != count || message.poses().size() != kPoseNumbers * count)
+  if (message.stamps().size() != count || message.loops().size() % 2 != 0)
     return "arrays of lengths that do not fit";
   if (std::ranges::adjacent_find(message.keyframe_ids(), std::ranges::greater_equal{}) !=
       message.keyframe_ids().end())
@@ -63,13 +75,8 @@ std::string fault_of(const rds_msgs::msg::KeyFramePoses& message) {
   if (!std::ranges::all_of(message.stamps(),
                            [](std::int64_t ns) { return std::abs(ns / kNsPerSecond) < kMaxSeconds; }))
     return "a stamp that no message can have";
-  if (!std::ranges::all_of(message.poses(), [](double x) { return std::abs(x) < kFarthest_m; }))
-    return "a pose that is not finite, or not on this planet";
-  for (std::size_t i = 0; i < count; ++i)
-    if (const auto* q = &message.poses()[kPoseNumbers * i + 3];
-        std::abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) > 0.01)
-      return "a quaternion that is no rotation";
-  return {};
+  const std::string fault = fault_of_poses(message.poses(), count);
+  return fault.empty() ? fault_of_poses(message.loop_poses(), message.loops().size() / 2) : fault;
 }
 
 void append_poses(std::span<const geometry::KeyframePose> poses, rds_msgs::msg::KeyFramePoses& message) {
@@ -78,6 +85,20 @@ void append_poses(std::span<const geometry::KeyframePose> poses, rds_msgs::msg::
     message.stamps().push_back(pose.stamp_ns);
     append_pose(pose.map_from_camera, message.poses());
   }
+}
+
+void append_loops(std::span<const geometry::LoopMatch> loops, rds_msgs::msg::KeyFramePoses& message) {
+  for (const geometry::LoopMatch& loop : loops) {
+    message.loops().insert(message.loops().end(), {loop.later, loop.earlier});
+    append_pose(loop.earlier_from_later, message.loop_poses());
+  }
+}
+
+std::vector<geometry::LoopMatch> to_loops(const rds_msgs::msg::KeyFramePoses& message) {
+  std::vector<geometry::LoopMatch> loops;
+  for (std::size_t i = 0; 2 * i < message.loops().size(); ++i)
+    loops.push_back({message.loops()[2 * i], message.loops()[2 * i + 1], pose_at(message.loop_poses(), i)});
+  return loops;
 }
 
 tl::expected<std::vector<geometry::KeyframePose>, std::string> to_keyframe_poses(

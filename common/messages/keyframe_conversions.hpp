@@ -33,9 +33,12 @@ geometry::Pose pose_at(const std::vector<double>& flat, std::size_t i);
 std::string fault_of(const rds_msgs::msg::KeyFramePoses& message);
 
 void append_poses(std::span<const geometry::KeyframePose> poses, rds_msgs::msg::KeyFramePoses& message);
+void append_loops(std::span<const geometry::LoopMatch> loops, rds_msgs::msg::KeyFramePoses& message);
 
 /// The poses of a message. @return or fault_of().
 tl::expected<std::vector<geometry::KeyframePose>, std::string> to_keyframe_poses(
     const rds_msgs::msg::KeyFramePoses& message);
+/// The matches of a message that has no fault_of().
+std::vector<geometry::LoopMatch> to_loops(const rds_msgs::msg::KeyFramePoses& message);
 
 }  // namespace rds::messages

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rds::messages {
 namespace {
@@ -19,23 +20,6 @@ bool is_nearly(const KeyframePose& a, const KeyframePose& b) {
   const Eigen::Matrix4d change = a.map_from_camera.matrix() - b.map_from_camera.matrix();
   return a.stamp_ns == b.stamp_ns && change.topRightCorner<3, 1>().norm() <= kMoved_m &&
          change.topLeftCorner<3, 3>().norm() <= std::sqrt(2.0) * kTurned_rad;
-}
-
-/// Poses that are not in `told`, or are there with another value; both by id. `told` is what it is after
-/// them.
-std::vector<KeyframePose> changes_of(std::span<const KeyframePose> poses, std::vector<KeyframePose>& told) {
-  std::vector<KeyframePose> changed;
-  std::vector<KeyframePose> told_now(poses.begin(), poses.end());
-  auto before = told.begin();
-  for (KeyframePose& pose : told_now) {
-    while (before != told.end() && before->id < pose.id) ++before;
-    if (before != told.end() && before->id == pose.id && is_nearly(*before, pose))
-      pose = *before;
-    else
-      changed.push_back(pose);
-  }
-  told = std::move(told_now);
-  return changed;
 }
 
 }  // namespace
@@ -64,15 +48,30 @@ std::vector<KeyframePose> KeyframePoseTable::poses() const {
   return poses;
 }
 
+std::vector<KeyframePose> MovedKeyframes::next(std::span<const KeyframePose> poses) {
+  std::vector<KeyframePose> moved;
+  std::vector<KeyframePose> told_now(poses.begin(), poses.end());
+  auto before = told_.begin();
+  for (KeyframePose& pose : told_now) {
+    while (before != told_.end() && before->id < pose.id) ++before;
+    if (before != told_.end() && before->id == pose.id && is_nearly(*before, pose))
+      pose = *before;
+    else
+      moved.push_back(pose);
+  }
+  told_ = std::move(told_now);
+  return moved;
+}
+
 std::vector<KeyframePose> KeyframePoseChanges::next(std::span<const KeyframePose> poses, bool all,
                                                     rds_msgs::msg::KeyFramePoses& message) {
   all = all || revision_ == 0 || since_all_ >= std::max(kMinChanges, poses.size() / kPosesPerChange);
   message.base_revision(all ? 0 : revision_);
   message.revision(++revision_);
   since_all_ = all ? 0 : since_all_ + 1;
-  if (!all) return changes_of(poses, told_);
-  told_.assign(poses.begin(), poses.end());
-  return told_;
+  if (!all) return moved_.next(poses);
+  moved_.tell_all(poses);
+  return {poses.begin(), poses.end()};
 }
 
 }  // namespace rds::messages

@@ -30,11 +30,24 @@ class KeyframePoseTable {
   std::uint64_t revision_ = 0;  // 0: nothing is known
 };
 
+/// Which keyframes are new or have moved since the last call, by more than bundle adjustment moves everything
+/// all the time: 1 mm or 0.02°.
+class MovedKeyframes {
+ public:
+  /// @param poses  all, by id.
+  std::vector<geometry::KeyframePose> next(std::span<const geometry::KeyframePose> poses);
+  /// All are taken as told.
+  void tell_all(std::span<const geometry::KeyframePose> poses) { told_.assign(poses.begin(), poses.end()); }
+  void clear() { told_.clear(); }
+
+ private:
+  std::vector<geometry::KeyframePose> told_;
+};
+
 /// The writer's side: which poses a message has to carry.
 ///
 /// All of them first, when that is asked for, and after so many messages that what they add to each one stays
-/// the same however many keyframes there are; else those that are new or have moved, by more than bundle
-/// adjustment moves everything all the time: 1 mm or 0.02°.
+/// the same however many keyframes there are; else MovedKeyframes.
 class KeyframePoseChanges {
  public:
   /// @param poses  all, by id. @param all  somebody has joined, or needs the exact poses.
@@ -47,7 +60,7 @@ class KeyframePoseChanges {
   void clear() { *this = {}; }
 
  private:
-  std::vector<geometry::KeyframePose> told_;
+  MovedKeyframes moved_;
   std::uint64_t revision_ = 0;
   std::size_t since_all_ = 0;  // messages
 };

@@ -109,12 +109,15 @@ void LoopCloserService::take(const Features& features) {
                                        "another tracker");
   if (!is_confirmed(features)) return;
   if (is_known(features) && features->keyframe_id() < checkpoints_.restored()->id) return;
-  if (paused_ || is_known(features)) return answers_.answer(features, {});  // the last one's may be waited for
+  if (paused_ || is_known(features))
+    return answers_.answer(features, {});  // the last one's may be waited for
   const auto started = std::chrono::steady_clock::now();
   auto keyframe = to_keyframe_features(*features);
   if (!keyframe)
     return context_.diagnostics.reject(topics::kKeyframeFeatures.name, service::Rejection::kInvalid,
                                        keyframe.error());
+  keyframe->follows = loop_closer_.revision() == 0 || (features->loop_instance() == context_.instance &&
+                                                       features->loop_revision() == loop_closer_.revision());
   const LoopAnswer found = loop_closer_.add(*keyframe);
   if (found.refused.empty()) checkpoints_.add(*keyframe);
   keyframes_ = loop_closer_.keyframes();

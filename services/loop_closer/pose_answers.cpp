@@ -23,6 +23,7 @@ void PoseAnswers::answer(const Features& features, const LoopAnswer& found) {
   if (!found.poses.empty()) {
     corrected_ = {};
     messages::append_poses(found.poses, corrected_);
+    messages::append_loops(found.loops, corrected_);
     corrected_.revision(found.revision);
     corrected_.loop_revision(found.revision);
     corrected_.loops_closed(found.loops_closed);
@@ -31,6 +32,8 @@ void PoseAnswers::answer(const Features& features, const LoopAnswer& found) {
     corrected_.keyframe_ids().clear();
     corrected_.stamps().clear();
     corrected_.poses().clear();
+    corrected_.loops().clear();
+    corrected_.loop_poses().clear();
   }
   corrected_.map_epoch(features->map_epoch());
   auto message = answer_to(features);
@@ -40,6 +43,8 @@ void PoseAnswers::answer(const Features& features, const LoopAnswer& found) {
   message.keyframe_ids(corrected_.keyframe_ids());
   message.stamps(corrected_.stamps());
   message.poses(corrected_.poses());
+  message.loops(corrected_.loops());
+  message.loop_poses(corrected_.loop_poses());
   poses_.write(message);
 }
 

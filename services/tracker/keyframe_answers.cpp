@@ -22,10 +22,13 @@ KeyframeAnswers::KeyframeAnswers(service::ServiceContext& context, concurrency::
       boxes_inbox_(mailbox, kMaxAnswers),
       poses_inbox_(mailbox, kMaxAnswers),
       mapping_inbox_(mailbox, 2),
-      mapping_worker_(mapping_nice, mapping_inbox_) {}
+      adjustment_inbox_(mailbox, 1),
+      mapping_worker_(mapping_nice, mapping_inbox_),
+      adjustment_worker_(adjustment_inbox_) {}
 
 bool KeyframeAnswers::locked_ready() const {
-  return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty();
+  return !boxes_inbox_.locked_empty() || !poses_inbox_.locked_empty() || !mapping_inbox_.locked_empty() ||
+         !adjustment_inbox_.locked_empty();
 }
 
 void KeyframeAnswers::sort_in(std::uint64_t map_epoch) {
@@ -48,6 +51,10 @@ void KeyframeAnswers::sort_in(std::uint64_t map_epoch) {
     const std::uint64_t keyframe = result->keyframe;
     mappings_.arrive(keyframe, std::move(*result));
   }
+  while (auto result = adjustment_inbox_.try_pop()) {
+    const std::uint64_t revision = result->revision;
+    adjustments_.arrive(revision, std::move(*result));
+  }
 }
 
 void KeyframeAnswers::ask_for_boxes(std::int64_t stamp_ns, const KeyframeSnapshot& snapshot,
@@ -66,6 +73,12 @@ void KeyframeAnswers::ask_for_mapping(LocalMappingJob job, std::uint64_t frame) 
   mapping_worker_.start(std::move(job));
 }
 
+void KeyframeAnswers::ask_for_adjustment(LocalMappingJob job, std::uint64_t frame) {
+  adjustments_.clear();
+  adjustments_.ask(job.revision, frame + kAdjustmentAfter);
+  adjustment_worker_.start(std::move(job));
+}
+
 void KeyframeAnswers::await(std::uint64_t frame, std::uint64_t map_epoch, const std::stop_token& stop,
                             const std::function<void()>& beat) {
   using Clock = std::chrono::steady_clock;
@@ -74,7 +87,9 @@ void KeyframeAnswers::await(std::uint64_t frame, std::uint64_t map_epoch, const 
   while (!stop.stop_requested()) {
     beat();
     sort_in(map_epoch);
-    if (boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame)) return;
+    if (boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame) &&
+        adjustments_.complete(frame))
+      return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) break;
     mailbox_.wait_for(stop, left, [this] { return locked_ready(); });
@@ -84,7 +99,7 @@ void KeyframeAnswers::await(std::uint64_t frame, std::uint64_t map_epoch, const 
 }
 
 bool KeyframeAnswers::empty() const {
-  return boxes_.empty() && poses_.empty() && mappings_.empty();
+  return boxes_.empty() && poses_.empty() && mappings_.empty() && adjustments_.empty();
 }
 
 std::optional<KeyframeSnapshot> KeyframeAnswers::take_snapshot(std::int64_t stamp_ns) {
@@ -101,6 +116,8 @@ void KeyframeAnswers::clear() {
   forget_boxes();
   poses_.clear();
   mappings_.clear();
+  adjustments_.clear();
+  adjustment_worker_.stop();
 }
 
 }  // namespace rds::tracker

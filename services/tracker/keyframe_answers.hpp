@@ -30,8 +30,9 @@ struct KeyframeSnapshot {
 };
 
 /// What others answer to a keyframe: the transformer its boxes, the loop closer corrected poses, local
-/// mapping its result. They take effect as soon as they are here; in lockstep at the frame agreed on when
-/// they were asked for. push() is for any thread, all else for the worker.
+/// mapping its result, and after a loop the adjustment of the whole map. They take effect as soon as they are
+/// here; in lockstep at the frame agreed on when they were asked for. push() is for any thread, all else for
+/// the worker.
 class KeyframeAnswers {
  public:
   using Boxes = std::shared_ptr<const vision_msgs::msg::Detection3DArray>;
@@ -40,6 +41,8 @@ class KeyframeAnswers {
   /// In lockstep a keyframe's answers take effect so many frames after its own.
   static constexpr std::uint64_t kMappingAfter = 3;
   static constexpr std::uint64_t kPosesAfter = 10;
+  /// … and the adjustment of the map so many frames after its loop took effect.
+  static constexpr std::uint64_t kAdjustmentAfter = 30;
 
   /// @param mailbox       that the worker waits on.
   /// @param mapping_nice  by how much local mapping's thread gives way to others.
@@ -56,6 +59,8 @@ class KeyframeAnswers {
   void ask_for_boxes(std::int64_t stamp_ns, const KeyframeSnapshot& snapshot, std::uint64_t frame);
   void ask_for_poses(std::uint64_t keyframe, std::uint64_t frame);
   void ask_for_mapping(LocalMappingJob job, std::uint64_t frame);
+  /// An adjustment that runs is stopped and counts no more.
+  void ask_for_adjustment(LocalMappingJob job, std::uint64_t frame);
 
   /// In lockstep: waits until all that takes effect at this frame is here, as long as the settings allow.
   /// @param beat  called now and then meanwhile.
@@ -67,6 +72,7 @@ class KeyframeAnswers {
 
   /// What takes effect at this frame.
   std::vector<LocalMappingResult> take_mappings(std::uint64_t frame) { return take(mappings_, frame); }
+  std::vector<LocalMappingResult> take_adjustments(std::uint64_t frame) { return take(adjustments_, frame); }
   std::vector<Poses> take_poses(std::uint64_t frame) { return take(poses_, frame); }
   std::vector<Boxes> take_boxes(std::uint64_t frame) { return take(boxes_, frame); }
   /// Of the keyframe with this stamp, once; nullopt if it is not known.
@@ -88,11 +94,14 @@ class KeyframeAnswers {
   concurrency::Inbox<Boxes> boxes_inbox_;
   concurrency::Inbox<Poses> poses_inbox_;
   concurrency::Inbox<LocalMappingResult> mapping_inbox_;
+  concurrency::Inbox<LocalMappingResult> adjustment_inbox_;
   DelayedValues<Boxes> boxes_;                          // by keyframe stamp
   DelayedValues<Poses> poses_;                          // by keyframe id
   DelayedValues<LocalMappingResult> mappings_;          // by keyframe id; at most one
+  DelayedValues<LocalMappingResult> adjustments_;       // by revision of the map; at most one
   std::map<std::int64_t, KeyframeSnapshot> snapshots_;  // by stamp, of keyframes whose boxes have not come
-  MappingWorker mapping_worker_;                        // last: it fills mapping_inbox_
+  MappingWorker mapping_worker_;                        // last, with the next: they fill the inboxes
+  AdjustmentWorker adjustment_worker_;
 };
 
 }  // namespace rds::tracker

@@ -45,6 +45,17 @@ void fill(rds_msgs::msg::KeyFrameFeatures& message, const KeyframeData& keyframe
   }
 }
 
+/// Behind those that share points: the loop closer goes on from where the tracker has them by now.
+void append_moved(rds_msgs::msg::KeyFrameFeatures& message, std::span<const KeyframePose> moved) {
+  const std::vector<std::uint64_t> told = message.covisible_keyframes();
+  for (const KeyframePose& pose : moved) {
+    if (pose.id == message.keyframe_id() || std::ranges::find(told, pose.id) != told.end()) continue;
+    message.covisible_keyframes().push_back(pose.id);
+    message.covisible_weights().push_back(0);
+    messages::append_pose(pose.map_from_camera, message.covisible_poses());
+  }
+}
+
 void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
   flat.insert(flat.end(), v.data(), v.data() + 3);
 }
@@ -66,6 +77,7 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t m
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   pose_changes_.clear();
+  moved_.clear();
   odometry_.reset();
   sharing_.begin(map_epoch);
 }
@@ -140,6 +152,9 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   if (!keyframe.in_map) return;
   auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, kCamera);
   fill(features, keyframe);
+  append_moved(features, moved_.next(report.keyframe_poses));
+  features.loop_instance(report.loops.instance);
+  features.loop_revision(report.loops.revision);
   keyframe_features_.write(features);
   sharing_.share(std::move(features));
 }

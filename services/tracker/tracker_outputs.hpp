@@ -22,6 +22,13 @@
 
 namespace rds::tracker {
 
+/// The loop closer's corrections that the map contains.
+struct LoopState {
+  std::uint64_t instance = 0;  // of the loop closer; 0: none yet
+  std::uint64_t revision = 0;  // counted by that instance
+  std::uint32_t loops_closed = 0;
+};
+
 /// What is published about one frame.
 struct FrameReport {
   const image::RgbdFrame& frame;
@@ -32,13 +39,8 @@ struct FrameReport {
   std::int64_t started_us = 0;  // when the frame was taken [time::now_us()]
   std::uint64_t frames_dropped = 0;
   std::uint64_t box_sets_used = 0;
-};
-
-/// The loop closer's corrections that the map contains.
-struct LoopState {
-  std::uint64_t instance = 0;  // of the loop closer; 0: none yet
-  std::uint64_t revision = 0;  // counted by that instance
-  std::uint32_t loops_closed = 0;
+  LoopState loops = {};
+  std::span<const KeyframePose> keyframe_poses = {};  // all, if the frame is a keyframe
 };
 
 /// All topics that the tracker writes.
@@ -72,7 +74,8 @@ class TrackerOutputs {
   std::uint64_t instance_;
   std::uint64_t map_epoch_;
   messages::KeyframePoseChanges pose_changes_;
-  int informed_readers_ = 0;  // subscribers that have got all poses
+  messages::MovedKeyframes moved_;  // since the loop closer was told of a keyframe
+  int informed_readers_ = 0;        // subscribers that have got all poses
   OdometryOutput odometry_;
   bus::Publisher<rds_msgs::msg::TrackingState> state_;
   bus::Publisher<rds_msgs::msg::PredictedBoxes> boxes_;

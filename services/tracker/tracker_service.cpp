@@ -114,10 +114,11 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
-  outputs_.publish(
-      {frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(), objects_.observed()});
+  const auto poses = result.keyframe ? tracker_.keyframe_poses() : std::vector<KeyframePose>{};
+  outputs_.publish({frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(),
+                    objects_.observed(), epoch_.loops(), poses});
   if (result.keyframe) {
-    publish_poses();
+    outputs_.publish_poses(poses, epoch_.loops());
     epoch_.note_keyframe();
   }
   start_mapping();
@@ -130,13 +131,16 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes().size() > 0) result.state = State::kLost;
-  outputs_.publish({frame, result, {}, frame_index_, 0, time::now_us(), input_.dropped(), objects_.observed()});
+  outputs_.publish(
+      {frame, result, {}, frame_index_, 0, time::now_us(), input_.dropped(), objects_.observed()});
   ++frame_index_;
 }
 
 void TrackerService::apply_answers() {
   for (const LocalMappingResult& result : answers_.take_mappings(frame_index_))
     guarded("local mapping", [&] { apply(result); });
+  for (const LocalMappingResult& result : answers_.take_adjustments(frame_index_))
+    guarded("adjustment", [&] { apply_adjustment(result); });
   for (const PosesMessage& poses : answers_.take_poses(frame_index_))
     guarded(topics::kKeyframePoses.name, [&] { apply(poses); });
   for (const BoxesMessage& boxes : answers_.take_boxes(frame_index_))
@@ -162,14 +166,32 @@ void TrackerService::apply(const PosesMessage& poses) {
   if (!correction)
     return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
                                        correction.error());
+  if (refused_loop_ == std::pair(poses->instance(), poses->revision())) return;
   const geometry::Pose before = tracker_.last_map_from_camera();
-  tracker_.correct(*correction);
-  const geometry::Pose corrected_from_map = tracker_.last_map_from_camera() * before.inverse();
-  outputs_.odometry().move_map(corrected_from_map);
-  objects_.move_map(corrected_from_map);
+  if (!tracker_.correct(*correction, messages::to_loops(*poses))) {
+    refused_loop_ = {poses->instance(), poses->revision()};
+    ++context_.diagnostics.counter("loops refused");
+    return spdlog::warn("loop {} is not confirmed by the map's points", poses->loops_closed());
+  }
+  move_map(before);
   epoch_.set_loops({poses->instance(), poses->revision(), poses->loops_closed()});
   spdlog::info("loop {} closed, keyframe poses corrected", poses->loops_closed());
   publish_poses();
+}
+
+void TrackerService::apply_adjustment(const LocalMappingResult& result) {
+  const geometry::Pose before = tracker_.last_map_from_camera();
+  if (!tracker_.apply_adjustment(result)) return;
+  move_map(before);
+  spdlog::info("{} keyframes and {} points adjusted", result.keyframes.size(), result.points.size());
+  publish_poses();
+}
+
+/// What is kept in the map's frame moves with the camera. @param last_before  its last pose before it moved.
+void TrackerService::move_map(const geometry::Pose& last_before) {
+  const geometry::Pose corrected_from_map = tracker_.last_map_from_camera() * last_before.inverse();
+  outputs_.odometry().move_map(corrected_from_map);
+  objects_.move_map(corrected_from_map);
 }
 
 void TrackerService::apply(const BoxesMessage& boxes) {
@@ -196,6 +218,7 @@ void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometr
 }
 
 void TrackerService::start_mapping() {
+  if (auto job = tracker_.take_adjustment_job()) answers_.ask_for_adjustment(std::move(*job), frame_index_);
   if (answers_.is_mapping()) return;
   auto job = tracker_.take_mapping_job();
   if (job) answers_.ask_for_mapping(std::move(*job), frame_index_);

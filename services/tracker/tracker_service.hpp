@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "common/map_commands/map_commands.hpp"
@@ -42,6 +43,8 @@ class TrackerService : public service::Service {
   void apply(const BoxesMessage& boxes);
   void apply(const PosesMessage& poses);
   void apply(const LocalMappingResult& result);
+  void apply_adjustment(const LocalMappingResult& result);
+  void move_map(const geometry::Pose& last_before);
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
   void publish_poses();
@@ -58,6 +61,7 @@ class TrackerService : public service::Service {
   FrameInput input_;
   KeyframeAnswers answers_;
   std::uint64_t frame_index_ = 0;
+  std::pair<std::uint64_t, std::uint64_t> refused_loop_;  // instance and revision of the newest one
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above

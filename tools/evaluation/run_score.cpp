@@ -10,6 +10,7 @@
 #include "common/image/tum_list.hpp"
 #include "tools/evaluation/box_score.hpp"
 #include "tools/evaluation/frame_times.hpp"
+#include "tools/evaluation/loops/loop_score.hpp"
 #include "tools/evaluation/map_score.hpp"
 #include "tools/evaluation/statistics.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
@@ -38,6 +39,18 @@ Result add_trajectories(const RunScoreInput& input, Figures& figures) {
           fmt::format("{}: expected at least 3 poses that match groundtruth.txt in time", path.string()));
     figures[fmt::format("ate_{}", name)] = errors->absolute_m.rmse;
   }
+  return {};
+}
+
+Result add_loops(const RunScoreInput& input, Figures& figures) {
+  const auto file = input.out / "loops.jsonl";
+  if (!std::filesystem::exists(file)) return {};
+  const auto truth = geometry::read_trajectory(input.dataset / "groundtruth.txt");
+  if (!truth) return tl::unexpected(truth.error());
+  const auto score = score_loops(file, *truth);
+  if (!score) return tl::unexpected(score.error());
+  figures["loops_true"] = score->right;
+  figures["loops_false"] = score->wrong;
   return {};
 }
 
@@ -100,7 +113,7 @@ tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
     return tl::unexpected(
         fmt::format("{}: no such folder, expected what `rds run --out` wrote", input.out.string()));
   Figures figures = Figures::object();
-  for (const auto add : {add_trajectories, add_times, add_boxes, add_map})
+  for (const auto add : {add_trajectories, add_loops, add_times, add_boxes, add_map})
     if (const auto added = add(input, figures); !added) return tl::unexpected(added.error());
   if (figures.empty())
     return tl::unexpected(

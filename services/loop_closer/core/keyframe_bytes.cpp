@@ -35,6 +35,7 @@ map_file::Bytes to_bytes(const KeyframeFeatures& keyframe) {
   writer.put(keyframe.id);
   writer.put(keyframe.stamp_ns);
   map_file::put(writer, keyframe.map_from_camera);
+  writer.put(static_cast<std::uint8_t>(keyframe.follows));
   writer.put_count(keyframe.points.size());
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     writer.put_bytes({keyframe.descriptors.ptr<std::uint8_t>(static_cast<int>(i)), kDescriptorBytes});
@@ -58,6 +59,7 @@ tl::expected<KeyframeFeatures, std::string> keyframe_from_bytes(std::span<const 
   keyframe.id = reader.get<std::uint64_t>();
   keyframe.stamp_ns = reader.get<std::int64_t>();
   keyframe.map_from_camera = map_file::get_pose(reader);
+  keyframe.follows = reader.get<std::uint8_t>() != 0;
   const std::size_t features = reader.get_count(kFeatureBytes);
   keyframe.descriptors.create(static_cast<int>(features), kDescriptorBytes, CV_8U);
   keyframe.points.resize(features);

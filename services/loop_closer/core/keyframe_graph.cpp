@@ -9,7 +9,8 @@ namespace {
 
 using geometry::Pose;
 
-constexpr std::size_t kRecent = 10;  // newest keyframes whose poses follow the tracker between two corrections
+constexpr std::size_t kRecent =
+    10;  // newest keyframes whose poses follow the tracker between two corrections
 constexpr int kMaxCovisibleEdges = 5;           // per keyframe
 constexpr std::uint32_t kMinSharedPoints = 50;  // of a covisibility edge
 constexpr double kMaxLoopResidualM = 0.10;      // a loop edge that stays worse after optimisation was wrong
@@ -31,7 +32,7 @@ void KeyframeGraph::hold(std::span<const KeyframePose> poses) {
   held_ = keyframes_.size();
 }
 
-void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> covisible) {
+void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> covisible, bool follows) {
   const std::size_t newest = keyframes_.size();
   index_of_id_[pose.id] = newest;
   const Pose from_previous =
@@ -43,6 +44,7 @@ void KeyframeGraph::add(const KeyframePose& pose, std::span<const Covisible> cov
     if (const auto index = find(other.id)) snapshot[*index] = other.map_from_camera;
   snapshot[newest] = pose.map_from_camera;
   add_edges(newest, covisible);
+  if (follows) follow(snapshot);
   take(snapshot);
 }
 
@@ -67,6 +69,15 @@ void KeyframeGraph::add_edges(std::size_t newest, std::span<const Covisible> cov
     if (added++ == kMaxCovisibleEdges) break;
     edges_.push_back({*index, newest, other.map_from_camera.inverse() * pose, EdgeKind::kCovisible});
   }
+}
+
+/// The tracker has joined what the loops said: from here on its poses are the better measurement of them.
+void KeyframeGraph::follow(const Snapshot& snapshot) {
+  for (PoseGraphEdge& edge : edges_)
+    if (edge.kind == EdgeKind::kLoop && snapshot.contains(edge.from) && snapshot.contains(edge.to))
+      edge.kind = EdgeKind::kCovisible;
+  for (const auto& [index, pose] : snapshot)
+    if (index >= held_) corrected_[index] = pose;
 }
 
 void KeyframeGraph::take(const Snapshot& snapshot) {
@@ -96,14 +107,18 @@ bool KeyframeGraph::close(std::span<const PoseGraphEdge> loops) {
   if (!optimize_pose_graph(optimized, edges, std::max<std::size_t>(1, held_))) return false;
   const bool satisfied = std::all_of(loops.begin(), loops.end(), [&](const PoseGraphEdge& loop) {
     const EdgeResidual residual = residual_of(loop, optimized);
-    return residual.translation_m <= kMaxLoopResidualM &&
-           residual.rotation_rad <= kMaxLoopResidualRad;
+    return residual.translation_m <= kMaxLoopResidualM && residual.rotation_rad <= kMaxLoopResidualRad;
   });
   if (!satisfied) return false;
   corrected_ = std::move(optimized);
   edges_ = std::move(edges);
   is_corrected_ = true;
   return true;
+}
+
+void KeyframeGraph::take_back() {
+  std::erase_if(edges_, [](const PoseGraphEdge& edge) { return edge.kind == EdgeKind::kLoop; });
+  for (std::size_t i = held_; i < keyframes_.size(); ++i) corrected_[i] = keyframes_[i].map_from_camera;
 }
 
 std::vector<KeyframePose> KeyframeGraph::poses() const {

@@ -20,6 +20,8 @@ constexpr double kMinScore = 0.02;         // of the place index; another room r
 constexpr std::size_t kMaxCandidates = 2;  // verified per keyframe
 constexpr std::size_t kMinSeparation = 5;  // keyframes between two candidates: different views
 
+constexpr std::size_t kPatience = 20;  // keyframes until a tracker has followed a loop, if it does
+
 // Drift that is believable after `path` metres of travel: kMaxDriftFloorM + kMaxDriftShare · path, and
 // kMaxDriftRad. Many times what the tracker's drift is; two rooms that look alike are farther apart.
 constexpr double kMaxDriftShare = 0.3;
@@ -85,10 +87,13 @@ LoopAnswer LoopCloser::add(const KeyframeFeatures& features) {
     if (map_epoch_ && map_epoch_ != features.map_epoch) reset();
     map_epoch_ = features.map_epoch;
     const std::size_t query = graph_.size();
-    graph_.add({features.id, features.stamp_ns, features.map_from_camera}, features.covisible);
+    graph_.add({features.id, features.stamp_ns, features.map_from_camera}, features.covisible,
+               follows(query, features));
     views_.push_back(view_of(features, config_.max_features, config_.max_depth_m));
-    if (close_loop(query, features)) {
+    answer.loops = close_loop(query, features);
+    if (!answer.loops.empty()) {
       ++revision_;
+      unconfirmed_since_ = query;
       answer.poses = graph_.poses();
     }
     index_.add(features.id, views_[query].descriptors);
@@ -98,6 +103,16 @@ LoopAnswer LoopCloser::add(const KeyframeFeatures& features) {
   return answer;
 }
 
+/// Whether the tracker's poses are as the graph has them. One that has not followed a correction for long has
+/// refused it.
+bool LoopCloser::follows(std::size_t query, const KeyframeFeatures& features) {
+  if (!unconfirmed_since_) return true;
+  const bool is_refused = !features.follows && *unconfirmed_since_ + kPatience < query;
+  if (is_refused) graph_.take_back();
+  if (is_refused || features.follows) unconfirmed_since_.reset();
+  return !unconfirmed_since_;
+}
+
 std::vector<std::size_t> LoopCloser::candidates_for(std::size_t query,
                                                     const KeyframeFeatures& features) const {
   std::vector<std::size_t> chosen;
@@ -105,7 +120,7 @@ std::vector<std::size_t> LoopCloser::candidates_for(std::size_t query,
     if (found.score < kMinScore || chosen.size() == kMaxCandidates) break;
     const auto candidate = graph_.find(found.id);
     if (!candidate || *candidate + kMinGap > query) continue;
-    const auto is_found = [&](const Covisible& other) { return other.id == found.id; };
+    const auto is_found = [&](const Covisible& other) { return other.id == found.id && other.weight > 0; };
     if (std::any_of(features.covisible.begin(), features.covisible.end(), is_found)) continue;
     const auto is_near = [&](std::size_t other) {
       return std::max(other, *candidate) - std::min(other, *candidate) < kMinSeparation;
@@ -124,27 +139,31 @@ std::optional<LoopDetection> LoopCloser::detect(std::size_t query, std::size_t c
                        estimated.translation()};
 }
 
-/// Large enough to be worth a correction, and not larger than drift can be.
+/// Not larger than drift can be.
 bool LoopCloser::is_believable(const LoopDetection& detection) const {
   const double moved_m = (detection.correction * detection.query_in_map - detection.query_in_map).norm();
   const double turned_rad = geometry::rotation_angle_rad(detection.correction.linear());
-  if (moved_m < config_.min_correction_m && turned_rad < config_.min_correction_rad) return false;
   const double path_m = graph_.path_length(detection.candidate, detection.query);
   return moved_m <= kMaxDriftFloorM + kMaxDriftShare * path_m && turned_rad <= kMaxDriftRad;
 }
 
-bool LoopCloser::close_loop(std::size_t query, const KeyframeFeatures& features) {
+std::vector<LoopMatch> LoopCloser::close_loop(std::size_t query, const KeyframeFeatures& features) {
+  if (unconfirmed_since_) return {};  // the tracker is about to move everything
   for (const std::size_t candidate : candidates_for(query, features)) {
     const auto detection = detect(query, candidate);
     if (!detection || !is_believable(*detection)) continue;
     std::vector<PoseGraphEdge> loops;
-    for (const LoopDetection& agreeing : history_.add(*detection))
+    std::vector<LoopMatch> matches;
+    for (const LoopDetection& agreeing : history_.add(*detection)) {
       loops.push_back({agreeing.candidate, agreeing.query, agreeing.candidate_from_query, EdgeKind::kLoop});
+      matches.push_back(
+          {graph_.id(agreeing.query), graph_.id(agreeing.candidate), agreeing.candidate_from_query});
+    }
     if (loops.empty() || !graph_.close(loops)) continue;
     history_.clear();
-    return true;
+    return matches;
   }
-  return false;
+  return {};
 }
 
 }  // namespace rds::loop_closer

@@ -6,9 +6,6 @@ namespace rds::loop_closer {
 void read(config::ConfigReader& reader, LoopCloserConfig& config) {
   reader.value("max_features", config.max_features, 50, 10'000);
   reader.section("verification").value("max_depth_m", config.max_depth_m, 0.5, 100.0, "m");
-  auto& consistency = reader.section("consistency");
-  consistency.value("min_correction_m", config.min_correction_m, 0.0, 10.0, "m");
-  consistency.value("min_correction_rad", config.min_correction_rad, 0.0, 3.0, "rad");
 }
 
 }  // namespace rds::loop_closer

@@ -8,10 +8,8 @@ namespace rds::loop_closer {
 /// What depends on the camera, the place and the machine; the counts and gates of the method are constants
 /// beside the code that they belong to.
 struct LoopCloserConfig {
-  int max_features = 1500;         // kept per keyframe
-  double max_depth_m = 6.0;        // features farther away are not used
-  double min_correction_m = 0.05;  // below both, a loop counts as closed and nothing is done
-  double min_correction_rad = 0.035;
+  int max_features = 1500;   // kept per keyframe
+  double max_depth_m = 6.0;  // features farther away are not used
 
   bool operator==(const LoopCloserConfig&) const = default;
 };

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kNsPerSecond = 1e9;
 constexpr double kLostForGoodS = 1;  // at least, before a young map is given up
+// The camera's pose has moved by less than a depth sensor's noise 2 m away.
+constexpr double kSamePlaceM = 0.01;
+constexpr double kSamePlaceRad = 0.005;
 
 bool is_usable(const image::RgbdFrame& frame) {
   const cv::Size size(frame.camera.width, frame.camera.height);
@@ -209,9 +212,33 @@ void Tracker::apply(const LocalMappingResult& result) {
   for (const KeyframeId keyframe : *culled) localizer_.relocalizer().remove(keyframe);
 }
 
-void Tracker::correct(std::span<const KeyframePose> corrected) {
-  if (ports_.given_poses) return;
-  mapper_.correct(corrected);
+bool Tracker::correct(std::span<const KeyframePose> corrected, std::span<const LoopMatch> loops) {
+  if (ports_.given_poses) return true;
+  const Pose before = last_map_from_camera();
+  const auto replaced = mapper_.correct(corrected, loops);
+  if (!replaced) return false;
+  localizer_.features().replace_points(*replaced);
+  forget_depth_where_moved(before);
+  return true;
+}
+
+std::optional<LocalMappingJob> Tracker::take_adjustment_job() {
+  return mapper_.take_adjustment(calibration_);
+}
+
+bool Tracker::apply_adjustment(const LocalMappingResult& result) {
+  const Pose before = last_map_from_camera();
+  if (!mapper_.apply_adjustment(result)) return false;
+  forget_depth_where_moved(before);
+  return true;
+}
+
+/// Depth pictures of before stand where the camera was then.
+void Tracker::forget_depth_where_moved(const Pose& last_before) {
+  const Pose moved = last_before.inverse() * last_map_from_camera();
+  if (moved.translation().norm() < kSamePlaceM &&
+      geometry::rotation_angle_rad(moved.linear()) < kSamePlaceRad)
+    return;
   removal_.forget();
   localizer_.depth_aligner().forget();
 }

@@ -57,8 +57,16 @@ class Tracker {
   /// is left alone.
   void apply(const LocalMappingResult& result);
   /// Moves keyframes to corrected poses; keyframes that the correction does not know move with the next
-  /// older one that it knows, points with the keyframe that made them. Given poses are not corrected.
-  void correct(std::span<const KeyframePose> corrected);
+  /// older one that it knows, points with the keyframe that made them. Points that both sides of a loop see
+  /// are fused. Given poses are not corrected.
+  /// @return false if the map confirms none of the loops: then nothing has changed.
+  bool correct(std::span<const KeyframePose> corrected, std::span<const LoopMatch> loops = {});
+  /// Snapshot of the whole map after a loop has joined it, for run_global_adjustment() on any thread; nullopt
+  /// where none has since the last call. A newer one makes those before outdated.
+  std::optional<LocalMappingJob> take_adjustment_job();
+  /// Moves keyframes and points to where the adjustment puts them; what was made since moves along.
+  /// @return false if it is outdated.
+  bool apply_adjustment(const LocalMappingResult& result);
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
@@ -98,6 +106,7 @@ class Tracker {
                TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);
+  void forget_depth_where_moved(const Pose& last_before);
 
   /// What the tracker is given besides pictures.
   struct Ports {

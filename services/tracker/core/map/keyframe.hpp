@@ -15,6 +15,7 @@
 namespace rds::tracker {
 
 using geometry::KeyframePose;
+using geometry::LoopMatch;
 using geometry::Pose;
 
 struct CovisibleKeyframe {

@@ -101,16 +101,39 @@ geometry::CameraModel known_camera(const MappingKeyframe& keyframe, const LocalM
   return camera;
 }
 
-class LocalBundle {
+/// Ends the solver when it is told to stop.
+class StopCallback final : public ceres::IterationCallback {
  public:
-  explicit LocalBundle(MappingScene& scene) : scene_(scene) {
+  explicit StopCallback(std::stop_token stop) : stop_(std::move(stop)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return stop_.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::stop_token stop_;
+};
+
+/// The same bits every time: one thread, no threaded BLAS, no time limit.
+ceres::Solver::Options solver_options(const BundleOptions& bundle) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = bundle.is_sparse ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+  if (bundle.is_sparse) options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.max_num_iterations = bundle.iterations;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+class Bundle {
+ public:
+  explicit Bundle(MappingScene& scene) : scene_(scene) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
       models_.emplace_back(known_camera(k, scene.job()), scene.job().depth);
     }
   }
 
-  void optimize(int iterations, bool robust) {
+  void optimize(const BundleOptions& bundle, bool robust) {
     ceres::Problem::Options ownership;
     ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -132,12 +155,10 @@ class LocalBundle {
       if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
       ordering->AddElementToGroup(poses_[k].data(), 1);
     }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
+    ceres::Solver::Options options = solver_options(bundle);
     options.linear_solver_ordering.reset(ordering);
-    options.max_num_iterations = iterations;
-    options.num_threads = 1;
-    options.logging_type = ceres::SILENT;
+    StopCallback stop(bundle.stop);
+    options.callbacks.push_back(&stop);
     ceres::Solver::Summary summary;
     if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
   }
@@ -158,7 +179,6 @@ class LocalBundle {
   }
 
   void report(LocalMappingResult& result) const {
-    result.imaging = estimate_imaging();
     const auto& keyframes = scene_.job().keyframes;
     for (std::size_t k = 0; k < poses_.size(); ++k)
       if (!keyframes[k].fixed)
@@ -169,6 +189,18 @@ class LocalBundle {
       else if (point.alive && !point.observations.empty())
         result.points.push_back({point.id, carried(point)});
     }
+  }
+
+  [[nodiscard]] ImagingEstimate estimate_imaging() const {
+    ImagingEstimator estimator(poses_.size());
+    std::vector<ObservationDerivatives> of_point;
+    for (const auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      of_point.clear();
+      for (const auto& o : point.observations) of_point.push_back(derivatives(o, point.position));
+      estimator.add_point(of_point);
+    }
+    return estimator.estimate({scene_.job().readout_s, scene_.job().focal_scale});
   }
 
  private:
@@ -222,18 +254,6 @@ class LocalBundle {
     return d;
   }
 
-  [[nodiscard]] ImagingEstimate estimate_imaging() const {
-    ImagingEstimator estimator(poses_.size());
-    std::vector<ObservationDerivatives> of_point;
-    for (const auto& point : scene_.points()) {
-      if (!is_adjusted(point)) continue;
-      of_point.clear();
-      for (const auto& o : point.observations) of_point.push_back(derivatives(o, point.position));
-      estimator.add_point(of_point);
-    }
-    return estimator.estimate({scene_.job().readout_s, scene_.job().focal_scale});
-  }
-
   MappingScene& scene_;
   std::vector<PoseBlock> poses_;  // per keyframe
   std::vector<ObservationModel> models_;
@@ -244,12 +264,15 @@ class LocalBundle {
 
 }  // namespace
 
-void adjust_bundle(MappingScene& scene, int iterations, LocalMappingResult& result) {
-  LocalBundle bundle(scene);
-  bundle.optimize(iterations, true);
+ImagingEstimate adjust_bundle(MappingScene& scene, const BundleOptions& options, LocalMappingResult& result) {
+  Bundle bundle(scene);
+  bundle.optimize(options, true);
+  if (options.stop.stop_requested()) return {};
   bundle.remove_outliers(result);
-  bundle.optimize(iterations, false);
+  bundle.optimize(options, false);
+  if (options.stop.stop_requested()) return {};
   bundle.report(result);
+  return options.is_sparse ? ImagingEstimate{} : bundle.estimate_imaging();
 }
 
 }  // namespace rds::tracker

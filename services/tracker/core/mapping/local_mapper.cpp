@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/map_building.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
 
@@ -79,7 +80,11 @@ void LocalMapper::retract(KeyframeId keyframe, const MovableMask& movable) {
 std::optional<LocalMappingJob> LocalMapper::take_job(const SelfCalibration& calibration) {
   const KeyframeId centre = std::exchange(job_centre_, kNoId);
   if (map_.keyframe(centre) == nullptr) return std::nullopt;  // none is due, or it was culled
-  LocalMappingJob job = make_mapping_job(map_, centre);
+  return prepared(make_mapping_job(map_, centre), calibration);
+}
+
+/// With what is known of the camera.
+LocalMappingJob LocalMapper::prepared(LocalMappingJob&& job, const SelfCalibration& calibration) const {
   job.revision = revision_;
   job.readout_s = calibration.readout_s();
   job.focal_scale = calibration.focal_scale();
@@ -90,7 +95,10 @@ std::optional<LocalMappingJob> LocalMapper::take_job(const SelfCalibration& cali
 }
 
 std::optional<std::vector<KeyframeId>> LocalMapper::apply(const LocalMappingResult& result) {
-  if (result.revision != revision_) return std::nullopt;
+  if (result.revision != revision_) {
+    if (job_centre_ == kNoId) job_centre_ = result.keyframe;  // once more, as the map is now
+    return std::nullopt;
+  }
   apply_mapping_result(map_, result);
   return cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
 }
@@ -101,9 +109,32 @@ bool LocalMapper::is_mostly_static(KeyframeId id) const {
          2 * std::ranges::count(keyframe->movable, true) <= std::ssize(keyframe->movable);
 }
 
-void LocalMapper::correct(std::span<const KeyframePose> corrected) {
+std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose> corrected,
+                                                   std::span<const LoopMatch> loops) {
+  const auto is_confirmed = [&](const LoopMatch& loop) { return confirms(map_, loop, settings_.depth); };
+  if (!loops.empty() && std::ranges::none_of(loops, is_confirmed)) return std::nullopt;
   apply_correction(map_, corrected);
   ++revision_;
+  ReplacedPoints replaced;
+  for (const LoopMatch& loop : loops) {
+    auto by_loop = join_loop(map_, loop, settings_.depth);
+    if (!by_loop) continue;
+    adjustment_is_due_ = true;
+    replaced.merge(*by_loop);
+  }
+  return replaced;
+}
+
+std::optional<LocalMappingJob> LocalMapper::take_adjustment(const SelfCalibration& calibration) {
+  if (!std::exchange(adjustment_is_due_, false)) return std::nullopt;
+  return prepared(make_global_job(map_), calibration);
+}
+
+bool LocalMapper::apply_adjustment(const LocalMappingResult& result) {
+  if (result.revision != revision_) return false;
+  apply_global_adjustment(map_, result);
+  ++revision_;
+  return true;
 }
 
 void LocalMapper::start_from(SlamMap&& map, bool rows_are_known) {

@@ -10,6 +10,7 @@
 #include "services/tracker/core/map/map_checkpoint.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
+#include "services/tracker/core/mapping/loop_fusion.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"
 
@@ -48,14 +49,23 @@ class LocalMapper {
   std::optional<std::vector<KeyframeId>> apply(const LocalMappingResult& result);
   /// True for a keyframe of the map at least half of whose features show what stands still.
   [[nodiscard]] bool is_mostly_static(KeyframeId keyframe) const;
-  /// Moves keyframes to corrected poses.
-  void correct(std::span<const KeyframePose> corrected);
+  /// Moves keyframes to corrected poses and joins what the loops say is one place; then a global adjustment
+  /// is due. @return points that were replaced by others; nullopt if the map confirms none of the loops: then
+  /// nothing has changed.
+  std::optional<ReplacedPoints> correct(std::span<const KeyframePose> corrected,
+                                        std::span<const LoopMatch> loops);
+  /// Snapshot of the whole map; nullopt where no global adjustment is due.
+  std::optional<LocalMappingJob> take_adjustment(const SelfCalibration& calibration);
+  /// Brings a global adjustment in. @return false if it is outdated.
+  bool apply_adjustment(const LocalMappingResult& result);
 
   /// Goes on in this map. @param rows_are_known  a checkpoint has its rows.
   void start_from(SlamMap&& map, bool rows_are_known);
   void append_checkpoint(std::vector<CheckpointRow>& rows) { checkpoint_.append_changes(map_, rows); }
 
  private:
+  [[nodiscard]] LocalMappingJob prepared(LocalMappingJob&& job, const SelfCalibration& calibration) const;
+
   struct KeyframeDepth {
     KeyframeId keyframe = kNoId;
     PictureCells cells;
@@ -67,6 +77,7 @@ class LocalMapper {
   SlamMap map_;
   MapCheckpoint checkpoint_;
   KeyframeId job_centre_ = kNoId;
+  bool adjustment_is_due_ = false;
   std::uint64_t revision_ = 0;          // of the map's geometry, counts corrections
   std::vector<PointId> recent_points_;  // that may still prove bad
   std::deque<KeyframeDepth> depths_;    // of keyframes whose boxes may still come

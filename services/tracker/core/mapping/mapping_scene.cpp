@@ -111,7 +111,7 @@ LocalMappingResult run_local_mapping(const LocalMappingJob& job, int iterations)
   result.revision = job.revision;
   MappingScene scene(job);
   search_and_fuse(scene, result);
-  adjust_bundle(scene, iterations, result);
+  result.imaging = adjust_bundle(scene, {.iterations = iterations, .is_sparse = false, .stop = {}}, result);
   return result;
 }
 

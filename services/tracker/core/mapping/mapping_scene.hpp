@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "services/tracker/core/mapping/local_mapping.hpp"
@@ -47,8 +48,16 @@ class MappingScene {
 /// Source: Mur-Artal et al. 2015, §VI-C.
 void search_and_fuse(MappingScene& scene, LocalMappingResult& result);
 
+struct BundleOptions {
+  int iterations = kBundleIterations;  // of each of the two passes
+  bool is_sparse = false;              // of many keyframes few see the same points
+  std::stop_token stop;                // gives up after the present iteration
+};
+
 /// Moves free keyframes and points so that the points show where their features are; observations that
 /// disagree are removed.
-void adjust_bundle(MappingScene& scene, int iterations, LocalMappingResult& result);
+/// @return what was learned of the camera; nothing in a sparse scene, or if it was stopped: then the result
+/// is of no use.
+ImagingEstimate adjust_bundle(MappingScene& scene, const BundleOptions& options, LocalMappingResult& result);
 
 }  // namespace rds::tracker

@@ -110,6 +110,13 @@ LocalMap FeatureTracker::local_map_of_last(const TrackingContext& context) {
   return all;
 }
 
+void FeatureTracker::replace_points(const std::map<PointId, PointId>& replaced) {
+  if (!last_) return;
+  for (PointId& point : last_->frame.points)
+    for (auto next = replaced.find(point); next != replaced.end(); next = replaced.find(point))
+      point = next->second;
+}
+
 void adopt_followed_points(const TrackingContext& context, const TrackedFrame& followed,
                            TrackedFrame& frame) {
   std::vector<Feature> features = frame.features->all();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,6 +43,8 @@ class FeatureTracker {
   void set_newest_keyframe(KeyframeId keyframe) { reference_ = newest_keyframe_ = keyframe; }
   [[nodiscard]] const std::optional<LastFrame>& last() const { return last_; }
   void set_last(LastFrame&& last) { last_ = std::move(last); }
+  /// Points of the map were fused: each goes to the one that took its place.
+  void replace_points(const std::map<PointId, PointId>& replaced);
   FoundShare& found_share() { return found_share_; }
 
  private:

@@ -91,9 +91,23 @@ TEST_F(KeyframePosesOnTheWay, AnotherMapBeginsWithAll) {
   EXPECT_EQ(heard(), (std::vector<double>{5}));
 }
 
+TEST(KeyframePosesOfALoop, CarryItsMatches) {
+  Message message;
+  append_loops(std::vector<geometry::LoopMatch>{{7, 3, pose(0, 0.5).map_from_camera},
+                                                {9, 2, pose(0, 1).map_from_camera}},
+               message);
+  EXPECT_EQ(fault_of(message), "");
+  const auto loops = to_loops(message);
+  ASSERT_EQ(loops.size(), 2U);
+  EXPECT_EQ(loops[1].later, 9U);
+  EXPECT_EQ(loops[1].earlier, 2U);
+  EXPECT_TRUE(loops[1].earlier_from_later.isApprox(pose(0, 1).map_from_camera));
+}
+
 TEST(KeyframePosesFault, IsWhatNoTrackerWrites) {
   Message good;
   append_poses(std::vector{pose(3, 0), pose(7, 1)}, good);
+  append_loops(std::vector<geometry::LoopMatch>{{7, 3, geometry::Pose::Identity()}}, good);
   EXPECT_EQ(fault_of(good), "");
   Message bad = good;
   bad.keyframe_ids({7, 7});
@@ -103,6 +117,12 @@ TEST(KeyframePosesFault, IsWhatNoTrackerWrites) {
   EXPECT_NE(fault_of(bad), "");
   bad = good;
   bad.poses()[0] = 1e30;
+  EXPECT_NE(fault_of(bad), "");
+  bad = good;
+  bad.loops().pop_back();
+  EXPECT_NE(fault_of(bad), "");
+  bad = good;
+  bad.loop_poses()[6] = 0;
   EXPECT_NE(fault_of(bad), "");
 }
 

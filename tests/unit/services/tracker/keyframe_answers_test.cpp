@@ -91,6 +91,21 @@ TEST_F(Answers, LocalMappingIsWaitedFor) {
   EXPECT_FALSE(lockstep.is_mapping());
 }
 
+TEST_F(Answers, ANewAdjustmentStopsTheOneBefore) {
+  KeyframeAnswers lockstep = answers(true);
+  LocalMappingJob job;
+  job.revision = 1;
+  lockstep.ask_for_adjustment(job, 0);
+  job.revision = 2;
+  lockstep.ask_for_adjustment(job, 7);
+  lockstep.await(KeyframeAnswers::kAdjustmentAfter + 7, kEpoch, {}, [] {});
+  const auto results = lockstep.take_adjustments(KeyframeAnswers::kAdjustmentAfter + 7);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results.front().revision, 2U);
+  EXPECT_EQ(diagnostics.counter("lockstep timeouts").load(), 0U);
+  EXPECT_TRUE(lockstep.empty());
+}
+
 TEST_F(Answers, AFrameGoesOnWithoutAnAnswerThatDoesNotCome) {
   KeyframeAnswers lockstep = answers(true, 0.05);
   lockstep.ask_for_poses(3, 0);

@@ -115,8 +115,26 @@ void Recorder::on_boxes(const rds_msgs::msg::PredictedBoxes& message) {
   changed_.notify_all();
 }
 
+/// Each correction once: it is repeated in the answers to the keyframes after it.
+void Recorder::on_loops(const rds_msgs::msg::KeyFramePoses& message) {
+  const std::pair loop{message.instance(), message.revision()};
+  const std::lock_guard lock(mutex_);
+  if (message.loops().empty() || message.map_epoch() != epoch_ || loop == newest_loop_) return;
+  newest_loop_ = loop;
+  std::map<std::uint64_t, std::int64_t> stamps;
+  for (std::size_t i = 0; i < message.keyframe_ids().size(); ++i)
+    stamps[message.keyframe_ids()[i]] = message.stamps()[i];
+  for (const geometry::LoopMatch& match : messages::to_loops(message)) {
+    const auto later = stamps.find(match.later);
+    const auto earlier = stamps.find(match.earlier);
+    if (later != stamps.end() && earlier != stamps.end())  // else it is of a saved map
+      recording_.loops[later->second].push_back({earlier->second, match.earlier_from_later});
+  }
+}
+
 void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
-  if (message.source() != 0 || !messages::fault_of(message).empty()) return;
+  if (!messages::fault_of(message).empty()) return;
+  if (message.source() != 0) return on_loops(message);
   {
     const std::lock_guard lock(mutex_);
     if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
@@ -148,7 +166,8 @@ void Recorder::on_map_info(const rds_msgs::msg::MapInfo& message) {
     last_mapped_id_ = message.last_keyframe_id();
     const auto end = unmapped_.upper_bound(*last_mapped_id_);
     for (auto keyframe = unmapped_.begin(); keyframe != end; keyframe = unmapped_.erase(keyframe))
-      recording_.map_delays_s.push_back(std::chrono::duration<double>(Clock::now() - keyframe->second).count());
+      recording_.map_delays_s.push_back(
+          std::chrono::duration<double>(Clock::now() - keyframe->second).count());
   }
   changed_.notify_all();
 }

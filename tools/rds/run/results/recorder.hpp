@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "common/bus/participant.hpp"
@@ -55,6 +56,7 @@ class Recorder {
   void on_state(const rds_msgs::msg::TrackingState& message);
   void on_boxes(const rds_msgs::msg::PredictedBoxes& message);
   void on_poses(const rds_msgs::msg::KeyFramePoses& message);
+  void on_loops(const rds_msgs::msg::KeyFramePoses& message);
   void on_detections(const vision_msgs::msg::Detection2DArray& message);
   void on_map_info(const rds_msgs::msg::MapInfo& message);
   template <class Ready>
@@ -71,7 +73,8 @@ class Recorder {
   std::optional<std::uint64_t> last_mapped_id_;
   std::map<std::uint64_t, Clock::time_point> unmapped_;  // keyframes by id, and when they came
   std::uint64_t epoch_ = 0;
-  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
+  std::pair<std::uint64_t, std::uint64_t> newest_loop_;  // instance and revision
+  std::vector<bus::Subscription> subscriptions_;         // last: callbacks use the members above
 };
 
 }  // namespace rds::run

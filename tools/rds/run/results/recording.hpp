@@ -52,6 +52,12 @@ struct KeyframeRecord {
   geometry::Pose map_from_camera = geometry::Pose::Identity();
 };
 
+/// An earlier keyframe that the loop closer recognised.
+struct LoopRecord {
+  std::int64_t earlier_ns = 0;
+  geometry::Pose earlier_from_later = geometry::Pose::Identity();
+};
+
 /// Everything a run heard on the bus that its files need; ordered by stamp or id, whatever the order of
 /// arrival.
 struct Recording {
@@ -61,9 +67,10 @@ struct Recording {
   std::map<std::uint64_t, KeyframeRecord> keyframes;  // of the last map epoch
   std::uint64_t keyframes_in_map = 0;                 // of these, that the map holds at the end
   std::uint64_t map_epoch = 0;                        // that one
-  std::vector<double> map_delays_s;                   // from a keyframe to the map that has it, while it lasted
+  std::vector<double> map_delays_s;  // from a keyframe to the map that has it, while it lasted
   std::uint64_t keyframes_revision = 0;
   std::uint32_t loops_closed = 0;
+  std::map<std::int64_t, std::vector<LoopRecord>> loops;  // by stamp of the later keyframe
   std::uint64_t frames_dropped = 0;
 };
 

@@ -87,6 +87,16 @@ ordered_json prediction_json(const PredictionRecord& p) {
           {"age_s", rounded(p.age_s, 3)}};
 }
 
+/// The stamp keeps its digits to the microsecond, as a number can.
+ordered_json loop_json(const LoopRecord& loop) {
+  const Eigen::Vector3d t = loop.earlier_from_later.translation();
+  const Eigen::Quaterniond q(loop.earlier_from_later.linear());
+  auto pose = ordered_json::array();
+  for (const double number : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
+    pose.push_back(rounded(number, 6));
+  return {{"earlier", rounded(static_cast<double>(loop.earlier_ns) * 1e-9, 6)}, {"earlier_from_later", pose}};
+}
+
 }  // namespace
 
 std::vector<StampedPose> live_trajectory(const Recording& recording) {
@@ -118,6 +128,7 @@ void write_run_files(const Recording& recording, const std::filesystem::path& fo
   write(folder / "keyframes.txt", keyframes(recording));
   write_frames(recording, folder / "frames.csv");
   write_lines(recording.detections, "detections", folder / "detections.jsonl", detection_json);
+  write_lines(recording.loops, "loops", folder / "loops.jsonl", loop_json);
   write_lines(recording.predictions, "boxes", folder / "predictions.jsonl", prediction_json);
 }
 

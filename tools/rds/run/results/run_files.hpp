@@ -16,8 +16,8 @@ std::vector<geometry::StampedPose> live_trajectory(const Recording& recording);
 /// unknown.
 std::vector<geometry::StampedPose> optimized_trajectory(const Recording& recording);
 
-/// Writes trajectory.txt, trajectory_optimized.txt, keyframes.txt, frames.csv, detections.jsonl and
-/// predictions.jsonl (architecture: "The command line is a contract").
+/// Writes trajectory.txt, trajectory_optimized.txt, keyframes.txt, frames.csv, detections.jsonl,
+/// loops.jsonl and predictions.jsonl (architecture: "The command line is a contract").
 /// @throws std::runtime_error naming the file that cannot be written.
 void write_run_files(const Recording& recording, const std::filesystem::path& folder);
 

@@ -25,7 +25,8 @@ KeyframeGraph row(std::size_t count, double step = 0.2) {
 
 TEST(KeyframeGraph, FollowsTheTrackerWhileNothingIsCorrected) {
   KeyframeGraph graph = row(5);
-  graph.add({5, 0, at(1.05)}, std::vector<Covisible>{{3, 200, at(0.61)}, {4, 200, at(0.83)}, {99, 200, at(7)}});
+  graph.add({5, 0, at(1.05)},
+            std::vector<Covisible>{{3, 200, at(0.61)}, {4, 200, at(0.83)}, {99, 200, at(7)}});
   EXPECT_EQ(graph.map_from_camera(3).translation().x(), 0.61);
   EXPECT_EQ(graph.map_from_camera(4).translation().x(), 0.83);
   EXPECT_EQ(graph.map_from_camera(1).translation().x(), 0.2);
@@ -60,6 +61,22 @@ TEST(KeyframeGraph, PutsNewKeyframesBehindCorrectedOnesInEitherFrameOfTheTracker
   const std::vector<Covisible> new_frame{{21, 200, at(corrected + 0.2)}};
   graph.add({22, 0, at(corrected + 0.4)}, new_frame);
   EXPECT_NEAR(graph.map_from_camera(22).translation().x(), corrected + 0.4, 1e-9);
+}
+
+/// Once the tracker has joined a loop it knows best how its two ends stand to each other.
+TEST(KeyframeGraph, TakesThePosesOfATrackerThatHasFollowed) {
+  KeyframeGraph graph = row(21);
+  const PoseGraphEdge loop{0, 20, at(3.8), EdgeKind::kLoop};
+  ASSERT_TRUE(graph.close({&loop, 1}));
+  std::vector<Covisible> adjusted{{20, 200, at(3.83)}};
+  for (std::uint64_t id = 0; id < 20; ++id) adjusted.push_back({id, 0, at(0.1915 * static_cast<double>(id))});
+  graph.add({21, 0, at(4.0)}, adjusted, true);
+  EXPECT_EQ(graph.map_from_camera(20).translation().x(), 3.83);
+  EXPECT_EQ(graph.map_from_camera(10).translation().x(), 1.915);
+  // What was measured before the tracker joined it pulls no more.
+  const PoseGraphEdge again{0, 21, at(4.0), EdgeKind::kLoop};
+  ASSERT_TRUE(graph.close({&again, 1}));
+  EXPECT_NEAR(graph.map_from_camera(20).translation().x(), 3.83, 1e-3);
 }
 
 TEST(KeyframeGraph, MeasuresTheTravelledPath) {

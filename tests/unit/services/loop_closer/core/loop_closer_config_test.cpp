@@ -8,15 +8,14 @@ namespace {
 
 TEST(LoopCloserConfig, ListsEveryValueOutOfRange) {
   LoopCloserConfig config;
-  config::ConfigReader reader(
-      YAML::Load("{max_features: 2, consistency: {min_correction_m: -1}, typo: 1}"), "x");
+  config::ConfigReader reader(YAML::Load("{max_features: 2, verification: {max_depth_m: -1}, typo: 1}"), "x");
   read(reader, config);
   try {
     reader.finish();
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
     EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("max_features"),
-                                           ::testing::HasSubstr("consistency.min_correction_m"),
+                                           ::testing::HasSubstr("verification.max_depth_m"),
                                            ::testing::HasSubstr("typo")));
   }
 }

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/mapping/loop_fusion.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "services/tracker/core/map/covisibility.hpp"
+#include "services/tracker/core/pose/association.hpp"
+#include "services/tracker/core/pose/pose_optimization.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr std::size_t kNeighbours = 9;  // of the keyframe at either side that join with it
+// A verified loop places a keyframe to about 5 mm and 3 mrad: 3 px for points 2 m away. Three times that.
+constexpr double kMeasuredWindowPx = 9;
+constexpr double kAlignedWindowPx = 3;  // once the points have aligned the sides, as in local mapping
+constexpr int kMinAligned = 40;         // points that agree on how the sides stand to each other
+
+/// A keyframe of the map, those that share most points with it, and all their points by id.
+struct Side {
+  KeyframeId centre = kNoId;
+  std::vector<KeyframeId> keyframes;
+  std::vector<PointId> points;
+};
+
+Side side_of(const SlamMap& map, KeyframeId id) {
+  Side side{map.records().anchor_of(id).first, {}, {}};
+  side.keyframes.push_back(side.centre);
+  for (const CovisibleKeyframe& c : map.keyframe(side.centre)->covisible)
+    if (side.keyframes.size() <= kNeighbours) side.keyframes.push_back(c.id);
+  for (const KeyframeId k : side.keyframes)
+    std::ranges::copy_if(map.keyframe(k)->points, std::back_inserter(side.points),
+                         [](PointId p) { return p != kNoId; });
+  std::ranges::sort(side.points);
+  const auto twice = std::ranges::unique(side.points);
+  side.points.erase(twice.begin(), twice.end());
+  return side;
+}
+
+/// The features of a keyframe, at a pose that it is thought to have.
+struct View {
+  const Keyframe& keyframe;
+  Pose camera_from_map;
+  ObservationModel model;
+};
+
+/// The feature that shows the point.
+std::optional<std::uint32_t> find_in(const View& view, const MapPoint& point, const ScalePyramid& pyramid,
+                                     double window_px) {
+  const FeatureSet& features = *view.keyframe.features;
+  const auto projected =
+      project_point(point, view.camera_from_map, view.camera_from_map.inverse().translation(), features,
+                    view.model, pyramid);
+  if (!projected) return std::nullopt;
+  const SearchWindow window{
+      projected->px.cast<float>(), static_cast<float>(window_px * pyramid.scale(projected->level)),
+      projected->level - 1, projected->level + 1, view.model.disparity(projected->depth)};
+  const auto found = best_in_window(features, {}, view.model, point.descriptor, window, kMaxDistanceAlone, 1);
+  return found && !view.keyframe.movable[*found] ? found : std::nullopt;
+}
+
+bool share_points(const Side& a, const Side& b) {
+  return std::ranges::find(a.keyframes, b.centre) != a.keyframes.end() ||
+         std::ranges::find(b.keyframes, a.centre) != b.keyframes.end();
+}
+
+bool is_known(const SlamMap& map, const LoopMatch& loop) {
+  return map.records().contains(loop.later) && map.records().contains(loop.earlier);
+}
+
+/// Moves the later side to where the earlier side's points show in the keyframe at its centre.
+/// @return nullopt if too few of them do.
+std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side& earlier, const Side& later,
+                          const DepthConfig& depth) {
+  const Keyframe& centre = *map.keyframe(later.centre);
+  const Pose measured = map.pose_of(loop.earlier) * loop.earlier_from_later *
+                        map.pose_of(loop.later).inverse() * centre.map_from_camera;
+  const View view{centre, measured.inverse(), ObservationModel(centre.features->camera(), depth)};
+  std::vector<PointObservation> observations;
+  std::vector<bool> taken(centre.points.size());
+  for (const PointId id : earlier.points) {
+    const MapPoint& point = *map.point(id);
+    const auto feature = find_in(view, point, map.pyramid(), kMeasuredWindowPx);
+    if (!feature || taken[*feature]) continue;
+    taken[*feature] = true;
+    observations.push_back(
+        {point.position, view.model.measurement((*centre.features)[*feature], map.pyramid()), 1});
+  }
+  const OptimizedPose optimized = optimize_pose(view.model, observations, view.camera_from_map);
+  if (optimized.inliers < kMinAligned) return std::nullopt;
+  return optimized.camera_from_map.inverse() * centre.map_from_camera.inverse();
+}
+
+/// Fuses points of one side into the keyframes of the other.
+class Fusion {
+ public:
+  Fusion(SlamMap& map, const DepthConfig& depth) : map_(map), depth_(depth) {}
+
+  /// @param here_from_there  moves points of `from` to where the keyframes of `into` should see them.
+  void fuse(const Side& from, const Side& into, const Pose& here_from_there) {
+    for (const KeyframeId id : into.keyframes) {
+      const Keyframe& keyframe = *std::as_const(map_).keyframe(id);
+      const View view{keyframe, keyframe.map_from_camera.inverse(),
+                      ObservationModel(keyframe.features->camera(), depth_)};
+      for (const PointId p : from.points) fuse(p, view, here_from_there);
+    }
+  }
+  ReplacedPoints take_replaced() { return std::move(replaced_); }
+
+ private:
+  void fuse(PointId id, const View& view, const Pose& here_from_there) {
+    const MapPoint* there = std::as_const(map_).point(id);
+    if (there == nullptr || sees(view.keyframe.id, *there)) return;
+    MapPoint here = *there;
+    here.position = here_from_there * there->position;
+    here.normal = here_from_there.linear() * there->normal;
+    const auto feature = find_in(view, here, map_.pyramid(), kAlignedWindowPx);
+    if (!feature) return;
+    const Measurement measured = view.model.measurement((*view.keyframe.features)[*feature], map_.pyramid());
+    const Eigen::Vector3d p = view.camera_from_map * here.position;
+    if (view.model.residual(p, measured).squaredNorm() > ObservationModel::chi2(measured)) return;
+    connect(id, view.keyframe, *feature);
+  }
+
+  void connect(PointId point, const Keyframe& keyframe, std::uint32_t feature) {
+    const PointId other = keyframe.points[feature];
+    if (other == kNoId) {
+      if (map_.observe(point, keyframe.id, feature)) update_from_observations(map_, *map_.point(point));
+      return;
+    }
+    const auto observers = [&](PointId p) { return std::as_const(map_).point(p)->observations.size(); };
+    const bool keeps_other =
+        observers(other) > observers(point) || (observers(other) == observers(point) && other < point);
+    const auto [keep, drop] = keeps_other ? std::pair(other, point) : std::pair(point, other);
+    merge_points(map_, keep, drop);
+    replaced_[drop] = keep;
+  }
+
+  static bool sees(KeyframeId keyframe, const MapPoint& point) {
+    const auto place = std::ranges::lower_bound(point.observations, keyframe, {}, &Observation::keyframe);
+    return place != point.observations.end() && place->keyframe == keyframe;
+  }
+
+  SlamMap& map_;
+  DepthConfig depth_;
+  ReplacedPoints replaced_;
+};
+
+}  // namespace
+
+bool confirms(const SlamMap& map, const LoopMatch& loop, const DepthConfig& depth) {
+  if (!is_known(map, loop)) return false;
+  const Side earlier = side_of(map, loop.earlier);
+  const Side later = side_of(map, loop.later);
+  return share_points(earlier, later) || align(map, loop, earlier, later, depth);
+}
+
+std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, const DepthConfig& depth) {
+  if (!is_known(map, loop)) return std::nullopt;
+  const Side earlier = side_of(map, loop.earlier);
+  const Side later = side_of(map, loop.later);
+  if (share_points(earlier, later)) return std::nullopt;
+  const auto earlier_from_later = align(map, loop, earlier, later, depth);
+  if (!earlier_from_later) return std::nullopt;
+  Fusion fusion(map, depth);
+  fusion.fuse(earlier, later, earlier_from_later->inverse());
+  fusion.fuse(later, earlier, *earlier_from_later);
+  for (const KeyframeId id : later.keyframes) update_covisibility(map, id);
+  return fusion.take_replaced();
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+
+#include "services/tracker/core/config/tracker_config.hpp"
+#include "services/tracker/core/map/slam_map.hpp"
+
+namespace rds::tracker {
+
+/// Points that are gone, each with the one that took its place.
+using ReplacedPoints = std::map<PointId, PointId>;
+
+/// Whether the map confirms a loop: points of the earlier keyframe and its neighbours are searched in the
+/// later one, placed as was measured, and must agree with its features in position and depth. True, too,
+/// where the two share points already.
+bool confirms(const SlamMap& map, const LoopMatch& loop, const DepthConfig& depth);
+
+/// Joins the two sides of a loop: what both see becomes one point, and their keyframes covisible.
+///
+/// The points that confirm the loop say how the two sides stand to each other, however far apart they are in
+/// the map. Then points of either side are searched in the keyframes of the other; they are one where
+/// position and depth agree within the χ² bound. Poses and positions stay as they are.
+/// @return the points that were replaced; nullopt if the map does not confirm the loop, or shares points
+/// there already: then nothing has changed.
+/// Source: Mur-Artal et al. 2015, §VII-C. Deviation: the sides' alignment comes from the map's points.
+std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, const DepthConfig& depth);
+
+}  // namespace rds::tracker

@@ -105,6 +105,7 @@ vision_msgs::msg::Detection3DArray objects_message(std::span<const MapObject> ob
                                                    std::int64_t stamp_ns) {
   std::vector<messages::SpatialDetection> boxes;
   for (const MapObject& object : objects) {
+    if (object.has_gone) continue;
     geometry::OrientedBox box;
     box.map_from_box.translation() = object.center;
     box.size = object.size;
@@ -120,9 +121,11 @@ visualization_msgs::msg::MarkerArray markers_message(std::span<const MapObject> 
   clear.header(messages::make_header(stamp_ns, kMap));
   clear.action(kDeleteAll);
   message.markers().push_back(clear);
-  for (const MapObject& object : objects)
+  for (const MapObject& object : objects) {
+    if (object.has_gone) continue;
     for (const std::int32_t type : {kCube, kText})
       message.markers().push_back(marker(object, stamp_ns, type));
+  }
   return message;
 }
 

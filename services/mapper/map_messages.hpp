@@ -25,6 +25,7 @@ octomap_msgs::msg::Octomap binary_message(const octomap::ColorOcTree& tree, std:
 /// rds/map/points: x, y, z, rgb, label of occupied voxels, as PCL's PointXYZRGBL.
 sensor_msgs::msg::PointCloud2 points_message(const MapPoints& points, std::int64_t stamp_ns);
 
+/// Of those that have not gone, as below.
 vision_msgs::msg::Detection3DArray objects_message(std::span<const MapObject> objects, std::int64_t stamp_ns);
 /// A box and a text for each object, after the deletion of all earlier ones.
 visualization_msgs::msg::MarkerArray markers_message(std::span<const MapObject> objects,

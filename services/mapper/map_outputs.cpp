@@ -74,7 +74,7 @@ rds_msgs::msg::MapInfo MapOutputs::info_of(const SemanticMapper& mapper, std::si
   info.map_epoch(mapper.map().epoch);
   info.map_id(map_id_);
   info.revision(mapper.map().revision);
-  const MapExtent extent = extent_of(mapper.map().tree());
+  const MapExtent extent = extent_of(mapper.map().content->octree);
   info.resolution(mapper.map().tree().getResolution());
   info.node_count(mapper.map().tree().size());
   info.occupied_count(extent.occupied);

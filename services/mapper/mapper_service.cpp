@@ -33,9 +33,8 @@ std::unique_ptr<SpillStorage> storage_of(MapperCheckpoints& checkpoints, const M
 }
 
 EpochFollower::Accepts accepts(bus::Participant& bus, std::string_view kind) {
-  return [writer = std::make_shared<service::FollowedWriter>(bus, kind)](std::uint64_t instance, bool same_map) {
-    return writer->accept(instance, same_map);
-  };
+  return [writer = std::make_shared<service::FollowedWriter>(bus, kind)](
+             std::uint64_t instance, bool same_map) { return writer->accept(instance, same_map); };
 }
 
 /// Disk full, or a file that gave back other bytes: the map goes on, some keyframes follow corrections no
@@ -118,7 +117,9 @@ void MapperService::subscribe() {
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
   while (wait(stop, [this] {
-    return !inboxes_.locked_empty() || !commands_.locked_empty() || map_commands_.locked_ready();
+    const bool has_more_to_correct = !is_paused_ && mapper_.is_correcting();
+    return has_more_to_correct || !inboxes_.locked_empty() || !commands_.locked_empty() ||
+           map_commands_.locked_ready();
   })) {
     handle_commands();
     map_commands_.settle();
@@ -145,12 +146,14 @@ void MapperService::begin_map() {
   poses_ = {};
 }
 
-/// Moves the map after a loop, and now and then after what local bundle adjustment has moved.
+/// Moves the map after a loop, and now and then after what local bundle adjustment has moved; a part of it
+/// where that is much.
 void MapperService::correct() {
-  if (!poses_.is_correction_due()) return;
+  const bool is_due = poses_.is_correction_due();
+  if (!is_due && !mapper_.is_correcting()) return;
   const auto started = std::chrono::steady_clock::now();
-  MapDelta delta = mapper_.apply_poses(poses_.poses());
-  poses_.note_correction();
+  MapDelta delta = is_due ? mapper_.apply_poses(poses_.poses()) : mapper_.go_on_correcting();
+  if (is_due) poses_.note_correction();
   report_losses(mapper_.archive().lost(), config_.mapper.correction.spill_folder, context_.diagnostics);
   if (delta.is_noop()) return;
   outputs_.publish(std::move(delta), mapper_, queue_.size());

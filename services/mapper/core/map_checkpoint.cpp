@@ -10,7 +10,7 @@ namespace {
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
-constexpr std::uint32_t kForm = 2;  // of records and final maps; who changes one raises it
+constexpr std::uint32_t kForm = 3;  // of records and final maps; who changes one raises it
 
 bool begins_with(const LabelTable& labels, const LabelTable& first) {
   return labels.names().size() >= first.names().size() &&
@@ -65,7 +65,7 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   map_.content = std::make_unique<Map>(config_);
   if (voxels) map_.content->evidence.begin_with(*voxels);
   map_.content->objects = final_objects_ = std::move(objects);
-  are_objects_outdated_ = false;
+  are_objects_outdated_ = has_moves_left_ = false;
   has_final_ = voxels != nullptr;
   archive_.restore(std::move(*keyframes), final_keyframes, map_.labels.names().size());
   add_all();

@@ -92,18 +92,13 @@ MapDelta whole_map(const ColorOcTree& tree, const MapSnapshot& snapshot, const M
   return delta;
 }
 
-MapExtent extent_of(const ColorOcTree& tree) {
+MapExtent extent_of(const SemanticOctree& octree) {
+  const ColorOcTree& tree = octree.tree();
   MapExtent extent;
   if (tree.getRoot() == nullptr) return extent;
-  std::array<std::uint16_t, 3> low{65535, 65535, 65535};
-  std::array<std::uint16_t, 3> high{0, 0, 0};
-  for_each_voxel(tree, [&](const OcTreeKey& key, const ColorOcTreeNode& node) {
-    extent.occupied += tree.isNodeOccupied(node) ? 1U : 0U;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], key[axis]);
-      high[axis] = std::max(high[axis], key[axis]);
-    }
-  });
+  extent.occupied = octree.occupied();
+  const auto low = octree.bounds().lowest();
+  const auto high = octree.bounds().highest();
   const double half = tree.getResolution() / 2;
   for (unsigned axis = 0; axis < 3; ++axis) {
     extent.min[axis] = tree.keyToCoord(low[axis]) - half;

@@ -36,15 +36,16 @@ struct MapPoints {
 MapPoints points_of(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot);
 
 /// All voxels as a delta from revision 0.
-/// @param tree  of the snapshot's nodes. @param head  without arrays: what it says of map, revision, keyframe.
+/// @param tree  of the snapshot's nodes. @param head  without arrays: what it says of map, revision,
+/// keyframe.
 MapDelta whole_map(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, const MapDelta& head);
 
-/// What MapInfo says of a tree.
+/// What MapInfo says of the tree.
 struct MapExtent {
   std::uint64_t occupied = 0;                     // voxels
   Eigen::Vector3d min = Eigen::Vector3d::Zero();  // of all that is known, free or occupied [m]
   Eigen::Vector3d max = Eigen::Vector3d::Zero();
 };
-MapExtent extent_of(const octomap::ColorOcTree& tree);
+MapExtent extent_of(const SemanticOctree& octree);
 
 }  // namespace rds::mapper

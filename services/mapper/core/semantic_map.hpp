@@ -22,9 +22,10 @@ struct SemanticMap {
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const {
     return content->octree.label(key);
   }
-  /// Objects seen often and surely enough, with the extent of their voxels.
+  /// Objects seen often and surely enough, with the extent of their voxels; those that have gone, too.
   [[nodiscard]] std::vector<MapObject> objects() const {
     auto objects = content->objects.objects();
+    find_gone(objects, content->evidence, content->octree, labels);
     fit_to_voxels(objects, content->octree, labels);
     return objects;
   }

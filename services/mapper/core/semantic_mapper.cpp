@@ -22,7 +22,7 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
   map_.labels = saved_.labels;
   map_.content = std::make_unique<Map>(config_);
   map_.content->objects = final_objects_ = saved_.objects.value_or(ObjectDatabase(config_.objects));
-  are_objects_outdated_ = false;
+  are_objects_outdated_ = has_moves_left_ = false;
   has_final_ = saved_.voxels != nullptr;
   if (has_final_) map_.content->evidence.begin_with(*saved_.voxels);
   show();
@@ -53,14 +53,15 @@ MapDelta SemanticMapper::new_delta() const {
 MapDelta SemanticMapper::show(bool all) {
   MapDelta delta = new_delta();
   Map& map = *map_.content;
-  const auto show_block = [&](const octomap::OcTreeKey& key, const EvidenceBlock& block) {
-    map.octree.show(key, block, map_.labels, delta);
+  const auto show_block = [&](const octomap::OcTreeKey& key, const EvidenceBlock& block,
+                              const BlockMask& changed) {
+    map.octree.show(key, block, changed, map_.labels, delta);
   };
   if (all)
     map.evidence.update_all(show_block);
   else
     map.evidence.update(show_block);
-  if (are_objects_outdated_) make_objects_again();
+  if (are_objects_outdated_ && !has_moves_left_) make_objects_again();
   is_hidden_ = false;
   delta.revision = ++map_.revision;
   return delta;
@@ -86,7 +87,7 @@ void SemanticMapper::add(const KeyframeRecord& record) {
   map_.content->evidence.add(record.id, record.time_ns,
                              contribution_of(record, config_.octree, config_.sampling, scan_));
   const auto view = object_views_.insert_or_assign(record.id, ObjectView::of(record)).first;
-  if (std::next(view) == object_views_.end() && !are_objects_outdated_)
+  if (std::next(view) == object_views_.end() && (!are_objects_outdated_ || has_moves_left_))
     map_.content->objects.integrate(view->second, map_.labels);
   else
     are_objects_outdated_ = true;
@@ -182,14 +183,35 @@ bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const Labell
 
 MapDelta SemanticMapper::apply_poses(std::span<const KeyframePose> poses) {
   archive_.set_poses(poses);
-  move(archive_.moved_enough());
-  return is_hidden_ ? show() : new_delta();
+  return go_on_correcting();
+}
+
+MapDelta SemanticMapper::go_on_correcting() {
+  const auto moved = nearest_first(archive_.moved_enough());
+  const std::size_t now = std::min(moved.size(), kMovedAtOnce);
+  move(std::span(moved).first(now));
+  has_moves_left_ = moved.size() > now;
+  return is_hidden_ || is_correcting() || are_objects_outdated_ ? show() : new_delta();
+}
+
+/// By the distance of cameras from the newest one, of equal ones the newest first.
+std::vector<std::uint64_t> SemanticMapper::nearest_first(std::vector<std::uint64_t> keyframes) const {
+  if (keyframes.empty()) return keyframes;
+  const auto& all = archive_.keyframes();
+  const Eigen::Vector3d here = all.rbegin()->second.pose.translation();
+  std::vector<std::pair<double, std::uint64_t>> ranked;
+  for (const std::uint64_t id : keyframes)
+    ranked.emplace_back((all.at(id).pose.translation() - here).squaredNorm(), ~id);
+  std::ranges::sort(ranked);
+  std::ranges::transform(ranked, keyframes.begin(), [](const auto& rank) { return ~rank.second; });
+  return keyframes;
 }
 
 MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
   archive_.set_poses(poses);
   archive_.set_times();
   move(archive_.moved());
+  has_moves_left_ = false;
   return show(true);
 }
 

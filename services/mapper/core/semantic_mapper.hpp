@@ -41,9 +41,15 @@ class SemanticMapper {
 
   /// Takes over corrected poses. Keyframes that have moved beyond a threshold since they were integrated move
   /// in the map, and late boxes act; other poses are only remembered. Poses of unknown keyframes, and poses
-  /// that are not finite, are ignored.
+  /// that are not finite, are ignored. At most kMovedAtOnce keyframes move, those nearest to the newest one
+  /// first, where the camera is; the rest follows with go_on_correcting().
   /// @return what changed, deletions included; is_noop() if nothing was done.
   MapDelta apply_poses(std::span<const KeyframePose> poses);
+  static constexpr std::size_t kMovedAtOnce = 32;  // in a third of a second or so
+  /// Whether something of the corrections is left to do, which takes several steps after a large loop.
+  [[nodiscard]] bool is_correcting() const { return has_moves_left_ || map_.content->evidence.is_behind(); }
+  /// The next step of that. @return as apply_poses().
+  MapDelta go_on_correcting();
   /// Makes keyframes final that are older, by id, than the newest of these and not among them: nothing will
   /// move them any more.
   void make_others_final(std::span<const KeyframePose> told);
@@ -79,6 +85,7 @@ class SemanticMapper {
   void remove(const KeyframeRecord& record);
   void add_all();
   void move(std::span<const std::uint64_t> keyframes);
+  [[nodiscard]] std::vector<std::uint64_t> nearest_first(std::vector<std::uint64_t> keyframes) const;
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
   void spill();
@@ -96,8 +103,9 @@ class SemanticMapper {
   ObjectDatabase final_objects_;                      // as those that are have left it
   bool has_final_ = false;                            // the map has parts that are
   bool are_objects_outdated_ = false;
-  bool is_hidden_ = false;  // the evidence has changed since it was shown
-  Scan scan_;               // scratch
+  bool has_moves_left_ = false;  // keyframes whose pose is corrected are in the map with another one
+  bool is_hidden_ = false;       // the evidence has changed since it was shown
+  Scan scan_;                    // scratch
 };
 
 }  // namespace rds::mapper

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integration of a keyframe, at 5 cm and 2 cm, beside OctoMap's own insertPointCloud with rays on the same
 // points. Skipped, with the reason, without 7scenes_kitchen in RDS_SHARED.
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
@@ -58,27 +59,58 @@ void integrate_keyframe(benchmark::State& state) {
 }
 BENCHMARK(integrate_keyframe)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point started) {
+  return std::chrono::duration<double>(Clock::now() - started).count();
+}
+
+/// A map of so many keyframes of the recording, played again and again, and their poses.
+struct LongMap {
+  LongMap(std::size_t count, double resolution_m)
+      : mapper(config_of(resolution_m), 1, std::make_unique<mapper::SpillFile>(std::filesystem::path())) {
+    for (std::size_t i = 0; i < count; ++i) {
+      auto input = keyframes()[i % keyframes().size()];
+      input.id = i;
+      input.stamp_ns += static_cast<std::int64_t>(i / keyframes().size()) * 60'000'000'000;
+      mapper.integrate(input);
+      poses.push_back({input.id, input.stamp_ns, input.map_from_camera});
+    }
+  }
+  static mapper::MapperConfig config_of(double resolution_m) {
+    mapper::MapperConfig config;
+    config.octree.resolution_m = resolution_m;
+    return config;
+  }
+  /// Moves the newest keyframes to and fro. @return the longest step [s].
+  double move_newest(std::size_t count) {
+    const auto moved = std::span(poses).last(count);
+    for (auto& pose : moved) pose.map_from_camera.translation().x() += shift_m;
+    shift_m = -shift_m;
+    auto started = Clock::now();
+    benchmark::DoNotOptimize(mapper.apply_poses(moved));
+    double longest_s = seconds_since(started);
+    while (mapper.is_correcting()) {
+      started = Clock::now();
+      benchmark::DoNotOptimize(mapper.go_on_correcting());
+      longest_s = std::max(longest_s, seconds_since(started));
+    }
+    return longest_s;
+  }
+
+  mapper::SemanticMapper mapper;
+  std::vector<mapper::KeyframePose> poses;
+  double shift_m = 0.05;
+};
+
 /// A loop closes: 100 keyframes have new poses; until the corrected full map is there as bytes.
 void correct_map_after_loop(benchmark::State& state) {
   if (skipped(state)) return;
   constexpr std::size_t kKeyframes = 100;
-  mapper::MapperConfig config;
-  config.octree.resolution_m = static_cast<double>(state.range(0)) / kMmPerM;
-  mapper::SemanticMapper mapper(config, 1);
-  std::vector<mapper::KeyframePose> poses;
-  for (std::size_t i = 0; i < kKeyframes; ++i) {
-    auto input = keyframes()[i % keyframes().size()];
-    input.id = i;
-    input.stamp_ns += static_cast<std::int64_t>(i / keyframes().size()) * 60'000'000'000;
-    mapper.integrate(input);
-    poses.push_back({input.id, input.stamp_ns, input.map_from_camera});
-  }
-  double shift_m = 0.05;
+  LongMap map(kKeyframes, static_cast<double>(state.range(0)) / kMmPerM);
   for (auto _ : state) {
-    for (auto& pose : poses) pose.map_from_camera.translation().x() += shift_m;
-    shift_m = -shift_m;
-    benchmark::DoNotOptimize(mapper.apply_poses(poses));
-    benchmark::DoNotOptimize(mapper::to_bytes(mapper.map().tree()));
+    map.move_newest(kKeyframes);
+    benchmark::DoNotOptimize(mapper::to_bytes(map.mapper.map().tree()));
   }
 }
 BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecond);
@@ -87,31 +119,26 @@ BENCHMARK(correct_map_after_loop)->Arg(50)->Arg(20)->Unit(benchmark::kMillisecon
 void correct_few_of_many(benchmark::State& state) {
   if (skipped(state)) return;
   constexpr std::size_t kMoved = 15;
-  const auto count = static_cast<std::size_t>(state.range(0));
-  mapper::SemanticMapper mapper(mapper::MapperConfig{}, 1,
-                                std::make_unique<mapper::SpillFile>(std::filesystem::path()));
-  std::vector<mapper::KeyframePose> poses;
-  for (std::size_t i = 0; i < count; ++i) {
-    auto input = keyframes()[i % keyframes().size()];
-    input.id = i;
-    input.stamp_ns += static_cast<std::int64_t>(i / keyframes().size()) * 60'000'000'000;
-    mapper.integrate(input);
-    if (i >= count - kMoved) poses.push_back({input.id, input.stamp_ns, input.map_from_camera});
-  }
-  double shift_m = 0.05;
-  for (auto _ : state) {
-    for (auto& pose : poses) pose.map_from_camera.translation().x() += shift_m;
-    shift_m = -shift_m;
-    benchmark::DoNotOptimize(mapper.apply_poses(poses));
-  }
+  LongMap map(static_cast<std::size_t>(state.range(0)), mapper::OctreeConfig{}.resolution_m);
+  for (auto _ : state) map.move_newest(kMoved);
 }
 BENCHMARK(correct_few_of_many)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond);
+
+/// A loop moves all keyframes of a long map, step by step.
+void correct_all_of_many(benchmark::State& state) {
+  if (skipped(state)) return;
+  const auto count = static_cast<std::size_t>(state.range(0));
+  LongMap map(count, mapper::OctreeConfig{}.resolution_m);
+  double longest_s = 0;
+  for (auto _ : state) longest_s = std::max(longest_s, map.move_newest(count));
+  state.counters["longest_step_s"] = longest_s;
+}
+BENCHMARK(correct_all_of_many)->Arg(500)->Arg(5000)->Unit(benchmark::kSecond)->Iterations(1);
 
 /// The points that the mapper uses, in the map.
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {
   const mapper::SamplingConfig sampling;
-  auto record =
-      mapper::make_record(input, sampling, mapper::sample_rays(input.camera, sampling.stride_px));
+  auto record = mapper::make_record(input, sampling, mapper::sample_rays(input.camera, sampling.stride_px));
   mapper::classify_by_depth(record, sampling);
   octomap::Pointcloud cloud;
   for (std::size_t i = 0; i < record.size(); ++i) {

@@ -174,7 +174,7 @@ def main():
     parser.add_argument("--labels-of", type=pathlib.Path, help="detections.jsonl")
     args = parser.parse_args()
     truth = json.loads((args.dataset / "objects.json").read_text())
-    found = json.loads((args.out / "objects.json").read_text())
+    found = [thing for thing in json.loads((args.out / "objects.json").read_text()) if not thing.get("gone")]
     lines = (args.detections or args.dataset / "detections_truth.jsonl").read_text().splitlines()
     frames = [json.loads(line) for line in lines[::args.every]]
     poses = read_poses(args.dataset / "groundtruth.txt")

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <span>
+#include <unordered_map>
 
 #include "services/mapper/core/evidence/evidence_block.hpp"
 
@@ -35,13 +37,18 @@ class Evidence {
   /// What a keyframe says stays as it is, before all that is not final. @param surfaces  as they were added.
   void make_final(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces);
 
-  using Show = std::function<void(const octomap::OcTreeKey&, const EvidenceBlock&)>;
-  /// Brings all blocks that contributions have touched since the last time up to date, and shows them. Of the
-  /// keyframes whose surfaces others may confirm it looks at new ones and some others.
-  /// @param show  (key of the block's lowest voxel, block), in order of first touch.
+  using Show = std::function<void(const octomap::OcTreeKey&, const EvidenceBlock&, const BlockMask& changed)>;
+  /// Brings the blocks that contributions have touched since the last time up to date, and shows them. Where
+  /// that would take long, as after corrections of keyframes of long ago, some of it is left to the next
+  /// times; new keyframes show at once. Of the keyframes whose surfaces others may confirm it looks at new
+  /// ones and some others.
+  /// @param show  (key of the block's lowest voxel, block, its voxels that may have changed).
   void update(const Show& show);
-  /// As update(), but looks at all keyframes: what is shown then is a function of the contributions.
+  /// As update(), but looks at all keyframes, and leaves nothing: what is shown then is a function of the
+  /// contributions.
   void update_all(const Show& show);
+  /// Whether update() has left something.
+  [[nodiscard]] bool is_behind() const { return !behind_.empty(); }
 
   [[nodiscard]] FinalMap final_map() const;
   /// nullptr where nothing is known.
@@ -52,19 +59,25 @@ class Evidence {
   struct Place {
     EvidenceBlock evidence;
     bool is_touched = false;
+    bool is_behind = false;
   };
   struct Keyframe {
     EvidenceTime time = 0;
     std::shared_ptr<KeyframeView> view;
   };
   EvidenceBlock& touch(BlockKey key);
+  template <class Visit>
+  void for_each_in_block(std::span<const Contribution::Surface> surfaces, Visit visit);
   void judge(std::uint64_t id, Keyframe& keyframe);
-  void show_touched(const Show& show);
+  void show_touched(std::size_t limit, const Show& show);
+  std::size_t catch_up(BlockKey key, const Show& show);
+  void show_block(BlockKey key, const Show& show);
   [[nodiscard]] EvidenceTime time_of(std::int64_t time_ns);
 
   EvidenceTime apart_;
   std::unordered_map<BlockKey, Place> blocks_;  // by key only: their order means nothing
   std::vector<BlockKey> touched_;
+  std::deque<BlockKey> behind_;  // those that have waited longest first; some may have gone
   std::map<std::uint64_t, Keyframe> keyframes_;
   std::vector<std::uint64_t> new_;  // keyframes that were not judged yet
   std::uint64_t judged_last_ = 0;   // keyframe

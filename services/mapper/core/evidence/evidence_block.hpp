@@ -1,73 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <memory>
-#include <unordered_map>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "services/mapper/core/evidence/block_looks.hpp"
 #include "services/mapper/core/evidence/final_map.hpp"
 #include "services/mapper/core/evidence/keyframe_view.hpp"
 
 namespace rds::mapper {
 
 /// All evidence about 8×8×8 voxels, and what follows from it.
+///
+/// The occupancy after some of its keyframes is kept now and then along the list, the denser the nearer to
+/// its end: where a keyframe comes or goes, only those behind it are added up again.
 class EvidenceBlock {
  public:
   /// The observations of one keyframe about this block.
   struct Entry {
     std::uint64_t keyframe = 0;
     EvidenceTime time = 0;
-    std::shared_ptr<const KeyframeView> view;
-    std::uint32_t block = 0;  // of the view
+    std::uint32_t block = 0;                   // of the view
+    std::shared_ptr<const KeyframeView> view;  // nullptr: it has gone
+
+    [[nodiscard]] bool has_sightings() const { return view && view->has_sightings(block); }
+  };
+  /// A keyframe's place in the list: by time, of equal ones by id.
+  struct Rank {
+    EvidenceTime time = 0;
+    std::uint64_t keyframe = 0;
+    auto operator<=>(const Rank&) const = default;
   };
 
-  void add(const Entry& entry);
-  void remove(std::uint64_t keyframe);
-  void add_look(std::uint16_t cell, const SurfaceLook& look) { looks_[cell].add(look); }
-  void remove_look(std::uint16_t cell, const SurfaceLook& look);
+  void add(Entry entry);
+  void remove(const Rank& rank);
+  void add_look(std::uint16_t cell, const SurfaceLook& look) {
+    looks_.add(cell, look);
+    changed_.insert(cell);
+  }
+  /// What was added before.
+  void remove_look(std::uint16_t cell, const SurfaceLook& look) {
+    looks_.remove(cell, look);
+    changed_.insert(cell);
+  }
   /// What is known of the block before all keyframes; before any other call.
   void begin_with(const FinalBlock& known);
   /// What a keyframe said stays as it is now. @param looks  of it, in this block.
-  void make_final(std::uint64_t keyframe, const std::vector<std::pair<std::uint16_t, SurfaceLook>>& looks);
+  void make_final(const Rank& rank, const std::vector<std::pair<std::uint16_t, SurfaceLook>>& looks);
 
   /// Of all keyframes.
   const BlockCounts& counts();
   /// A verdict on a surface of a keyframe has changed.
-  void outdate(std::uint64_t keyframe);
-  /// Brings the log-odds up to date.
+  void outdate(const Rank& rank);
+  /// Keyframes that update() has to add up.
+  [[nodiscard]] std::size_t not_added_up() const;
+  /// Brings the occupancy up to date.
   void update();
+  /// Adds the keyframes newer than all others to the occupancy as it is, where update() would take long.
+  void add_newest();
 
-  [[nodiscard]] const BlockLogOdds& log_odds() const { return log_odds_; }
+  [[nodiscard]] const BlockOccupancy& occupancy() const { return occupancy_; }
+  /// Voxels of which occupancy or look are others than at the last call.
+  BlockMask take_changed() { return std::exchange(changed_, {}); }
   /// Of a cell; nullptr if no keyframe has seen a surface there.
-  [[nodiscard]] const VoxelLook* look(std::uint16_t cell) const {
-    const auto found = looks_.find(cell);
-    return found == looks_.end() ? nullptr : &found->second;
-  }
+  [[nodiscard]] const VoxelLook* look(std::uint16_t cell) const { return looks_.find(cell); }
   [[nodiscard]] const FinalBlock* final_part() const { return final_.get(); }
   /// Whether nothing is known of it.
   [[nodiscard]] bool empty() const { return entries_.empty() && !final_; }
 
  private:
-  using Entries = std::vector<Entry>;
+  /// The occupancy after the first so many entries.
+  struct Prefix {
+    std::size_t entries = 0;
+    BlockOccupancy occupancy;
+  };
 
-  void add_up_all();
-  void add_up_new();
-  void add_to(BlockLogOdds& log_odds, const Entry& entry) const;
-  [[nodiscard]] Entries::iterator at_or_after(std::uint64_t keyframe);
-  [[nodiscard]] bool is_added_up(Entries::const_iterator entry) const { return entry < first_new(); }
-  [[nodiscard]] Entries::const_iterator first_new() const {
-    return entries_.begin() + static_cast<std::ptrdiff_t>(added_up_);
-  }
+  [[nodiscard]] std::size_t at_or_after(const Rank& rank) const;
+  [[nodiscard]] std::optional<std::size_t> find(const Rank& rank) const;
+  void change_from(std::size_t entry);
+  void close_gaps();
+  void keep_prefix(std::size_t entries);
 
-  Entries entries_;                                     // by keyframe
-  std::unordered_map<std::uint16_t, VoxelLook> looks_;  // by cell, with the final ones
+  std::vector<Entry>
+      entries_;  // by rank; what goes leaves a gap until the next update(), for it may come back
+  bool has_gaps_ = false;
+  BlockLooks looks_;  // with the final ones
   std::unique_ptr<FinalBlock> final_;
-  std::unique_ptr<BlockCounts> counts_;  // nullptr: they have to be made again, or all are 0
-  bool is_equivocal_ = false;            // verdicts on voxels matter
-  BlockLogOdds log_odds_;
-  std::unique_ptr<BlockVerdicts> verdicts_;  // with which log_odds_ was made, where they matter
-  std::size_t added_up_ = 0;                 // the first so many entries are in log_odds_; the rest is new
-  bool is_outdated_ = false;                 // all has to be added up again
+  std::unique_ptr<BlockCounts> counts_;  // nullptr: nobody has asked yet
+  BlockOccupancy occupancy_;
+  std::size_t added_up_ = 0;                 // the first so many entries are in occupancy_; the rest is new
+  std::optional<std::size_t> changed_from_;  // of these, the first that is not as it was added up
+  std::vector<Prefix> prefixes_;             // by entries
+  BlockMask changed_;
 };
 
 }  // namespace rds::mapper

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/evidence/final_map.hpp"
 
+#include <cstdlib>
+
 namespace rds::mapper {
 namespace {
 
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
-constexpr std::uint16_t kOften = 1000;  // more keyframes than any that speak against a saved voxel
-constexpr std::size_t kVoxelBytes = 2 + 2 + 1 + 3 * 2 + 4 * 4;
+constexpr std::uint32_t kOften = 1000;  // more keyframes than any that speak against a saved voxel
+constexpr std::size_t kVoxelBytes = 2 + 1 + 2 * 2 + 2 * 1 + 2 * (4 + 2 * 4);
 constexpr std::uint64_t kLastKey = 0xFFFF'FFFF'FFFF;
 
 bool says_something(const FinalBlock& block, std::size_t cell) {
-  return block.log_odds.known[cell] != 0 || block.counts.surfaces[cell] > 0 ||
-         block.counts.dynamics[cell] > 0;
+  return block.occupancy.known.has(cell) || block.counts.statics.count[cell] > 0 ||
+         block.counts.dynamics.count[cell] > 0;
 }
 
-/// Calls go(value) for each value of a cell but its look.
+/// Calls go(value) for each value of a cell but its look and whether it is known.
 template <class Block, class Go>
 void each_value(Block& block, std::size_t cell, Go go) {
-  go(block.log_odds.values[cell]);
-  go(block.log_odds.known[cell]);
-  go(block.counts.surfaces[cell]);
-  go(block.counts.statics[cell]);
-  go(block.counts.dynamics[cell]);
-  go(block.counts.first_static[cell]);
-  go(block.counts.last_static[cell]);
-  go(block.counts.first_dynamic[cell]);
-  go(block.counts.last_dynamic[cell]);
+  go(block.occupancy.values[cell]);
+  go(block.occupancy.lasting[cell]);
+  go(block.occupancy.row[cell]);
+  go(block.occupancy.balance[cell]);
+  for (auto* sightings : {&block.counts.statics, &block.counts.dynamics}) {
+    go(sightings->count[cell]);
+    go(sightings->first[cell]);
+    go(sightings->last[cell]);
+  }
 }
 
 void put(ByteWriter& writer, const FinalBlock& block) {
@@ -37,6 +39,7 @@ void put(ByteWriter& writer, const FinalBlock& block) {
   for (std::size_t cell = 0; cell < kBlockCells; ++cell) {
     if (!says_something(block, cell)) continue;
     writer.put(static_cast<std::uint16_t>(cell));
+    writer.put(static_cast<std::uint8_t>(block.occupancy.known.has(cell)));
     each_value(block, cell, [&](const auto& value) { writer.put(value); });
   }
   writer.put_count(block.looks.size());
@@ -54,13 +57,14 @@ std::uint16_t get_cell(ByteReader& reader) {
 
 /// What put() cannot have written of a cell; nullptr if it can.
 const char* fault_of(const FinalBlock& block, std::size_t cell) {
-  const BlockCounts& counts = block.counts;
-  const LogOdds log_odds = block.log_odds.values[cell];
-  if (log_odds < kLowest || log_odds > kHighest) return "log-odds beyond their limits";
-  if (const auto known = block.log_odds.known[cell]; known != 0 && known != 255) return "a voxel half known";
-  for (const EvidenceTime time : {counts.first_static[cell], counts.last_static[cell],
-                                  counts.first_dynamic[cell], counts.last_dynamic[cell]})
-    if (time < kBeforeAll || time > kAfterAll) return "a time outside of all times";
+  const BlockOccupancy& voxels = block.occupancy;
+  for (const LogOdds log_odds : {voxels.values[cell], voxels.lasting[cell]})
+    if (log_odds < kLowest || log_odds > kHighest) return "log-odds beyond their limits";
+  if (std::abs(voxels.row[cell]) > kSolidRow) return "a row of hits that is too long";
+  if (std::abs(voxels.balance[cell]) > kMostBalance) return "a balance beyond its limits";
+  for (const Sightings* sightings : {&block.counts.statics, &block.counts.dynamics})
+    for (const EvidenceTime time : {sightings->first[cell], sightings->last[cell]})
+      if (time < kBeforeAll || time > kAfterAll) return "a time outside of all times";
   return nullptr;
 }
 
@@ -69,6 +73,7 @@ FinalBlock get_block(ByteReader& reader, std::size_t labels) {
   const std::size_t cells = reader.get_count(kVoxelBytes);
   for (std::size_t i = 0; i < cells && reader.ok(); ++i) {
     const auto cell = get_cell(reader);
+    if (reader.get<std::uint8_t>() != 0) block.occupancy.known.insert(cell);
     each_value(block, cell, [&](auto& value) { value = reader.get<std::decay_t<decltype(value)>>(); });
     if (const auto fault = fault_of(block, cell); fault != nullptr) reader.refuse(fault);
   }
@@ -85,12 +90,14 @@ FinalBlock get_block(ByteReader& reader, std::size_t labels) {
 void FinalMap::add(const octomap::OcTreeKey& key, LogOdds log_odds, const std::optional<VoxelLook>& look) {
   FinalBlock& block = blocks[packed(block_key(key))];
   const auto cell = cell_of(key);
-  block.log_odds.values[cell] = log_odds;
-  block.log_odds.known[cell] = 255;
+  block.occupancy.values[cell] = block.occupancy.lasting[cell] = log_odds;
+  block.occupancy.known.insert(cell);
   if (log_odds <= 0) return;
-  block.counts.surfaces[cell] = block.counts.statics[cell] = kOften;
-  block.counts.first_static[cell] = kBeforeAll;
-  block.counts.last_static[cell] = kAfterAll;
+  if (log_odds == kHighest) block.occupancy.row[cell] = kSolidRow;  // it has stood for long
+  block.occupancy.balance[cell] = kMostBalance;
+  block.counts.statics.count[cell] = kOften;
+  block.counts.statics.first[cell] = kBeforeAll;
+  block.counts.statics.last[cell] = kAfterAll;
   if (look) block.looks[cell] = *look;
 }
 

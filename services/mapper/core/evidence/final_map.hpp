@@ -11,7 +11,7 @@ namespace rds::mapper {
 
 /// What is final in a block: it comes before all keyframes that are not.
 struct FinalBlock {
-  BlockLogOdds log_odds;
+  BlockOccupancy occupancy;
   BlockCounts counts;
   std::map<std::uint16_t, VoxelLook> looks;  // by cell
 };

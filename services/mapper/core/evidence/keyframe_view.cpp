@@ -2,105 +2,68 @@
 #include "services/mapper/core/evidence/keyframe_view.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 namespace rds::mapper {
-namespace {
-
-constexpr std::size_t kWords = kBlockCells / 64;
-using PlaneWords = std::array<std::uint64_t, kWords>;
-
-constexpr std::uint64_t kLowBits = 0x0101010101010101U;
-constexpr std::uint64_t kGather = 0x0102040810204080U;  // brings the low bits of eight bytes into the highest
-
-/// Eight bytes of which byte i is bit i of the index.
-constexpr auto kSpread = [] {
-  std::array<std::uint64_t, 256> spread{};
-  for (std::size_t bits = 0; bits < spread.size(); ++bits)
-    for (std::size_t i = 0; i < 8; ++i) spread[bits] |= std::uint64_t{bits >> i & 1U} << (8 * i);
-  return spread;
-}();
-
-static_assert(std::endian::native == std::endian::little);
-
-PlaneWords plane_of(const BlockObservations& observations, unsigned bit) {
-  PlaneWords plane{};
-  for (std::size_t i = 0; i < kBlockCells; i += 8) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, &observations[i], 8);
-    const std::uint64_t bits = ((eight >> bit & kLowBits) * kGather) >> 56U;
-    plane[i / 64] |= bits << (i % 64);
-  }
-  return plane;
-}
-
-bool is_equivocal_in(std::uint8_t cell) {
-  return (cell & kNearDynamic) != 0 || observation_in(cell) == Observation::kNoReturn;
-}
-
-}  // namespace
-
-void KeyframeView::add(const octomap::OcTreeKey& key, const BlockObservations& observations,
+void KeyframeView::add(const octomap::OcTreeKey& key, const BlockSight& sight,
                        const std::vector<SurfacePart>& parts) {
   Block block{{key[0], key[1], key[2]},
               {},
-              std::ranges::any_of(observations, is_equivocal_in),
               static_cast<std::uint16_t>(parts.size()),
               static_cast<std::uint32_t>(words_.size()),
               static_cast<std::uint32_t>(parts_.size())};
   parts_.insert(parts_.end(), parts.begin(), parts.end());
-  for (unsigned bit = 0; bit < kBitsOfObservation; ++bit) {
-    const PlaneWords plane = plane_of(observations, bit);
-    const bool is_uniform = std::ranges::all_of(plane, [&](auto word) { return word == plane.front(); });
-    if (is_uniform && plane.front() == 0) {
+  const std::array<BlockMask, kPlanes> planes{sight.no_return | sight.unknown | sight.stable,
+                                              sight.passed | sight.unknown, sight.doubtful | sight.stable,
+                                              sight.near_dynamic};
+  for (unsigned bit = 0; bit < kPlanes; ++bit) {
+    const BlockMask& plane = planes[bit];
+    if (plane.empty()) {
       block.planes[bit] = Plane::kZeros;
-    } else if (is_uniform && ~plane.front() == 0) {
+    } else if (plane == BlockMask::all()) {
       block.planes[bit] = Plane::kOnes;
     } else {
       block.planes[bit] = Plane::kStored;
-      words_.insert(words_.end(), plane.begin(), plane.end());
+      for (std::size_t i = 0; i < BlockMask::kWords; ++i) words_.push_back(plane.word(i));
     }
   }
   blocks_.push_back(block);
 }
 
-void KeyframeView::unpack(std::size_t at, BlockObservations& observations) const {
+BlockSight KeyframeView::sight(std::size_t at) const {
   const Block& block = blocks_[at];
-  observations.fill(0);
+  std::array<BlockMask, kPlanes> planes;
   std::size_t word = block.first_word;
-  for (unsigned bit = 0; bit < kBitsOfObservation; ++bit) {
-    if (block.planes[bit] == Plane::kZeros) continue;
-    for (std::size_t i = 0; i < kBlockCells; i += 8) {
-      const std::uint64_t bits =
-          block.planes[bit] == Plane::kOnes ? 0xFFU : words_[word + i / 64] >> (i % 64) & 0xFFU;
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, &observations[i], 8);
-      eight |= kSpread[bits] << bit;
-      std::memcpy(&observations[i], &eight, 8);
-    }
-    if (block.planes[bit] == Plane::kStored) word += kWords;
+  for (unsigned bit = 0; bit < kPlanes; ++bit) {
+    if (block.planes[bit] == Plane::kOnes) planes[bit] = BlockMask::all();
+    if (block.planes[bit] != Plane::kStored) continue;
+    for (std::size_t i = 0; i < BlockMask::kWords; ++i) planes[bit].word(i) = words_[word + i];
+    word += BlockMask::kWords;
   }
+  const auto& [ones, twos, fours, near_dynamic] = planes;
+  return {ones & ~(twos | fours), twos & ~ones, ones & twos, fours & ~ones, fours & ones, near_dynamic};
 }
 
-void KeyframeView::unpack_decided(std::size_t at, BlockObservations& observations) const {
-  unpack(at, observations);
-  if (blocks_[at].parts == 0) return;
-  const SurfacePart* part = &parts_[blocks_[at].first_part];
-  for (auto& cell : observations) {
-    const auto observation = observation_in(cell);
-    if (observation < Observation::kUnknown) continue;
-    const SurfaceVerdict verdict = verdicts_[part++->surface];
-    const bool counts = verdict == SurfaceVerdict::kConfirmed ||
-                        (verdict == SurfaceVerdict::kUndecided && observation == Observation::kStatic);
-    const auto decided = counts ? Observation::kStatic : Observation::kNone;
-    cell = static_cast<std::uint8_t>((cell & kNearDynamic) | static_cast<std::uint8_t>(decided));
-  }
+BlockStep KeyframeView::step(std::size_t block) const {
+  const BlockSight sight = this->sight(block);
+  BlockStep step{sight.stable, sight.passed, sight.no_return, sight.seen_static(), sight.near_dynamic};
+  if (!is_decided_ || !has_surfaces(block)) return step;
+  for_each_surface_voxel(block, sight.surfaces(), [&](std::size_t cell, SurfacePart part) {
+    const SurfaceVerdict verdict = verdicts_[part.surface];
+    if (verdict == SurfaceVerdict::kConfirmed) step.hit.insert(cell);
+    if (verdict == SurfaceVerdict::kTransient) step.hit.erase(cell);
+  });
+  return step;
 }
 
 void KeyframeView::set_surfaces(std::vector<bool> is_large) {
-  verdicts_.assign(is_large.size(), SurfaceVerdict::kUndecided);
+  set_verdicts(std::vector(is_large.size(), SurfaceVerdict::kUndecided));
   is_large_ = std::move(is_large);
+}
+
+void KeyframeView::set_verdicts(std::vector<SurfaceVerdict> verdicts) {
+  verdicts_ = std::move(verdicts);
+  is_decided_ = std::ranges::any_of(
+      verdicts_, [](SurfaceVerdict verdict) { return verdict != SurfaceVerdict::kUndecided; });
 }
 
 }  // namespace rds::mapper

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "services/mapper/core/evidence/observation.hpp"
+#include "services/mapper/core/evidence/block_mask.hpp"
 
 namespace rds::mapper {
 
@@ -20,14 +20,38 @@ enum class SurfaceVerdict : std::uint8_t {
   kTransient,  // nothing of it counts
 };
 
+/// What one keyframe says about the voxels of a block: those with each observation, no voxel with two.
+struct BlockSight {
+  BlockMask no_return;
+  BlockMask passed;
+  BlockMask unknown;
+  BlockMask doubtful;
+  BlockMask stable;        // Observation::kStatic
+  BlockMask near_dynamic;  // beside its observation: something dynamic was within half a cube (kDynamicCubeM)
+
+  [[nodiscard]] bool empty() const {
+    return (no_return | passed | unknown | doubtful | stable | near_dynamic).empty();
+  }
+  [[nodiscard]] BlockMask surfaces() const { return unknown | doubtful | stable; }
+  [[nodiscard]] BlockMask seen_static() const { return doubtful | stable; }
+};
+
+/// What of it counts for the occupancy.
+struct BlockStep {
+  BlockMask hit;
+  BlockMask passed;
+  BlockMask no_return;
+  BlockMask seen_static;  // static or doubtful
+  BlockMask near_dynamic;
+};
+
 /// What one keyframe, with one pose, says about space: its observations, packed in bit planes of which those
 /// that are the same all over a block take no room; and its surfaces, which stand or fall as a whole.
 class KeyframeView {
  public:
   /// Appends a block. @param key  of its lowest voxel; each at most once. @param parts  of which surfaces its
   /// static, doubtful and unknown voxels are, in order of their cells.
-  void add(const octomap::OcTreeKey& key, const BlockObservations& observations,
-           const std::vector<SurfacePart>& parts);
+  void add(const octomap::OcTreeKey& key, const BlockSight& sight, const std::vector<SurfacePart>& parts);
   /// @param is_large  of each surface, from 0: whether it fills much of the picture.
   void set_surfaces(std::vector<bool> is_large);
 
@@ -36,28 +60,33 @@ class KeyframeView {
     const auto& key = blocks_[block].key;
     return {key[0], key[1], key[2]};
   }
-  /// As they were added.
-  void unpack(std::size_t block, BlockObservations& observations) const;
-  /// With surfaces by their verdicts: none is doubtful or unknown.
-  void unpack_decided(std::size_t block, BlockObservations& observations) const;
-  /// Calls visit(cell, observation, part) for the surfaces' voxels in a block.
+  [[nodiscard]] BlockSight sight(std::size_t block) const;
+  /// With surfaces by their verdicts.
+  [[nodiscard]] BlockStep step(std::size_t block) const;
+  /// Calls visit(cell, part) for the surfaces' voxels in a block. @param surfaces  of its sight().
   template <class Visit>
-  void for_each_surface_voxel(std::size_t block, Visit visit) const;
+  void for_each_surface_voxel(std::size_t block, const BlockMask& surfaces, Visit visit) const {
+    const SurfacePart* part = parts_.data() + blocks_[block].first_part;
+    surfaces.for_each([&](std::size_t cell) { visit(cell, *part++); });
+  }
 
   [[nodiscard]] bool has_surfaces(std::size_t block) const { return blocks_[block].parts > 0; }
-  /// Whether something dynamic was there, or a ray without return passed.
-  [[nodiscard]] bool is_equivocal(std::size_t block) const { return blocks_[block].is_equivocal; }
+  /// Whether it has surfaces, or something dynamic was there.
+  [[nodiscard]] bool has_sightings(std::size_t block) const {
+    return has_surfaces(block) || blocks_[block].planes[kNearPlane] != Plane::kZeros;
+  }
   [[nodiscard]] const std::vector<bool>& is_large() const { return is_large_; }
   /// Of each surface, from 0.
   [[nodiscard]] const std::vector<SurfaceVerdict>& verdicts() const { return verdicts_; }
-  void set_verdicts(std::vector<SurfaceVerdict> verdicts) { verdicts_ = std::move(verdicts); }
+  void set_verdicts(std::vector<SurfaceVerdict> verdicts);
 
  private:
+  static constexpr unsigned kPlanes = 4;  // three of the observation's number, and
+  static constexpr unsigned kNearPlane = 3;
   enum class Plane : std::uint8_t { kZeros, kOnes, kStored };
   struct Block {
     std::array<std::uint16_t, 3> key;
-    std::array<Plane, kBitsOfObservation> planes;
-    bool is_equivocal;
+    std::array<Plane, kPlanes> planes;
     std::uint16_t parts;
     std::uint32_t first_word;  // of the stored planes, eight words each
     std::uint32_t first_part;
@@ -67,17 +96,7 @@ class KeyframeView {
   std::vector<SurfacePart> parts_;
   std::vector<bool> is_large_;
   std::vector<SurfaceVerdict> verdicts_;
+  bool is_decided_ = false;  // some verdict is not kUndecided
 };
-
-template <class Visit>
-void KeyframeView::for_each_surface_voxel(std::size_t block, Visit visit) const {
-  if (blocks_[block].parts == 0) return;
-  BlockObservations observations;
-  unpack(block, observations);
-  const SurfacePart* part = &parts_[blocks_[block].first_part];
-  for (std::size_t cell = 0; cell < kBlockCells; ++cell)
-    if (const auto observation = observation_in(observations[cell]); observation >= Observation::kUnknown)
-      visit(cell, observation, *part++);
-}
 
 }  // namespace rds::mapper

@@ -1,129 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/evidence/occupancy_model.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 namespace rds::mapper {
 namespace {
 
 constexpr LogOdds kHit = 850;
-constexpr LogOdds kMiss = -410;
-constexpr LogOdds kGhostMiss = -1200;         // a voxel at the upper clamp is free after three rays
-constexpr std::uint16_t kSeldomSurfaces = 2;  // no more may be an accident
-
-constexpr auto code(Observation observation) {
-  return static_cast<std::uint8_t>(observation);
-}
+constexpr LogOdds kMiss = 410;
+constexpr LogOdds kSolidMiss = 700;        // a voxel at the upper clamp is free after five
+constexpr LogOdds kGhostMiss = 1200;       // after three
+constexpr std::int8_t kSeldomBalance = 2;  // no more sightings may be an accident
 
 // Eight cells at once; a comparison gives −1 where it holds and 0 elsewhere.
 constexpr std::size_t kLanes = 8;
 using Lanes = std::int16_t __attribute__((vector_size(16)));
-using ByteLanes = std::uint8_t __attribute__((vector_size(8)));
-using TimeLanes = EvidenceTime __attribute__((vector_size(32)));
+using ByteLanes = std::int8_t __attribute__((vector_size(8)));
 
-template <class Vector, class Value>
-void load(Vector& lanes, const Value& first) {
+/// Of eight cells in a set, −1 for those that are in it.
+constexpr auto kMembers = [] {
+  std::array<std::array<std::int16_t, kLanes>, 256> members{};
+  for (std::size_t set = 0; set < members.size(); ++set)
+    for (std::size_t i = 0; i < kLanes; ++i)
+      members[set][i] = static_cast<std::int16_t>((set >> i & 1U) != 0 ? -1 : 0);
+  return members;
+}();
+
+Lanes members(const BlockMask& mask, std::size_t first) {
+  Lanes lanes;
+  std::memcpy(&lanes, kMembers[mask.eight(first)].data(), sizeof(lanes));
+  return lanes;
+}
+
+Lanes load(const LogOdds& first) {
+  Lanes lanes;
   std::memcpy(&lanes, &first, sizeof(lanes));
+  return lanes;
 }
-
-/// The observations or verdict bits of eight cells.
-void load_bytes(Lanes& lanes, const std::uint8_t& first) {
+Lanes load(const std::int8_t& first) {
   ByteLanes bytes;
-  load(bytes, first);
-  lanes = __builtin_convertvector(bytes, Lanes);
+  std::memcpy(&bytes, &first, sizeof(bytes));
+  return __builtin_convertvector(bytes, Lanes);
+}
+void store(const Lanes& lanes, LogOdds& first) {
+  std::memcpy(&first, &lanes, sizeof(lanes));
+}
+void store(const Lanes& lanes, std::int8_t& first) {
+  const ByteLanes bytes = __builtin_convertvector(lanes, ByteLanes);
+  std::memcpy(&first, &bytes, sizeof(bytes));
 }
 
-/// Adds a step to eight cells from `first` on, and notes which are known now.
-void add_to(BlockLogOdds& block, std::size_t first, const Lanes& step, const Lanes& is_known) {
-  Lanes value;
-  load(value, block.values[first]);
-  value += step;
-  value = value < kLowest ? kLowest - Lanes{} : value;
-  value = value > kHighest ? kHighest - Lanes{} : value;
-  std::memcpy(&block.values[first], &value, sizeof(value));
-  ByteLanes known;
-  load(known, block.known[first]);
-  known |= __builtin_convertvector(is_known, ByteLanes);
-  std::memcpy(&block.known[first], &known, sizeof(known));
+Lanes clamped(Lanes value, std::int16_t lowest, std::int16_t highest) {
+  value = value < lowest ? lowest - Lanes{} : value;
+  return value > highest ? highest - Lanes{} : value;
 }
 
-/// Counts that do not wrap: a robot that stands for hours sees a voxel in more keyframes than fit.
-void count_if(bool is_seen, std::uint16_t& count) {
-  count = static_cast<std::uint16_t>(count + ((count < UINT16_MAX) & is_seen ? 1 : 0));
+/// Whether a ray that passes tells nothing new of eight cells.
+bool are_free_for_good(const BlockOccupancy& block, std::size_t first) {
+  constexpr auto kFree = [] {
+    std::array<LogOdds, kLanes> free{};
+    free.fill(kLowest);
+    return free;
+  }();
+  return std::memcmp(&block.values[first], kFree.data(), sizeof(kFree)) == 0 &&
+         std::memcmp(&block.lasting[first], kFree.data(), sizeof(kFree)) == 0;
+}
+
+/// The equations, for eight cells.
+void add_to(BlockOccupancy& block, std::size_t i, const BlockStep& step) {
+  const Lanes hit = members(step.hit, i);
+  const Lanes passed = members(step.passed, i);
+  const Lanes no_return = members(step.no_return, i);
+  const Lanes balance =
+      clamped(load(block.balance[i]) - members(step.seen_static, i) + members(step.near_dynamic, i),
+              -kMostBalance, kMostBalance);
+  const Lanes row = load(block.row[i]);
+  const Lanes length = row < 0 ? -row : row;
+  const Lanes lasting = load(block.lasting[i]);
+  const Lanes value = load(block.values[i]);
+  const Lanes is_occupied = value > 0;
+  const Lanes is_carved = no_return & (balance <= kSeldomBalance);
+  const Lanes missed = passed | (is_carved & is_occupied);
+  const Lanes missed_lasting = passed | (is_carved & (lasting > 0));
+  const Lanes ghost = is_occupied & (balance < 0);
+  const Lanes solid = ~ghost & is_occupied & (length >= kSolidRow);
+  const Lanes miss = (ghost & kGhostMiss) | (solid & kSolidMiss) | (~(ghost | solid) & kMiss);
+  const Lanes lasting_now = clamped(lasting + (hit & kHit) - (missed_lasting & kMiss), kLowest, kHighest);
+  const Lanes value_now = clamped(value - (missed & miss), kLowest, kHighest);
+  const Lanes longer = row > 0 ? clamped(row + 1, 0, kSolidRow) : 1 - Lanes{};
+  store(balance, block.balance[i]);
+  store(lasting_now, block.lasting[i]);
+  store((hit & lasting_now) | (~hit & value_now), block.values[i]);
+  store((hit & longer) | (missed & ~hit & -length) | (~(hit | missed) & row), block.row[i]);
 }
 
 }  // namespace
 
-void BlockCounts::add(const BlockObservations& observations, EvidenceTime time) {
-  for (std::size_t i = 0; i < kBlockCells; ++i) {
-    const int observed = observations[i] & kObservationBits;
-    const bool is_static = observed >= code(Observation::kDoubtful);
-    const bool is_dynamic = observations[i] >= kNearDynamic;
-    count_if(observed >= code(Observation::kUnknown), surfaces[i]);
-    count_if(is_static, statics[i]);
-    count_if(is_dynamic, dynamics[i]);
-    first_static[i] = std::min(first_static[i], is_static ? time : kAfterAll);
-    last_static[i] = std::max(last_static[i], is_static ? time : kBeforeAll);
-    first_dynamic[i] = std::min(first_dynamic[i], is_dynamic ? time : kAfterAll);
-    last_dynamic[i] = std::max(last_dynamic[i], is_dynamic ? time : kBeforeAll);
-  }
-}
-
-bool seen_apart(const BlockCounts& counts, std::size_t cell, EvidenceTime time, EvidenceTime apart) {
-  return counts.first_static[cell] <= time - apart || counts.last_static[cell] >= time + apart;
-}
-
-bool is_transient(const BlockCounts& counts, std::size_t cell, EvidenceTime apart) {
-  return counts.statics[cell] < counts.dynamics[cell] &&
-         counts.first_static[cell] > counts.first_dynamic[cell] - apart &&
-         counts.last_static[cell] < counts.last_dynamic[cell] + apart;
-}
-
-BlockVerdicts decide(const BlockCounts& counts) {
-  BlockVerdicts verdicts;
-  for (std::size_t i = 0; i < kBlockCells; ++i) {
-    const bool is_surface = counts.surfaces[i] > 0;
-    const bool is_ghost = is_surface & (counts.statics[i] < counts.dynamics[i]);
-    const bool is_seldom = is_surface & (counts.surfaces[i] <= kSeldomSurfaces);
-    verdicts.bits[i] = static_cast<std::uint8_t>((is_ghost ? kGhost : 0) | (is_seldom ? kSeldom : 0));
-    verdicts.ghost_static_last[i] = is_ghost ? counts.last_static[i] : kBeforeAll;
-  }
-  return verdicts;
-}
-
-void BlockLogOdds::add_plain(const BlockObservations& observations) {
+void BlockOccupancy::add(const BlockStep& step) {
+  const BlockMask but_passed = step.hit | step.no_return | step.seen_static | step.near_dynamic;
+  const BlockMask told = but_passed | step.passed;
   for (std::size_t i = 0; i < kBlockCells; i += kLanes) {
-    Lanes observed;
-    load_bytes(observed, observations[i]);
-    const Lanes is_hit = observed == code(Observation::kStatic);
-    const Lanes is_miss = observed == code(Observation::kPassed);
-    add_to(*this, i, (is_hit & kHit) + (is_miss & kMiss), is_hit | is_miss);
+    if (told.eight(i) == 0 || (but_passed.eight(i) == 0 && are_free_for_good(*this, i))) continue;
+    add_to(*this, i, step);
   }
+  known |= step.hit | step.passed;
 }
 
-void BlockLogOdds::add(const BlockObservations& observations, EvidenceTime time,
-                       const BlockVerdicts& verdicts) {
+BlockMask BlockOccupancy::changed_since(const BlockOccupancy& before) const {
+  BlockMask changed;
   for (std::size_t i = 0; i < kBlockCells; i += kLanes) {
-    Lanes observed;
-    Lanes verdict;
-    Lanes value;
-    TimeLanes static_last;
-    load_bytes(observed, observations[i]);
-    load_bytes(verdict, verdicts.bits[i]);
-    load(value, values[i]);
-    load(static_last, verdicts.ghost_static_last[i]);
-    observed &= kObservationBits;
-    const Lanes is_hit = observed == code(Observation::kStatic);
-    const Lanes is_passed = observed == code(Observation::kPassed);
-    const Lanes is_occupied = value > 0;
-    const Lanes is_later = __builtin_convertvector(static_last <= time, Lanes);
-    const Lanes is_left = is_occupied & is_later & ((verdict & kGhost) != 0);
-    const Lanes is_carved =
-        is_occupied & (observed == code(Observation::kNoReturn)) & (is_left | ((verdict & kSeldom) != 0));
-    const Lanes miss = (is_left & kGhostMiss) | (~is_left & kMiss);
-    add_to(*this, i, (is_hit & kHit) + ((is_passed | is_carved) & miss), is_hit | is_passed);
+    if (std::memcmp(&values[i], &before.values[i], kLanes * sizeof(LogOdds)) == 0) continue;
+    for (std::size_t cell = i; cell < i + kLanes; ++cell)
+      if (values[cell] != before.values[cell]) changed.insert(cell);
   }
+  for (std::size_t i = 0; i < BlockMask::kWords; ++i) changed.word(i) |= known.word(i) ^ before.known.word(i);
+  return changed;
 }
 
 }  // namespace rds::mapper

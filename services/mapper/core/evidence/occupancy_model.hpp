@@ -1,47 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
+#include "services/mapper/core/evidence/keyframe_view.hpp"
+#include "services/mapper/core/evidence/sightings.hpp"
 
-#include "services/mapper/core/evidence/observation.hpp"
-
-// What a map says of a voxel, as a function of all that keyframes say of it.
+// What a map says of a voxel, as a function of all that keyframes say of it: a sum over the keyframes in the
+// order of their times, so that it does not matter in which order they came.
 //
-// Paper §IV-C, Eq. (2), over the keyframes in the order of their ids:
+// Paper §IV-C, Eq. (2), with log-odds clamped to P in [.12, .97]:
 //
-//   L₀ = 0,  L ← clamp(L + l(observation), log-odds(.12), log-odds(.97)),  occupied if L > 0
+//   L ← clamp(L + l(observation))        l = +.85 for a static surface, −.41 for a ray that passes, or a
+//                                        surface of something dynamic
 //
-// with l = +.85 for a static surface and −.41 for a ray that passes, or a surface of something dynamic. What
-// is not that plain is decided by all keyframes together:
+// Misses since the voxel was hit last are noise (a surface at a grazing angle, an edge), or what stood there
+// has gone. C is L with these misses taken for a change, by what was known of the voxel; a hit says that it
+// was noise. A voxel is occupied if C > 0:
 //
-//   S, D     keyframes that saw the voxel as static or doubtful, and something dynamic there
-//   τ(·)     their times; apart = 1 s: by then something dynamic would have moved
-//   ghost       |S| < |D|
-//   transient   ghost, and τ(S) within (min τ(D) − apart, max τ(D) + apart)
-//   seldom      a surface in no more than two keyframes
+//   hit      C ← L                       after the hit
+//   miss     C ← clamp(C − m)            m = 1.2 if C > 0 and b < 0   (ghost)
+//                                        m = .7  if C > 0 and r ≥ 8   (solid)
+//                                        m = .41 else: as the paper
 //
-//   observation     l
-//   static          +.85; 0 on a transient surface
-//   doubtful        +.85 on a confirmed surface, else 0
+//   b   keyframes that saw it as static or doubtful, less those that saw something dynamic there; in ±100
+//   r   hits in a row before the last miss
+//
+//   observation     is
+//   static          a hit; nothing on a transient surface
+//   doubtful        a hit on a confirmed surface, else nothing
 //   unknown         as doubtful
-//   passed          −.41; −1.2 if L > 0 and the voxel is a ghost that was not static later
-//   no return       if L > 0: −1.2 for such a ghost, −.41 if seldom; else 0
+//   passed          a miss
+//   no return       a miss where L > 0, or C > 0, and b ≤ 2 (what more keyframes have seen is measurable)
 //
-// A surface is a connected one of a keyframe's picture, and judged as a whole, so that the end of a table
-// that no other keyframe has seen stands or falls with the rest of it: it is confirmed if enough of it was
-// seen as static at another time, transient if most of it is and bears no label.
+// So what has stood for long and is carried away is gone after five misses, and nine if it was often missed
+// while it stood; who was taken for static now and then is gone after three; what is put somewhere is there
+// after three hits. From the upper clamp, 3.476: 5 · .7 and 9 · .41 and 3 · 1.2 are more. From the lower
+// one, −1.992: 3 · .85 is more.
+//
+// Which surfaces count is decided by all keyframes together. A surface is a connected one of a keyframe's
+// picture, and judged as a whole, so that the end of a table that no other keyframe has seen stands or falls
+// with the rest of it: it is confirmed if enough of it was seen as static at another time (a second earlier
+// or later: by then something dynamic would have moved), transient if most of it is and bears no label:
+//
+//   transient   |S| < |D|, and τ(S) within (min τ(D) − 1 s, max τ(D) + 1 s)
+//   S, D        keyframes that saw the voxel as static or doubtful, and something dynamic there; τ: times
 //
 // L is counted in thousandths, so that sums are exact.
 
 namespace rds::mapper {
-
-/// Milliseconds, from a keyframe of the map on.
-using EvidenceTime = std::int32_t;
-inline constexpr EvidenceTime kBeforeAll = std::numeric_limits<EvidenceTime>::min() / 2;
-inline constexpr EvidenceTime kAfterAll = std::numeric_limits<EvidenceTime>::max() / 2;
-
-template <class Value>
-using PerCell = std::array<Value, kBlockCells>;
 
 /// Log-odds × 1000.
 using LogOdds = std::int16_t;
@@ -52,52 +57,24 @@ inline float in_nats(LogOdds log_odds) {
   return static_cast<float>(log_odds / kPerNat);
 }
 
-/// How often and when keyframes have seen the voxels of a block as what.
-struct BlockCounts {
-  PerCell<std::uint16_t> surfaces{};  // static, doubtful or unknown
-  PerCell<std::uint16_t> statics{};   // S
-  PerCell<std::uint16_t> dynamics{};  // D
-  PerCell<EvidenceTime> first_static = filled(kAfterAll);
-  PerCell<EvidenceTime> last_static = filled(kBeforeAll);
-  PerCell<EvidenceTime> first_dynamic = filled(kAfterAll);
-  PerCell<EvidenceTime> last_dynamic = filled(kBeforeAll);
+/// Hits in a row, no more are counted. Of voxels that are missed in a third of the keyframes while they
+/// stand, one in 25 comes so far.
+inline constexpr std::int8_t kSolidRow = 8;
+/// Limit of the balance of static and dynamic sightings.
+inline constexpr std::int8_t kMostBalance = 100;
 
-  void add(const BlockObservations& observations, EvidenceTime time);
+/// The occupancy of the voxels of a block after some keyframes.
+struct BlockOccupancy {
+  PerCell<LogOdds> values{};       // C: what the map shows
+  PerCell<LogOdds> lasting{};      // L
+  PerCell<std::int8_t> row{};      // r; negative after a miss
+  PerCell<std::int8_t> balance{};  // b
+  BlockMask known;                 // hit or missed by a keyframe
 
-  static PerCell<EvidenceTime> filled(EvidenceTime time) {
-    PerCell<EvidenceTime> cells;
-    cells.fill(time);
-    return cells;
-  }
-};
-
-/// Whether a voxel was seen as static so long before or after a time.
-/// @param apart  by then something dynamic would have moved.
-bool seen_apart(const BlockCounts& counts, std::size_t cell, EvidenceTime time, EvidenceTime apart);
-bool is_transient(const BlockCounts& counts, std::size_t cell, EvidenceTime apart);
-
-inline constexpr std::uint8_t kGhost = 1;
-inline constexpr std::uint8_t kSeldom = 2;
-
-/// What all keyframes together say of the voxels of a block.
-struct BlockVerdicts {
-  PerCell<std::uint8_t> bits;               // kGhost, kSeldom
-  PerCell<EvidenceTime> ghost_static_last;  // when a ghost was static last; kBeforeAll for all others
-
-  bool operator==(const BlockVerdicts&) const = default;
-};
-BlockVerdicts decide(const BlockCounts& counts);
-
-/// The log-odds of the voxels of a block.
-struct BlockLogOdds {
-  PerCell<LogOdds> values{};
-  PerCell<std::uint8_t> known{};  // 255 where a ray passed or a surface counts, else 0
-
-  /// The next keyframe, where no verdict matters.
-  /// @param observations  none doubtful or unknown, here and below.
-  void add_plain(const BlockObservations& observations);
-  /// The next keyframe. @param verdicts  by all keyframes.
-  void add(const BlockObservations& observations, EvidenceTime time, const BlockVerdicts& verdicts);
+  /// The next keyframe.
+  void add(const BlockStep& step);
+  /// Voxels of which another value, or nothing, is known.
+  [[nodiscard]] BlockMask changed_since(const BlockOccupancy& before) const;
 };
 
 }  // namespace rds::mapper

@@ -18,6 +18,8 @@ struct MapObject {
   std::uint32_t observations = 0;
   std::int64_t first_seen_ns = 0;
   std::int64_t last_seen_ns = 0;
+  std::uint32_t seen_through = 0;  // views through its place since it was seen last
+  bool has_gone = false;           // it is not there any more
 };
 
 }  // namespace rds::mapper

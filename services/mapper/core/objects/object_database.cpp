@@ -66,6 +66,10 @@ nlohmann::json rounded(const Eigen::Vector3d& v) {
   return {round(v.x()), round(v.y()), round(v.z())};
 }
 
+double seconds(std::int64_t stamp_ns) {
+  return static_cast<double>(stamp_ns) * 1e-9;
+}
+
 }  // namespace
 
 geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
@@ -82,8 +86,15 @@ void ObjectDatabase::integrate(const ObjectView& view, const LabelTable& labels)
   merge_duplicates();
   if (!view.looked_for) return;
   for (auto& entry : entries_)
-    if (!entry.seen_now) fade(entry, view);
-  std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0; });
+    if (!entry.seen_now && !entry.object.has_gone) fade(entry, view);
+  let_go();
+}
+
+/// What does not exist any more has gone if it was seen through, else it never was.
+void ObjectDatabase::let_go() {
+  for (Entry& entry : entries_)
+    entry.object.has_gone |= entry.existence <= 0 && entry.object.seen_through > 0 && is_reported(entry);
+  std::erase_if(entries_, [](const Entry& e) { return e.existence <= 0 && !e.object.has_gone; });
 }
 
 bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
@@ -115,7 +126,8 @@ void ObjectDatabase::merge_duplicates() {
     for (std::size_t j = entries_.size(); j-- > i + 1;) {
       auto& a = entries_[i];
       const auto& b = entries_[j];
-      const bool apart = a.object.label != b.object.label || (a.seen_now && b.seen_now) ||
+      const bool apart = a.object.label != b.object.label || a.object.has_gone || b.object.has_gone ||
+                         (a.seen_now && b.seen_now) ||
                          !is_same(a.object.label, {a.min, a.max}, {b.min, b.max});
       if (apart) continue;
       const double share = b.weight / (a.weight + b.weight);
@@ -154,6 +166,9 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view
   }
   const double weight =
       std::max(0.01, double{sighting.score}) * (sighting.cut_by_border ? kBorderWeight : 1.0);
+  if (entry->object.has_gone) entry->weight = entry->existence = 0;  // it is back, perhaps not just there
+  entry->object.has_gone = false;
+  entry->object.seen_through = 0;
   if (entry->weight == 0) {
     entry->min = box.min;
     entry->max = box.max;
@@ -193,15 +208,20 @@ void ObjectDatabase::fade(Entry& entry, const ObjectView& view) const {
   const double half_depth = box.size().norm() / 2;
   const auto probes = probe(*in_picture, center.z() - half_depth, center.z() + half_depth, view);
   if (2 * probes.measured < kProbes * kProbes || 3 * probes.occluded > probes.measured) return;
-  entry.existence -= 3 * probes.seen_through > 2 * probes.measured ? kSeenThrough : kMiss;
+  const bool is_seen_through = 3 * probes.seen_through > 2 * probes.measured;
+  entry.existence -= is_seen_through ? kSeenThrough : kMiss;
+  if (is_seen_through) ++entry.object.seen_through;
+}
+
+bool ObjectDatabase::is_reported(const Entry& entry) const {
+  return entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations) &&
+         entry.score_sum >= config_.min_score_sum;
 }
 
 std::vector<MapObject> ObjectDatabase::objects() const {
   std::vector<MapObject> reported;
   for (const auto& entry : entries_)
-    if (entry.object.observations >= static_cast<std::uint32_t>(config_.min_observations) &&
-        entry.score_sum >= config_.min_score_sum)
-      reported.push_back(entry.object);
+    if (is_reported(entry)) reported.push_back(entry.object);
   return reported;
 }
 
@@ -214,7 +234,10 @@ std::string to_json(std::span<const MapObject> objects) {
                     {"center", rounded(o.center)},
                     {"size", rounded(o.size)},
                     {"observations", o.observations},
-                    {"movable", false}});
+                    {"movable", false},
+                    {"first_seen", seconds(o.first_seen_ns)},
+                    {"last_seen", seconds(o.last_seen_ns)},
+                    {"gone", o.has_gone}});
   return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -15,9 +15,10 @@ namespace rds::mapper {
 /// weights.
 ///
 /// Each object carries log-odds of existence: sightings raise them, being in view without being detected
-/// lowers them a little, being seen through lowers them much; at 0 the object is forgotten. Movable objects
-/// never enter. Source: paper §IV-C "Update 3D Object Database". Deviation: observation-weighted fusion and
-/// fading instead of half-and-half averaging without end.
+/// lowers them a little, being seen through lowers them much; at 0 an object that was seen through has gone,
+/// any other is forgotten. One that has gone is kept, and comes back with a sighting near its place. Movable
+/// objects never enter. Source: paper §IV-C "Update 3D Object Database". Deviation: observation-weighted
+/// fusion and fading instead of half-and-half averaging without end.
 class ObjectDatabase {
  public:
   explicit ObjectDatabase(const ObjectConfig& config) : config_(config) {}
@@ -26,7 +27,7 @@ class ObjectDatabase {
   /// objects.
   void integrate(const ObjectView& view, const LabelTable& labels);
 
-  /// Objects seen often and surely enough, in order of their ids.
+  /// Objects seen often and surely enough, in order of their ids, with those that have gone.
   [[nodiscard]] std::vector<MapObject> objects() const;
 
   /// All that is known of every object, the one seen once too.
@@ -50,6 +51,8 @@ class ObjectDatabase {
   [[nodiscard]] bool is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const;
   void merge_duplicates();
+  void let_go();
+  [[nodiscard]] bool is_reported(const Entry& entry) const;
   static void describe(Entry& entry);
   void fade(Entry& entry, const ObjectView& view) const;
 
@@ -61,7 +64,8 @@ class ObjectDatabase {
 /// Boundary of a sighting in the map: per axis, 2nd to 98th percentile of its points.
 geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera);
 
-/// objects.json: [{id, label, score, center, size, observations, movable}], metres with 4 decimals.
+/// objects.json: [{id, label, score, center, size, observations, movable, first_seen, last_seen, gone}],
+/// metres with 4 decimals, stamps in seconds.
 std::string to_json(std::span<const MapObject> objects);
 
 }  // namespace rds::mapper

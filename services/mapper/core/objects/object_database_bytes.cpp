@@ -10,7 +10,6 @@ namespace {
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
-constexpr std::uint8_t kNotMovable = 0;  // as all objects that the database holds
 constexpr std::size_t kObjectBytes = 8 + 8 + 4 + 16 + 1 + 48 + 24;
 
 }  // namespace
@@ -24,7 +23,7 @@ void ObjectDatabase::put(ByteWriter& writer) const {
     writer.put(entry.object.observations);
     writer.put(entry.object.first_seen_ns);
     writer.put(entry.object.last_seen_ns);
-    writer.put(kNotMovable);
+    writer.put(static_cast<std::uint8_t>(entry.object.has_gone));
     map_file::put(writer, entry.min);
     map_file::put(writer, entry.max);
     for (const double sum : {entry.weight, entry.score_sum, entry.existence}) writer.put(sum);
@@ -41,7 +40,7 @@ void ObjectDatabase::get(ByteReader& reader) {
     entry.object.observations = reader.get<std::uint32_t>();
     entry.object.first_seen_ns = reader.get<std::int64_t>();
     entry.object.last_seen_ns = reader.get<std::int64_t>();
-    (void)reader.get<std::uint8_t>();  // kNotMovable
+    entry.object.has_gone = reader.get<std::uint8_t>() != 0;
     entry.min = map_file::get_vector(reader);
     entry.max = map_file::get_vector(reader);
     for (double* sum : {&entry.weight, &entry.score_sum, &entry.existence}) *sum = reader.get<double>();

@@ -23,27 +23,38 @@ std::pair<double, double> distance_m(const Eigen::Vector3d& point, const MapObje
   return {(box.min - point).cwiseMax(point - box.max).cwiseMax(0.0).norm(), (point - object.center).norm()};
 }
 
-/// Centres of the occupied voxels that bear the object's label and are nearer to it than to others of this
-/// label.
-std::vector<Eigen::Vector3d> voxels_of(const MapObject& object, const std::vector<MapObject>& all,
-                                       const SemanticOctree& octree, std::uint16_t label) {
+std::uint16_t index_of(const MapObject& object, const LabelTable& labels) {
+  return static_cast<std::uint16_t>(std::ranges::find(labels.names(), object.label) - labels.names().begin());
+}
+
+/// Calls visit(leaf) for each known voxel in and around an object's box.
+template <class Visit>
+void for_each_voxel_of(const MapObject& object, const octomap::ColorOcTree& tree, Visit visit) {
   const auto corner = [](const Eigen::Vector3d& p) {
     const Eigen::Vector3f f = p.cast<float>();
     return octomap::point3d(f.x(), f.y(), f.z());
   };
   const Eigen::Vector3d reach = object.size / 2 + Eigen::Vector3d::Constant(kReachM);
-  const auto& tree = octree.tree();
-  std::vector<Eigen::Vector3d> voxels;
   const auto end = tree.end_leafs_bbx();
   for (auto leaf = tree.begin_leafs_bbx(corner(object.center - reach), corner(object.center + reach));
-       leaf != end; ++leaf) {
-    if (!tree.isNodeOccupied(*leaf) || octree.label(leaf.getKey()) != label) continue;
+       leaf != end; ++leaf)
+    visit(leaf);
+}
+
+/// Centres of the occupied voxels that bear the object's label and are nearer to it than to others of this
+/// label.
+std::vector<Eigen::Vector3d> voxels_of(const MapObject& object, const std::vector<MapObject>& all,
+                                       const SemanticOctree& octree, std::uint16_t label) {
+  std::vector<Eigen::Vector3d> voxels;
+  for_each_voxel_of(object, octree.tree(), [&](const auto& leaf) {
+    if (!octree.tree().isNodeOccupied(*leaf) || octree.label(leaf.getKey()) != label) return;
     const Eigen::Vector3d voxel(leaf.getX(), leaf.getY(), leaf.getZ());
     const bool of_another = std::ranges::any_of(all, [&](const MapObject& other) {
-      return other.label == object.label && distance_m(voxel, other) < distance_m(voxel, object);
+      return !other.has_gone && other.label == object.label &&
+             distance_m(voxel, other) < distance_m(voxel, object);
     });
     if (!of_another) voxels.push_back(voxel);
-  }
+  });
   return voxels;
 }
 
@@ -52,12 +63,31 @@ std::vector<Eigen::Vector3d> voxels_of(const MapObject& object, const std::vecto
 void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, const LabelTable& labels) {
   const std::vector<MapObject> all(objects.begin(), objects.end());
   for (auto& object : objects) {
-    const auto index = std::ranges::find(labels.names(), object.label) - labels.names().begin();
-    const auto voxels = voxels_of(object, all, octree, static_cast<std::uint16_t>(index));
+    if (object.has_gone) continue;
+    const auto voxels = voxels_of(object, all, octree, index_of(object, labels));
     if (voxels.size() < kMinVoxels) continue;
     const geometry::Box3 centers = trimmed_box(voxels);
     object.center = centers.center();
     object.size = centers.size() + Eigen::Vector3d::Constant(octree.tree().getResolution());
+  }
+}
+
+void find_gone(std::span<MapObject> objects, const Evidence& evidence, const SemanticOctree& octree,
+               const LabelTable& labels) {
+  for (auto& object : objects) {
+    if (object.has_gone || object.seen_through == 0) continue;
+    const std::uint16_t label = index_of(object, labels);
+    std::size_t voxels = 0;
+    std::size_t free = 0;
+    for_each_voxel_of(object, octree.tree(), [&](const auto& leaf) {
+      const octomap::OcTreeKey key = leaf.getKey();
+      const EvidenceBlock* block = evidence.block(key);
+      const VoxelLook* look = block != nullptr ? block->look(cell_of(key)) : nullptr;
+      if (look == nullptr || look->label() != label) return;
+      ++voxels;
+      free += octree.tree().isNodeOccupied(*leaf) ? 0U : 1U;
+    });
+    object.has_gone = voxels >= kMinVoxels && 3 * free > 2 * voxels;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "services/mapper/core/evidence/evidence.hpp"
 #include "services/mapper/core/objects/map_object.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/semantic_octree.hpp"
@@ -15,5 +16,10 @@ namespace rds::mapper {
 /// are of all views: overlaps are outvoted, and a back that few views showed counts as much as the front. A
 /// voxel belongs to the nearest object of its label. Objects without voxels keep their box.
 void fit_to_voxels(std::span<MapObject> objects, const SemanticOctree& octree, const LabelTable& labels);
+
+/// Says of objects that were seen through whether they have gone: of the voxels in and around an object's box
+/// that keyframes have given its label, most are free.
+void find_gone(std::span<MapObject> objects, const Evidence& evidence, const SemanticOctree& octree,
+               const LabelTable& labels);
 
 }  // namespace rds::mapper

@@ -13,9 +13,11 @@ constexpr double kHighestProbability = 0.97;
 constexpr unsigned kBlockDepth = EditableOcTree::kDepth - kBlockBits;
 constexpr unsigned kBlockSide = 1U << kBlockBits;
 
-bool any_known(const EvidenceBlock& block, unsigned first, unsigned count) {
-  const auto* known = &block.log_odds().known[first];
-  return std::any_of(known, known + count, [](std::uint8_t k) { return k != 0; });
+/// Whether one of some cells is in a set. @param count  512, 64, 8 or 1, of which `first` is a multiple.
+bool has_any(const BlockMask& mask, unsigned first, unsigned count) {
+  if (count == kBlockCells) return !mask.empty();
+  if (count == 64) return mask.word(first / 64) != 0;
+  return count == 1 ? mask.has(first) : mask.eight(first) != 0;
 }
 
 }  // namespace
@@ -31,12 +33,12 @@ std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
   return found == labels_.end() ? std::uint16_t{0} : found->second;
 }
 
-void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const LabelTable& labels,
-                          MapDelta& delta) {
-  if (!any_known(block, 0, kBlockCells) && tree_.search(key, kBlockDepth) == nullptr) return;
+void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& voxels,
+                          const LabelTable& labels, MapDelta& delta) {
+  if (block.occupancy().known.empty() && tree_.search(key, kBlockDepth) == nullptr) return;
   std::array<Node*, EditableOcTree::kDepth + 1> path{};
   Node* top = tree_.descend(key, kBlockDepth, path);
-  if (!show_children(top, key, 0, kBlockSide / 2, {block, labels, delta})) return;
+  if (!show_children(top, key, 0, kBlockSide / 2, {block, voxels, labels, delta})) return;
   for (unsigned depth = kBlockDepth; depth-- > 0;) {
     Node* parent = path[depth];
     const unsigned index =
@@ -54,12 +56,14 @@ bool SemanticOctree::show_children(Node* parent, const octomap::OcTreeKey& key, 
   bool changed = false;
   for (unsigned index = 0; index < 8; ++index) {
     const unsigned first = first_cell + index * cells;
+    if (!has_any(source.voxels, first, cells)) continue;
     const octomap::OcTreeKey its_key = child_key(key, index, half);
     if (half == 1) {
       changed |= show_voxel(parent, index, its_key, first, source);
       continue;
     }
-    if (!tree_.nodeChildExists(parent, index) && !any_known(source.block, first, cells)) continue;
+    if (!tree_.nodeChildExists(parent, index) && !has_any(source.block.occupancy().known, first, cells))
+      continue;
     Node* node = tree_.child(parent, index);
     changed |= show_children(node, its_key, first, half / 2, source);
     if (!tree_.nodeHasChildren(node)) tree_.erase_child(parent, index);
@@ -71,22 +75,33 @@ bool SemanticOctree::show_children(Node* parent, const octomap::OcTreeKey& key, 
 bool SemanticOctree::show_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, unsigned cell,
                                 const Source& source) {
   const bool is_there = tree_.nodeChildExists(parent, index);
-  if (source.block.log_odds().known[cell] != 0) {
-    const bool is_changed = set_voxel(tree_.child(parent, index), key, cell, source);
-    if (is_changed || !is_there) source.delta.add(key, *tree_.getNodeChild(parent, index), label(key));
-    return is_changed || !is_there;
+  if (!source.block.occupancy().known.has(cell)) {
+    if (is_there) erase_voxel(parent, index, key, source);
+    return is_there;
   }
-  if (!is_there) return false;
+  Node* node = tree_.child(parent, index);
+  const bool was_occupied = is_there && tree_.isNodeOccupied(node);
+  if (!set_voxel(node, key, cell, source) && is_there) return false;
+  if (!is_there) bounds_.add(key);
+  if (was_occupied) --occupied_;
+  if (tree_.isNodeOccupied(node)) ++occupied_;
+  source.delta.add(key, *node, label(key));
+  return true;
+}
+
+void SemanticOctree::erase_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key,
+                                 const Source& source) {
+  if (tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) --occupied_;
+  bounds_.remove(key);
   tree_.deleteNodeChild(parent, index);
   labels_.erase(packed(key));
   source.delta.deleted_keys.insert(source.delta.deleted_keys.end(), {key[0], key[1], key[2]});
-  return true;
 }
 
 /// @return whether something changed.
 bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell,
                                const Source& source) {
-  const LogOdds log_odds = source.block.log_odds().values[cell];
+  const LogOdds log_odds = source.block.occupancy().values[cell];
   const float value = in_nats(log_odds);
   if (log_odds <= 0 && node->getLogOdds() == value) return false;  // free, as it was: no colour and no label
   const VoxelLook* look = log_odds > 0 ? source.block.look(static_cast<std::uint16_t>(cell)) : nullptr;

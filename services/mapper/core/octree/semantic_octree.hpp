@@ -6,6 +6,7 @@
 #include "services/mapper/core/config/mapper_config.hpp"
 #include "services/mapper/core/evidence/evidence_block.hpp"
 #include "services/mapper/core/octree/editable_octree.hpp"
+#include "services/mapper/core/octree/key_bounds.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/map_delta.hpp"
 
@@ -17,17 +18,22 @@ class SemanticOctree {
  public:
   explicit SemanticOctree(const OctreeConfig& config);
 
-  /// Takes over a block. @param key  of its lowest voxel. @param delta  receives what changed: arrays only.
-  void show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const LabelTable& labels,
-            MapDelta& delta);
+  /// Takes over some voxels of a block, those that may have changed. @param key  of its lowest voxel.
+  /// @param delta  receives what changed: arrays only.
+  void show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& voxels,
+            const LabelTable& labels, MapDelta& delta);
 
   [[nodiscard]] const octomap::ColorOcTree& tree() const { return tree_; }
+  [[nodiscard]] std::uint64_t occupied() const { return occupied_; }  // voxels
+  /// Of all voxels. The tree must have one.
+  [[nodiscard]] const KeyBounds& bounds() const { return bounds_; }
   [[nodiscard]] std::uint16_t label(const octomap::OcTreeKey& key) const;
 
  private:
   using Node = EditableOcTree::Node;
   struct Source {
     const EvidenceBlock& block;
+    const BlockMask& voxels;
     const LabelTable& labels;
     MapDelta& delta;
   };
@@ -36,11 +42,14 @@ class SemanticOctree {
                      const Source& source);
   bool show_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, unsigned cell,
                   const Source& source);
+  void erase_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, const Source& source);
   bool set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell, const Source& source);
 
   OctreeConfig config_;
   EditableOcTree tree_;
   std::unordered_map<std::uint64_t, std::uint16_t> labels_;  // of voxels that bear one; by key only
+  std::uint64_t occupied_ = 0;
+  KeyBounds bounds_;
 };
 
 }  // namespace rds::mapper

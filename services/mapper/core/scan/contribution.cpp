@@ -27,13 +27,6 @@ std::vector<Contribution::Surface> surfaces_in(const Scan& scan, const KeyframeR
   return surfaces;
 }
 
-Observation observation_of(std::uint8_t flags, const ScanGrid::Block& block, std::size_t cell,
-                           const Scan& scan) {
-  if ((flags & kSurface) != 0) return scan.surfaces[block.slot[cell]].observation();
-  if ((flags & kFreeSpace) != 0) return Observation::kPassed;
-  return (flags & kNoReturnRay) != 0 ? Observation::kNoReturn : Observation::kNone;
-}
-
 SurfacePart part_of(const SurfaceVoxel& voxel) {
   SurfacePart part{};
   part.surface = static_cast<unsigned>(voxel.surface < kMostSurfaces ? voxel.surface : 0) & kMostSurfaces;
@@ -53,21 +46,34 @@ std::vector<bool> large_surfaces(const Scan& scan) {
   return is_large;
 }
 
-/// @return false if nothing is observed in the block.
-bool observe(const ScanGrid::Block& block, const Scan& scan, BlockObservations& observations,
-             std::vector<SurfacePart>& parts) {
-  unsigned any = 0;
-  parts.clear();
-  for (std::size_t cell = 0; cell < kBlockCells; ++cell) {
-    const auto flags = block.flags[cell];
-    const auto observation = static_cast<unsigned>(observation_of(flags, block, cell, scan));
-    observations[cell] =
-        static_cast<std::uint8_t>(observation | ((flags & kDynamicPlace) != 0 ? kNearDynamic : 0U));
-    any |= observations[cell];
-    if (observation >= static_cast<unsigned>(Observation::kUnknown))
-      parts.push_back(part_of(scan.surfaces[block.slot[cell]]));
+BlockMask& cells_with(Observation observation, BlockSight& sight) {
+  switch (observation) {
+    case Observation::kStatic:
+      return sight.stable;
+    case Observation::kDoubtful:
+      return sight.doubtful;
+    case Observation::kUnknown:
+      return sight.unknown;
+    default:
+      return sight.passed;
   }
-  return any != 0;
+}
+
+/// @param parts  of the surfaces' voxels.
+BlockSight sight_of(const ScanGrid::Block& block, const Scan& scan, std::vector<SurfacePart>& parts) {
+  const BlockMask surfaces = block.cells(kSurface);
+  BlockSight sight;
+  sight.passed = block.cells(kFreeSpace) & ~surfaces;
+  sight.no_return = block.cells(kNoReturnRay) & ~(surfaces | sight.passed);
+  sight.near_dynamic = block.cells(kDynamicPlace);
+  parts.clear();
+  surfaces.for_each([&](std::size_t cell) {
+    const SurfaceVoxel& voxel = scan.surfaces[block.slot[cell]];
+    const Observation observation = voxel.observation();
+    cells_with(observation, sight).insert(cell);
+    if (observation >= Observation::kUnknown) parts.push_back(part_of(voxel));
+  });
+  return sight;
 }
 
 }  // namespace
@@ -80,10 +86,11 @@ Contribution contribution_of(const KeyframeRecord& record, const OctreeConfig& o
   Contribution contribution;
   contribution.surfaces = surfaces_in(scan, record);
   contribution.view.set_surfaces(large_surfaces(scan));
-  BlockObservations observations;
   std::vector<SurfacePart> parts;
-  for (const auto& block : scan.grid.blocks())
-    if (observe(block, scan, observations, parts)) contribution.view.add(block.key, observations, parts);
+  for (const auto& block : scan.grid.blocks()) {
+    const BlockSight sight = sight_of(block, scan, parts);
+    if (!sight.empty()) contribution.view.add(block.key, sight, parts);
+  }
   return contribution;
 }
 

@@ -46,6 +46,7 @@ void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pi
       ++voxel.static_pixels;
       break;
   }
+  if (voxel.ray_end == SurfaceVoxel::kNoPixel) voxel.ray_end = static_cast<std::uint32_t>(pixel);
   for (std::size_t c = 0; c < 3; ++c) voxel.rgb_sum[c] += record.rgb[3 * pixel + c];
   const std::uint16_t label = record.objects.labels.empty() ? std::uint16_t{0} : record.objects.labels[pixel];
   if (voxel.label_balance == 0) voxel.label = label;
@@ -67,23 +68,28 @@ std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, const Ke
   return block.slot[cell];
 }
 
-/// One ray per voxel in which a ray ends, to the first pixel in it that is a `no_return` or, if not, static,
-/// doubtful or far.
-void carve(const VoxelProjector& project, bool no_return, Scan& scan) {
-  const PixelClasses& classes = project.record.classes;
-  VoxelRun run;
+/// Casts a ray to a pixel's point, one per voxel in which rays end.
+void cast_to(std::size_t pixel, const VoxelProjector& project, ScanFlag flag, VoxelRun& run, ScanGrid& grid) {
   Eigen::Vector3d at;
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    if (classes[i] == PixelClass::kDynamic || classes[i] == PixelClass::kUnknown ||
-        (classes[i] == PixelClass::kNoReturn) != no_return || !project.point(i, classes[i], at))
-      continue;
-    const auto key = key_at(at);
-    if (!run.begins_with(key)) continue;
-    auto& flags = scan.grid.block_of(key).flags[cell_of(key)];
-    if ((flags & kRayCast) != 0) continue;
-    flags |= kRayCast;
-    scan.grid.cast_ray(project.origin, at, no_return ? kNoReturnRay : kFreeSpace);
-  }
+  if (!project.point(pixel, project.record.classes[pixel], at)) return;
+  const auto key = key_at(at);
+  if (!run.begins_with(key)) return;
+  auto& flags = grid.block_of(key).flags[cell_of(key)];
+  if ((flags & kRayCast) != 0) return;
+  flags |= kRayCast;
+  grid.cast_ray(project.origin, at, flag);
+}
+
+/// Rays to static and doubtful surfaces, to what is far, and to what is not measured.
+void carve(const VoxelProjector& project, Scan& scan) {
+  VoxelRun run;
+  for (const SurfaceVoxel& voxel : scan.surfaces)
+    if (voxel.ray_end != SurfaceVoxel::kNoPixel) cast_to(voxel.ray_end, project, kFreeSpace, run, scan.grid);
+  const PixelClasses& classes = project.record.classes;
+  for (const auto& [its_class, flag] :
+       {std::pair(PixelClass::kFar, kFreeSpace), std::pair(PixelClass::kNoReturn, kNoReturnRay)})
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      if (classes[i] == its_class) cast_to(i, project, flag, run, scan.grid);
 }
 
 /// Marks the cubes within half a cube of a voxel.
@@ -167,10 +173,7 @@ void cast_rays(const KeyframeRecord& record, const OctreeConfig& octree, const S
   const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
   if (!in_key_range(project.origin)) return;
   mark_dynamic_places(project, sampling, cube_bits(octree.resolution_m), scan.grid);
-  if (!octree.carve_rays) return;
-  carve(project, false, scan);
-  if (std::ranges::find(record.classes, PixelClass::kNoReturn) != record.classes.end())
-    carve(project, true, scan);
+  if (octree.carve_rays) carve(project, scan);
 }
 
 }  // namespace rds::mapper

@@ -9,11 +9,13 @@ namespace rds::mapper {
 
 /// All pixels of one keyframe that fell into one voxel.
 struct SurfaceVoxel {
+  static constexpr std::uint32_t kNoPixel = 0xFFFF'FFFF;
   octomap::OcTreeKey key;
   std::uint32_t static_pixels = 0;
   std::uint32_t doubtful_pixels = 0;
   std::uint32_t unknown_pixels = 0;
   std::uint32_t dynamic_pixels = 0;
+  std::uint32_t ray_end = kNoPixel;        // its first static or doubtful pixel
   std::array<std::uint32_t, 3> rgb_sum{};  // of the static and doubtful pixels
   std::uint16_t surface = 0;               // of the picture: its first pixel's that is of one
   std::uint16_t label = 0;                 // majority candidate of these (Boyer–Moore)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/scan/scan_grid.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace rds::mapper {
@@ -32,6 +34,21 @@ struct RayAxis {
 };
 
 }  // namespace
+
+BlockMask ScanGrid::Block::cells(ScanFlag flag) const {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::uint64_t kLowBits = 0x0101010101010101U;
+  constexpr std::uint64_t kGather =
+      0x0102040810204080U;  // brings the low bits of eight bytes into the highest
+  const int bit = std::countr_zero(static_cast<unsigned>(flag));
+  BlockMask cells;
+  for (std::size_t i = 0; i < kBlockCells; i += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &flags[i], 8);
+    cells.word(i / 64) |= ((eight >> bit & kLowBits) * kGather >> 56U) << (i % 64);
+  }
+  return cells;
+}
 
 void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest) {
   std::size_t count = 1;
@@ -74,7 +91,8 @@ void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
       block = &block_of({static_cast<std::uint16_t>(x.key), static_cast<std::uint16_t>(y.key),
                          static_cast<std::uint16_t>(z.key)});
     }
-    block->flags[cell_of(static_cast<unsigned>(x.key), static_cast<unsigned>(y.key), static_cast<unsigned>(z.key))] |= flag;
+    block->flags[cell_of(static_cast<unsigned>(x.key), static_cast<unsigned>(y.key),
+                         static_cast<unsigned>(z.key))] |= flag;
     const bool go_x = (x.next <= y.next) & (x.next <= z.next);
     const bool go_y = !go_x & (y.next <= z.next);
     x.advance(go_x);

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "services/mapper/core/keyframe/voxel_key.hpp"
+#include "services/mapper/core/evidence/block_mask.hpp"
 
 namespace rds::mapper {
 
@@ -29,6 +29,9 @@ class ScanGrid {
     octomap::OcTreeKey key;  // of the block's lowest voxel
     std::array<std::uint8_t, kBlockCells> flags{};
     std::array<std::uint32_t, kBlockCells> slot;  // index of a surface voxel; valid where kSurface is set
+
+    /// Cells that have a flag.
+    [[nodiscard]] BlockMask cells(ScanFlag flag) const;
   };
 
   /// Empties the grid and makes it cover the keys from `lowest` to `highest`, both included.

@@ -24,6 +24,7 @@ std::vector<tools::SceneObject> read_objects(const std::filesystem::path& file) 
   const auto json = nlohmann::json::parse(std::ifstream(file), nullptr, false);
   if (!json.is_array()) return objects;
   for (const auto& o : json) {
+    if (o.value("gone", false)) continue;
     const Eigen::Vector3d center = vector_of(o.at("center"));
     const Eigen::Vector3d half = vector_of(o.at("size")) / 2;
     objects.push_back({o.at("label").get<std::string>(), center - half, center + half});

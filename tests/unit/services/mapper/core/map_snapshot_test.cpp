@@ -35,7 +35,7 @@ TEST(MapSnapshot, PointsAreTheOccupiedVoxelsWithColorAndLabel) {
   const SemanticMapper mapper = mapper_with("chair", true);
   const MapSnapshot snapshot = take_snapshot(mapper);
   const MapPoints points = points_of(mapper.map().tree(), snapshot);
-  ASSERT_EQ(points.count, extent_of(mapper.map().tree()).occupied);
+  ASSERT_EQ(points.count, extent_of(mapper.map().content->octree).occupied);
   ASSERT_EQ(points.rows.size(), points.count * std::size_t{20});
   std::size_t chairs = 0;
   for (std::size_t row = 0; row < points.rows.size(); row += 20) {
@@ -54,14 +54,14 @@ TEST(MapSnapshot, PointsAreTheOccupiedVoxelsWithColorAndLabel) {
 
 TEST(MapSnapshot, TheExtentIsOctoMapsOwn) {
   const SemanticMapper mapper = mapper_with("chair", true);
-  const MapExtent extent = extent_of(mapper.map().tree());
+  const MapExtent extent = extent_of(mapper.map().content->octree);
   Eigen::Vector3d low;
   Eigen::Vector3d high;
   mapper.map().tree().getMetricMin(low.x(), low.y(), low.z());
   mapper.map().tree().getMetricMax(high.x(), high.y(), high.z());
   EXPECT_TRUE(extent.min.isApprox(low)) << extent.min.transpose();
   EXPECT_TRUE(extent.max.isApprox(high)) << extent.max.transpose();
-  EXPECT_EQ(extent_of(octomap::ColorOcTree(0.1)).occupied, 0U);
+  EXPECT_EQ(extent_of(SemanticOctree({})).occupied, 0U);
 }
 
 TEST(MapSnapshot, LabelsThatColorsDoNotTellAreListed) {

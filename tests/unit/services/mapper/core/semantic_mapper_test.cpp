@@ -211,6 +211,74 @@ TEST(SemanticMapper, FollowsPoseCorrectionsAsIfItHadKnownThemAllAlong) {
   EXPECT_EQ(to_json(live.map().objects()), to_json(known.map().objects()));
 }
 
+/// A corridor that a robot went along, and its corrected poses.
+struct Corridor {
+  static constexpr std::size_t kKeyframes = 3 * SemanticMapper::kMovedAtOnce;
+
+  explicit Corridor(double step_m) {
+    config.octree.resolution_m = 0.1;
+    config.sampling.stride_px = 4;
+    for (std::uint64_t id = 0; id < kKeyframes; ++id) keyframes.push_back(keyframe(id, step_m));
+  }
+  static KeyframeInput keyframe(std::uint64_t id, double step_m) {
+    return SyntheticKeyframe(id).pose(shifted(step_m * static_cast<double>(id), 0, 0));
+  }
+  [[nodiscard]] std::vector<KeyframePose> poses() const {
+    std::vector<KeyframePose> poses;
+    for (const auto& k : keyframes) poses.push_back({k.id, k.stamp_ns, k.map_from_camera});
+    return poses;
+  }
+  MapperConfig config;
+  std::vector<KeyframeInput> keyframes;
+};
+
+TEST(SemanticMapper, ALargeCorrectionTakesSeveralStepsAndEndsAsIfItHadBeenKnownAllAlong) {
+  const Corridor before(0.1);
+  const Corridor after(0.13);
+  SemanticMapper live(before.config, 5);
+  SemanticMapper known(before.config, 5);
+  for (const auto& keyframe : before.keyframes) live.integrate(keyframe);
+  for (const auto& keyframe : after.keyframes) known.integrate(keyframe);
+  EXPECT_FALSE(live.is_correcting());
+  int steps = 1;
+  for (live.apply_poses(after.poses()); live.is_correcting(); ++steps) {
+    if (steps == 2) {  // deltas go on meanwhile
+      const auto next = Corridor::keyframe(Corridor::kKeyframes, 0.13);
+      EXPECT_FALSE(live.integrate(next).keys.empty());
+      known.integrate(next);
+    }
+    EXPECT_FALSE(live.go_on_correcting().is_noop());
+  }
+  EXPECT_EQ(steps, 3);
+  EXPECT_TRUE(live.go_on_correcting().is_noop());
+  EXPECT_EQ(to_bytes(live.map().tree()), to_bytes(known.map().tree()));
+}
+
+TEST(SemanticMapper, WhatIsNearTheNewestKeyframeIsCorrectedFirst) {
+  const Corridor before(0.1);
+  const Corridor after(0.13);
+  SemanticMapper mapper(before.config);
+  for (const auto& keyframe : before.keyframes) mapper.integrate(keyframe);
+  mapper.apply_poses(after.poses());
+  for (const auto& [id, keyframe] : mapper.archive().keyframes())
+    EXPECT_EQ(keyframe.integrated_pose.isApprox(keyframe.pose),
+              id == 0 || id >= Corridor::kKeyframes - SemanticMapper::kMovedAtOnce)
+        << id;
+}
+
+TEST(SemanticMapper, SettlesALargeCorrectionAtOnce) {
+  const Corridor before(0.1);
+  const Corridor after(0.13);
+  SemanticMapper mapper(before.config);
+  SemanticMapper known(before.config);
+  for (const auto& keyframe : before.keyframes) mapper.integrate(keyframe);
+  for (const auto& keyframe : after.keyframes) known.integrate(keyframe);
+  mapper.apply_poses(after.poses());
+  mapper.settle({});
+  EXPECT_FALSE(mapper.is_correcting());
+  EXPECT_EQ(to_bytes(mapper.map().tree()), to_bytes(known.map().tree()));
+}
+
 TEST(SemanticMapper, SmallCorrectionsWaitForSettle) {
   SemanticMapper mapper(MapperConfig{});
   mapper.integrate(SyntheticKeyframe(0).make());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody stands still for 10 s: what is left of him in the map, with and without help of detector and
-// tracker?
+// Somebody stands still for 10 s or two minutes: what is left of him in the map, with and without help of
+// detector and tracker?
 #include <gmock/gmock.h>
 
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
@@ -113,6 +113,27 @@ TEST_P(StandingPerson, WhoLeftAPlaceBeforeNothingMeasurableIsGone) {
   EXPECT_EQ(left_over(), 0);
 }
 
+/// Somebody whom a keyframe every one and a half seconds sees for two minutes.
+class PersonForTwoMinutes : public StandingPerson {};
+
+TEST_P(PersonForTwoMinutes, IsGoneThreeKeyframesAfterHeLeft) {
+  constexpr std::uint64_t kSlow = 5;  // as many steps
+  constexpr std::uint64_t kSeen = 1200 / (kSlow * kStep);
+  const auto see = [&](std::uint64_t k, SyntheticKeyframe keyframe) {
+    KeyframeInput input = keyframe;
+    input.id = kSlow * kStep * k;
+    input.stamp_ns = static_cast<std::int64_t>(input.id) * 100'000'000;
+    mapper_.integrate(input);
+  };
+  const auto empty = [] { return SyntheticKeyframe(0).looked_for_objects(); };
+  see(0, empty());
+  for (std::uint64_t k = 1; k <= kSeen; ++k) see(k, person_at(k, 3.0, GetParam()));
+  for (std::uint64_t k = kSeen + 1; k <= kSeen + 3; ++k) see(k, empty());
+  EXPECT_LE(left_over(), 0.01 * voxels_of_person());
+  mapper_.settle({});
+  EXPECT_LE(left_over(), 0.01 * voxels_of_person());
+}
+
 std::string name_of(const testing::TestParamInfo<Notice>& tested) {
   return tested.param.name;
 }
@@ -123,6 +144,13 @@ INSTANTIATE_TEST_SUITE_P(HalfTheTime, NoticedPerson,
                                          Notice{"TwoBoxesOfThree", two_of_three, never},
                                          Notice{"BoxesAndCellsInTurn", every_other, the_others},
                                          Notice{"BoxesNowAndThenAndCells", now_and_then, always}),
+                         name_of);
+
+INSTANTIATE_TEST_SUITE_P(HalfTheTime, PersonForTwoMinutes,
+                         testing::Values(Notice{"EveryOtherBox", every_other, never},
+                                         Notice{"TwoBoxesOfThree", two_of_three, never},
+                                         Notice{"BoxesNowAndThen", now_and_then, never},
+                                         Notice{"CellsNowAndThen", never, now_and_then}),
                          name_of);
 
 INSTANTIATE_TEST_SUITE_P(

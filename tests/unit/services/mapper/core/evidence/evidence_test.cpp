@@ -64,9 +64,9 @@ class ShownEvidence {
 
  private:
   Evidence::Show shown() {
-    return [this](const octomap::OcTreeKey& key, const EvidenceBlock& block) {
+    return [this](const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& changed) {
       MapDelta unused;
-      octree_.show(key, block, all_.labels, unused);
+      octree_.show(key, block, changed, all_.labels, unused);
     };
   }
   const Records& all_;
@@ -123,13 +123,23 @@ TEST(Evidence, FinalKeyframesOutlastTheirBytes) {
   const auto surfaces = [&](std::size_t i, Scan& scan) {
     return surfaces_of(all.records[i], all.config.octree, all.config.sampling, scan);
   };
+  const auto show = [&](Evidence& from, SemanticOctree& octree) {
+    from.update_all([&](const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& changed) {
+      MapDelta unused;
+      octree.show(key, block, changed, all.labels, unused);
+    });
+    return to_bytes(octree.tree());
+  };
   Scan scan;
   Evidence evidence(1);
+  SemanticOctree octree(all.config.octree);
   for (const auto& record : all.records)
     evidence.add(record.id, record.time_ns,
                  contribution_of(record, all.config.octree, all.config.sampling, scan));
-  evidence.update_all([](const auto&, const auto&) {});
+  const auto before = show(evidence, octree);
+  EXPECT_GT(before.size(), 1000U);
   for (std::size_t i = 0; i < kKeyframes; ++i) evidence.make_final(i, surfaces(i, scan));
+  EXPECT_TRUE(show(evidence, octree) == before);
   map_file::ByteWriter writer;
   evidence.final_map().put(writer);
   const auto bytes = writer.take();
@@ -137,15 +147,8 @@ TEST(Evidence, FinalKeyframesOutlastTheirBytes) {
   Evidence restored(1);
   restored.begin_with(FinalMap::get(reader, all.labels.names().size()));
   ASSERT_TRUE(reader.finish());
-  const auto shown = [&](Evidence& from) {
-    SemanticOctree octree(all.config.octree);
-    from.update_all([&](const octomap::OcTreeKey& key, const EvidenceBlock& block) {
-      MapDelta unused;
-      octree.show(key, block, all.labels, unused);
-    });
-    return to_bytes(octree.tree());
-  };
-  EXPECT_TRUE(shown(restored) == shown(evidence));
+  SemanticOctree restored_octree(all.config.octree);
+  EXPECT_TRUE(show(restored, restored_octree) == before);
 }
 
 }  // namespace

@@ -1,68 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/evidence/keyframe_view.hpp"
 
-#include <algorithm>
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include "tests/unit/services/mapper/core/evidence/random_sight.hpp"
 
 namespace rds::mapper {
 namespace {
 
-constexpr SurfacePart kPart{1, 0};
-
-BlockObservations filled(std::uint8_t cell) {
-  BlockObservations observations;
-  observations.fill(cell);
-  return observations;
-}
-
-std::vector<SurfacePart> parts_of(const BlockObservations& observations) {
-  const auto is_surface = [](auto cell) { return observation_in(cell) >= Observation::kUnknown; };
-  return std::vector(static_cast<std::size_t>(std::ranges::count_if(observations, is_surface)), kPart);
+void expect_same(const BlockSight& a, const BlockSight& b) {
+  EXPECT_EQ(a.no_return, b.no_return);
+  EXPECT_EQ(a.passed, b.passed);
+  EXPECT_EQ(a.unknown, b.unknown);
+  EXPECT_EQ(a.doubtful, b.doubtful);
+  EXPECT_EQ(a.stable, b.stable);
+  EXPECT_EQ(a.near_dynamic, b.near_dynamic);
 }
 
 TEST(KeyframeView, GivesBackWhatItWasGiven) {
   std::mt19937 random(5);
-  std::vector<BlockObservations> blocks{filled(0), filled(5), filled(2 | kNearDynamic)};
-  for (int i = 0; i < 20; ++i) {
-    auto& block = blocks.emplace_back();
-    for (auto& cell : block) cell = static_cast<std::uint8_t>(random() % 6U | (random() % 2U) * kNearDynamic);
-  }
+  std::vector<BlockSight> blocks(3);
+  blocks[1].stable = BlockMask::all();
+  blocks[2].passed = blocks[2].near_dynamic = BlockMask::all();
+  for (int i = 0; i < 20; ++i) blocks.push_back(test::random_sight(random));
   KeyframeView view;
   for (std::uint16_t i = 0; i < blocks.size(); ++i)
-    view.add({static_cast<std::uint16_t>(8 * i), 16, 24}, blocks[i], parts_of(blocks[i]));
+    view.add({static_cast<std::uint16_t>(8 * i), 16, 24}, blocks[i], test::parts_of(blocks[i]));
   ASSERT_EQ(view.size(), blocks.size());
   for (std::uint16_t i = 0; i < blocks.size(); ++i) {
-    BlockObservations observations = filled(77);
-    view.unpack(i, observations);
-    EXPECT_EQ(observations, blocks[i]);
+    expect_same(view.sight(i), blocks[i]);
     EXPECT_EQ(view.key(i)[0], 8 * i);
   }
 }
 
 TEST(KeyframeView, VerdictsDecideWhatSurfacesCount) {
-  BlockObservations block = filled(static_cast<std::uint8_t>(Observation::kPassed));
-  block[10] = static_cast<std::uint8_t>(Observation::kStatic);
-  block[20] = static_cast<std::uint8_t>(Observation::kDoubtful);
-  block[30] = static_cast<std::uint8_t>(Observation::kUnknown) | kNearDynamic;
+  BlockSight sight;
+  sight.stable.insert(10);
+  sight.doubtful.insert(20);
+  sight.unknown.insert(30);
+  sight.near_dynamic.insert(30);
+  sight.passed = ~sight.surfaces();
   KeyframeView view;
   view.set_surfaces({false, false});
-  view.add({0, 0, 0}, block, parts_of(block));
-  const auto decided = [&](SurfaceVerdict verdict) {
+  view.add({0, 0, 0}, sight, test::parts_of(sight));
+  const auto hits = [&](SurfaceVerdict verdict) {
     view.set_verdicts({SurfaceVerdict::kUndecided, verdict});
-    BlockObservations observations;
-    view.unpack_decided(0, observations);
-    EXPECT_EQ(observation_in(observations[0]), Observation::kPassed);
-    EXPECT_NE(observations[30] & kNearDynamic, 0);
-    return std::array{observation_in(observations[10]), observation_in(observations[20]),
-                      observation_in(observations[30])};
+    const BlockStep step = view.step(0);
+    EXPECT_EQ(step.passed, sight.passed);
+    EXPECT_EQ(step.near_dynamic, sight.near_dynamic);
+    EXPECT_TRUE(step.seen_static.has(20));
+    EXPECT_FALSE(step.seen_static.has(30));
+    return std::array{step.hit.has(10), step.hit.has(20), step.hit.has(30)};
   };
-  constexpr auto kHit = Observation::kStatic;
-  constexpr auto kNo = Observation::kNone;
-  EXPECT_EQ(decided(SurfaceVerdict::kUndecided), (std::array{kHit, kNo, kNo}));
-  EXPECT_EQ(decided(SurfaceVerdict::kConfirmed), (std::array{kHit, kHit, kHit}));
-  EXPECT_EQ(decided(SurfaceVerdict::kTransient), (std::array{kNo, kNo, kNo}));
+  EXPECT_EQ(hits(SurfaceVerdict::kUndecided), (std::array{true, false, false}));
+  EXPECT_EQ(hits(SurfaceVerdict::kConfirmed), (std::array{true, true, true}));
+  EXPECT_EQ(hits(SurfaceVerdict::kTransient), (std::array{false, false, false}));
 }
 
 }  // namespace

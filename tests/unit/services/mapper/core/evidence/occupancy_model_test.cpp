@@ -2,114 +2,154 @@
 #include <gtest/gtest.h>
 
 #include "services/mapper/core/evidence/final_map.hpp"
+#include "services/mapper/core/evidence/observation.hpp"
 
 namespace rds::mapper {
 namespace {
 
-constexpr auto kStatic = static_cast<std::uint8_t>(Observation::kStatic);
-constexpr auto kPassed = static_cast<std::uint8_t>(Observation::kPassed);
-constexpr auto kNoReturn = static_cast<std::uint8_t>(Observation::kNoReturn);
+constexpr auto kStatic = Observation::kStatic;
+constexpr auto kPassed = Observation::kPassed;
+constexpr auto kNoReturn = Observation::kNoReturn;
+constexpr auto kNothing = Observation::kNone;
 
+constexpr std::size_t kCell = 123;
 constexpr EvidenceTime kApart = 1000;
-
-struct Sight {
-  EvidenceTime time;
-  std::uint8_t cell;
-};
 
 /// One voxel that keyframes see one after the other.
 class Voxel {
  public:
-  Voxel& see(EvidenceTime time, std::uint8_t cell) {
-    sights_.push_back({time, cell});
+  Voxel& see(Observation observation, int times = 1, bool near_dynamic = false) {
+    BlockStep step;
+    if (observation == kStatic) {
+      step.hit.insert(kCell);
+      step.seen_static.insert(kCell);
+    }
+    if (observation == kPassed) step.passed.insert(kCell);
+    if (observation == kNoReturn) step.no_return.insert(kCell);
+    if (near_dynamic) step.near_dynamic.insert(kCell);
+    for (int i = 0; i < times; ++i) block_.add(step);
     return *this;
   }
-  [[nodiscard]] BlockCounts counts() const {
-    BlockCounts counts;
-    for (const Sight& sight : sights_) counts.add(block_of(sight.cell), sight.time);
-    return counts;
-  }
-  [[nodiscard]] bool is_ghost() const { return (decide(counts()).bits[kCell] & kGhost) != 0; }
-  [[nodiscard]] bool is_transient() const { return mapper::is_transient(counts(), kCell, kApart); }
-  [[nodiscard]] float log_odds() const {
-    BlockLogOdds block;
-    for (const Sight& sight : sights_) block.add(block_of(sight.cell), sight.time, decide(counts()));
-    return in_nats(block.values[kCell]);
+  Voxel& see_something_dynamic(int times = 1) { return see(kNothing, times, true); }
+  [[nodiscard]] float log_odds() const { return in_nats(block_.values[kCell]); }
+  [[nodiscard]] bool is_occupied() const { return log_odds() > 0; }
+  [[nodiscard]] bool is_known() const { return block_.known.has(kCell); }
+  /// Misses until it is free.
+  [[nodiscard]] int misses_to_be_free(Observation miss = kPassed) const {
+    Voxel later = *this;
+    int misses = 0;
+    for (; later.is_occupied() && misses < 100; ++misses) later.see(miss);
+    return misses;
   }
 
  private:
-  static constexpr std::size_t kCell = 123;
-  static BlockObservations block_of(std::uint8_t cell) {
-    BlockObservations observations{};
-    observations[kCell] = cell;
-    return observations;
-  }
-  std::vector<Sight> sights_;
+  BlockOccupancy block_;
 };
 
 TEST(OccupancyModel, AddsThePapersLogOddsAndClamps) {
   Voxel voxel;
-  EXPECT_FLOAT_EQ(voxel.see(0, kStatic).log_odds(), 0.85F);
-  EXPECT_FLOAT_EQ(voxel.see(1, kPassed).log_odds(), 0.44F);
-  for (EvidenceTime t = 2; t < 9; ++t) voxel.see(t, kStatic);
-  EXPECT_FLOAT_EQ(voxel.log_odds(), 3.476F);
-  for (EvidenceTime t = 9; t < 29; ++t) voxel.see(t, kPassed);
-  EXPECT_FLOAT_EQ(voxel.log_odds(), -1.992F);
+  EXPECT_FALSE(voxel.is_known());
+  EXPECT_FLOAT_EQ(voxel.see(kStatic).log_odds(), 0.85F);
+  EXPECT_FLOAT_EQ(voxel.see(kPassed).log_odds(), 0.44F);
+  EXPECT_FLOAT_EQ(voxel.see(kStatic, 7).log_odds(), 3.476F);
+  EXPECT_FLOAT_EQ(voxel.see(kPassed, 20).log_odds(), -1.992F);
 }
 
-TEST(OccupancyModel, AGhostWasStaticInFewerKeyframesThanDynamic) {
+TEST(OccupancyModel, WhatHasStoodForLongIsGoneAfterFiveMissesAndWhatIsPutThereIsInAfterThreeHits) {
   Voxel voxel;
-  EXPECT_FALSE(voxel.see(0, kStatic).is_ghost());
-  voxel.see(100, kPassed | kNearDynamic).see(200, kPassed | kNearDynamic);
-  EXPECT_TRUE(voxel.is_ghost());
-  EXPECT_FALSE(voxel.see(300, kStatic).is_ghost());
+  EXPECT_EQ(voxel.see(kStatic, 300).misses_to_be_free(), 5);
+  voxel.see(kPassed, 100).see(kStatic, 2);
+  EXPECT_FALSE(voxel.is_occupied());
+  EXPECT_TRUE(voxel.see(kStatic).is_occupied());
+}
+
+TEST(OccupancyModel, WhatIsOftenMissedWhileItStandsTakesThePapersNine) {
+  Voxel voxel;
+  for (int i = 0; i < 100; ++i) voxel.see(kStatic, 3).see(kPassed);
+  EXPECT_EQ(voxel.see(kStatic, 4).misses_to_be_free(), 9);
+  EXPECT_EQ(voxel.see(kStatic, 4).misses_to_be_free(), 5) << "eight in a row";
+}
+
+TEST(OccupancyModel, AHitSaysThatTheMissesWereNoise) {
+  Voxel voxel;
+  voxel.see(kStatic, 20).see(kPassed, 4);
+  EXPECT_FLOAT_EQ(voxel.log_odds(), 3.476F - 4 * 0.7F);
+  EXPECT_FLOAT_EQ(voxel.see(kStatic).log_odds(), 3.476F - 4 * 0.41F + 0.85F) << "as the paper";
+}
+
+TEST(OccupancyModel, AGhostIsGoneAfterThreeMisses) {
+  Voxel voxel;
+  voxel.see(kStatic, 100).see_something_dynamic(101);
+  EXPECT_FLOAT_EQ(voxel.log_odds(), 3.476F);
+  EXPECT_EQ(voxel.misses_to_be_free(), 3);
+  EXPECT_EQ(voxel.misses_to_be_free(kNoReturn), 3);
+  EXPECT_EQ(voxel.see(kStatic).misses_to_be_free(), 5) << "as often static as dynamic";
 }
 
 TEST(OccupancyModel, RaysThroughAGhostTakeMoreUntilItIsSeenAgain) {
   Voxel voxel;
-  for (EvidenceTime t = 0; t < 3; ++t) voxel.see(t, kStatic);  // 2.55
-  for (EvidenceTime t = 3; t < 7; ++t) voxel.see(t, kNearDynamic);
-  EXPECT_FLOAT_EQ(voxel.see(8, kPassed).log_odds(), 1.35F);
-  voxel.see(9, kStatic).see(10, kNearDynamic);  // now the ray passed before it was static once more
-  EXPECT_FLOAT_EQ(voxel.log_odds(), 2.55F - 0.41F + 0.85F);
+  voxel.see(kStatic, 3).see_something_dynamic(4);
+  EXPECT_FLOAT_EQ(voxel.see(kPassed).log_odds(), 2.55F - 1.2F);
+  EXPECT_FLOAT_EQ(voxel.see(kStatic).log_odds(), 2.55F - 0.41F + 0.85F);
 }
 
 TEST(OccupancyModel, RaysWithoutReturnTakeFromWhatIsSeldomSeen) {
-  EXPECT_FLOAT_EQ(Voxel().see(0, kStatic).see(1, kNoReturn).log_odds(), 0.44F);
-  EXPECT_FLOAT_EQ(Voxel().see(0, kNoReturn).log_odds(), 0);
-  Voxel often;
-  for (EvidenceTime t = 0; t < 3; ++t) often.see(t, kStatic);
-  EXPECT_FLOAT_EQ(often.see(3, kNoReturn).log_odds(), 2.55F);
+  EXPECT_FLOAT_EQ(Voxel().see(kStatic).see(kNoReturn).log_odds(), 0.44F);
+  EXPECT_FLOAT_EQ(Voxel().see(kNoReturn).log_odds(), 0);
+  EXPECT_FALSE(Voxel().see(kNoReturn).is_known());
+  EXPECT_FLOAT_EQ(Voxel().see(kStatic, 3).see(kNoReturn).log_odds(), 2.55F);
+}
+
+TEST(OccupancyModel, TellsWhichVoxelsHaveChanged) {
+  BlockOccupancy before;
+  BlockStep step;
+  for (const std::size_t cell : {3U, 300U}) step.passed.insert(cell);
+  before.add(step);
+  BlockOccupancy after = before;
+  for (int i = 0; i < 10; ++i) before.add(step);
+  step.hit.insert(511);
+  after.add(step);
+  BlockMask expected = step.passed;
+  expected.insert(511);
+  EXPECT_EQ(after.changed_since(before), expected);
+  EXPECT_TRUE(after.changed_since(after).empty());
+}
+
+/// When a voxel was static, and when dynamic.
+BlockCounts counts_of(const std::vector<EvidenceTime>& statics, const std::vector<EvidenceTime>& dynamics) {
+  BlockMask cell;
+  cell.insert(kCell);
+  BlockCounts counts;
+  for (const EvidenceTime time : statics) counts.statics.add(cell, time);
+  for (const EvidenceTime time : dynamics) counts.dynamics.add(cell, time);
+  return counts;
 }
 
 TEST(OccupancyModel, WhatStandsOnlyWhileSomebodyIsThereIsTransient) {
-  Voxel voxel;
-  voxel.see(2000, kNearDynamic).see(1100, kStatic);
-  EXPECT_FALSE(voxel.is_transient()) << "as often as dynamic";
-  EXPECT_TRUE(voxel.see(3000, kNearDynamic).is_transient());
-  EXPECT_FALSE(voxel.see(1000, kStatic).is_transient());
+  EXPECT_FALSE(is_transient(counts_of({1100}, {2000}), kCell, kApart)) << "as often as dynamic";
+  EXPECT_TRUE(is_transient(counts_of({1100}, {2000, 3000}), kCell, kApart));
+  EXPECT_FALSE(is_transient(counts_of({1100, 1000}, {2000, 3000}), kCell, kApart));
 }
 
 TEST(OccupancyModel, WhatStandsASecondBeforeOrAfterIsNotTransient) {
-  Voxel voxel;
-  for (const EvidenceTime t : {2000, 2100, 2200}) voxel.see(t, kNearDynamic);
-  EXPECT_FALSE(voxel.see(1000, kStatic).is_transient());
-}
-
-TEST(OccupancyModel, WhoStandsForHoursDoesNotBecomeAGhostByCounting) {
-  BlockCounts counts;
-  BlockObservations observations{};
-  observations[0] = kStatic | kNearDynamic;
-  for (int i = 0; i < 70'000; ++i) counts.add(observations, 0);
-  EXPECT_EQ(decide(counts).bits[0], 0);
+  EXPECT_FALSE(is_transient(counts_of({1000}, {2000, 2100, 2200}), kCell, kApart));
+  EXPECT_FALSE(is_transient(counts_of({3200}, {2000, 2100, 2200}), kCell, kApart));
 }
 
 TEST(OccupancyModel, ASavedVoxelHasAlwaysBeenThere) {
   FinalMap map;
-  map.add({100, 200, 300}, 850, std::nullopt);
+  map.add({100, 200, 300}, 3476, std::nullopt);
   const FinalBlock& block = map.blocks.at(packed(block_key({100, 200, 300})));
-  EXPECT_TRUE(seen_apart(block.counts, cell_of({100, 200, 300}), 0, kApart));
+  const auto cell = cell_of({100, 200, 300});
+  EXPECT_TRUE(seen_apart(block.counts, cell, 0, kApart));
   EXPECT_FALSE(seen_apart(block.counts, cell_of({100, 200, 301}), 0, kApart));
+  BlockOccupancy occupancy = block.occupancy;
+  BlockStep miss;
+  miss.passed.insert(cell);
+  for (int i = 0; i < 4; ++i) occupancy.add(miss);
+  EXPECT_GT(occupancy.values[cell], 0);
+  occupancy.add(miss);
+  EXPECT_LT(occupancy.values[cell], 0);
 }
 
 }  // namespace

@@ -123,13 +123,57 @@ TEST(ObjectDatabase, MovableObjectsNeverEnter) {
   EXPECT_TRUE(mapper.map().objects().empty());
 }
 
-TEST(ObjectDatabase, ForgetsWhatIsSeenThrough) {
-  SemanticMapper mapper(MapperConfig{});
-  std::uint64_t id = 0;
-  for (; id < 4; ++id) mapper.integrate(with_chair(id).make());
-  ASSERT_EQ(mapper.map().objects().size(), 1U);
-  for (; id < 12; ++id) mapper.integrate(SyntheticKeyframe(id).looked_for_objects().make());
-  EXPECT_TRUE(mapper.map().objects().empty());
+/// A chair that stood for ten minutes, and then not.
+struct CarriedAway {
+  CarriedAway() {
+    for (; next < 40; ++next) see(with_chair(150 * next));  // keyframe ids are tenths of a second
+  }
+  void see(const KeyframeInput& keyframe) { mapper.integrate(keyframe); }
+  void see_through(int times) {
+    for (int i = 0; i < times; ++i, ++next) see(SyntheticKeyframe(150 * next).looked_for_objects());
+  }
+  [[nodiscard]] MapObject chair() const {
+    const auto objects = mapper.map().objects();
+    EXPECT_EQ(objects.size(), 1U);
+    return objects.empty() ? MapObject{} : objects.front();
+  }
+  SemanticMapper mapper{MapperConfig{}};
+  std::uint64_t next = 0;
+};
+
+TEST(ObjectDatabase, WhatIsSeenThroughInFiveKeyframesHasGoneAndIsStillListed) {
+  CarriedAway chair;
+  EXPECT_FALSE(chair.chair().has_gone);
+  chair.see_through(4);
+  EXPECT_FALSE(chair.chair().has_gone);
+  chair.see_through(1);
+  EXPECT_TRUE(chair.chair().has_gone);
+  chair.see_through(20);
+  EXPECT_TRUE(chair.chair().has_gone);
+  EXPECT_EQ(chair.chair().label, "chair");
+  EXPECT_EQ(chair.chair().first_seen_ns, 0);
+  EXPECT_EQ(chair.chair().last_seen_ns, 39 * 15'000'000'000);
+}
+
+TEST(ObjectDatabase, WhatIsBackHasItsIdAndItsPlace) {
+  CarriedAway chair;
+  chair.see_through(20);
+  const cv::Rect beside = kChair + cv::Point(40, 0);  // 28 cm
+  for (int i = 0; i < 3; ++i, ++chair.next)
+    chair.see(SyntheticKeyframe(150 * chair.next).rectangle(beside, kChairM).box("chair", beside, false));
+  EXPECT_FALSE(chair.chair().has_gone);
+  EXPECT_EQ(chair.chair().id, 1U);
+  EXPECT_EQ(chair.chair().first_seen_ns, 0);
+  EXPECT_LT((chair.chair().center - point_at(180, 120, kChairM)).norm(), 0.05);
+}
+
+TEST(ObjectDatabase, WhatHasGoneOutlastsItsBytes) {
+  CarriedAway chair;
+  chair.see_through(20);
+  SemanticMapper restored{MapperConfig{}};
+  ASSERT_TRUE(test::start_from(restored, test::saved_bytes(chair.mapper)));
+  ASSERT_EQ(restored.map().objects().size(), 1U);
+  EXPECT_TRUE(restored.map().objects().front().has_gone);
 }
 
 TEST(ObjectDatabase, KeepsWhatIsHiddenOrOutOfViewOrNotLookedFor) {
@@ -152,8 +196,10 @@ TEST(ObjectDatabase, WritesJson) {
                   .center = {1, 2, 3},
                   .size = {0.5, 0.25, 1},
                   .observations = 7,
-                  .first_seen_ns = 0,
-                  .last_seen_ns = 1};
+                  .first_seen_ns = 1'305'031'102'175'304'000,
+                  .last_seen_ns = 1'305'031'103'500'000'000,
+                  .seen_through = 3,
+                  .has_gone = true};
   const auto json = nlohmann::json::parse(to_json(std::vector{chair}));
   ASSERT_EQ(json.size(), 1U);
   EXPECT_EQ(json[0]["id"], 3);
@@ -162,6 +208,9 @@ TEST(ObjectDatabase, WritesJson) {
   EXPECT_EQ(json[0]["size"], (std::vector{0.5, 0.25, 1.0}));
   EXPECT_EQ(json[0]["observations"], 7);
   EXPECT_EQ(json[0]["movable"], false);
+  EXPECT_NEAR(json[0]["first_seen"], 1305031102.175304, 1e-6);
+  EXPECT_NEAR(json[0]["last_seen"], 1305031103.5, 1e-6);
+  EXPECT_EQ(json[0]["gone"], true);
   EXPECT_EQ(to_json({}), "[]\n");
 }
 

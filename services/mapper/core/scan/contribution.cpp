@@ -59,11 +59,13 @@ BlockMask& cells_with(Observation observation, BlockSight& sight) {
   }
 }
 
+/// A ray passes only where no surface of the same picture is next: depth and pose are known to about a voxel,
+/// and rays along a floor go through voxels of it that lie between its pixels.
 /// @param parts  of the surfaces' voxels.
 BlockSight sight_of(const ScanGrid::Block& block, const Scan& scan, std::vector<SurfacePart>& parts) {
   const BlockMask surfaces = block.cells(kSurface);
   BlockSight sight;
-  sight.passed = block.cells(kFreeSpace) & ~surfaces;
+  sight.passed = block.cells(kFreeSpace) & ~(surfaces | block.cells(kBesideSurface));
   sight.no_return = block.cells(kNoReturnRay) & ~(surfaces | sight.passed);
   sight.near_dynamic = block.cells(kDynamicPlace);
   parts.clear();

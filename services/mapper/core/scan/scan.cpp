@@ -173,7 +173,10 @@ void cast_rays(const KeyframeRecord& record, const OctreeConfig& octree, const S
   const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
   if (!in_key_range(project.origin)) return;
   mark_dynamic_places(project, sampling, cube_bits(octree.resolution_m), scan.grid);
-  if (octree.carve_rays) carve(project, scan);
+  if (!octree.carve_rays) return;
+  carve(project, scan);
+  for (const SurfaceVoxel& voxel : scan.surfaces)
+    if (voxel.observation() >= Observation::kUnknown) scan.grid.mark_beside(voxel.key);
 }
 
 }  // namespace rds::mapper

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/scan/scan_grid.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -62,17 +63,29 @@ void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey&
 }
 
 ScanGrid::Block& ScanGrid::block_of(const octomap::OcTreeKey& key) {
-  std::size_t at = 0;
-  for (unsigned axis = 3; axis-- > 0;)
-    at = at * static_cast<std::size_t>(size_[axis]) +
-         static_cast<std::size_t>((key[axis] >> kBlockBits) - first_block_[axis]);
-  auto& index = index_[at];
+  auto& index = index_[place_of(key[0], key[1], key[2])];
   if (index < 0) {
     index = static_cast<std::int32_t>(blocks_.size());
     auto& block = blocks_.emplace_back();
     block.key = block_key(key);
   }
   return blocks_[static_cast<std::size_t>(index)];
+}
+
+void ScanGrid::mark_beside(const octomap::OcTreeKey& key) {
+  const auto from = [&](unsigned axis) { return std::max(key[axis] - 1, first_block_[axis] << kBlockBits); };
+  const auto to = [&](unsigned axis) {
+    return std::min(key[axis] + 1, ((first_block_[axis] + size_[axis]) << kBlockBits) - 1);
+  };
+  for (int z = from(2); z <= to(2); ++z)
+    for (int y = from(1); y <= to(1); ++y)
+      for (int x = from(0); x <= to(0); ++x) {
+        const std::int32_t block = index_[place_of(x, y, z)];
+        if (block < 0) continue;
+        blocks_[static_cast<std::size_t>(block)]
+            .flags[cell_of(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z))] |=
+            kBesideSurface;
+      }
 }
 
 void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {

@@ -18,6 +18,7 @@ enum ScanFlag : std::uint8_t {
   kRayCast = 4,
   kNoReturnRay = 8,
   kDynamicPlace = 16,
+  kBesideSurface = 32,
 };
 
 /// Scratch volume of one keyframe: sparse blocks of 8×8×8 voxels, cells of a block in the octree's child
@@ -46,10 +47,23 @@ class ScanGrid {
 
   Block& block_of(const octomap::OcTreeKey& key);
 
+  /// Marks a voxel and its 26 neighbours, as far as they are in touched blocks, with kBesideSurface.
+  void mark_beside(const octomap::OcTreeKey& key);
+
   /// Touched blocks in order of first touch.
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
  private:
+  /// Of a voxel's block, in index_.
+  [[nodiscard]] std::size_t place_of(int x, int y, int z) const {
+    const auto along = [&](int key, unsigned axis) {
+      return static_cast<std::size_t>((key >> kBlockBits) - first_block_[axis]);
+    };
+    return (along(z, 2) * static_cast<std::size_t>(size_[1]) + along(y, 1)) *
+               static_cast<std::size_t>(size_[0]) +
+           along(x, 0);
+  }
+
   std::array<int, 3> first_block_{};
   std::array<int, 3> size_{};
   std::vector<std::int32_t> index_;  // of a block in blocks_, -1 if untouched

@@ -12,7 +12,7 @@ namespace {
 
 using Key = std::array<int, 3>;
 
-std::set<Key> marked(const ScanGrid& grid) {
+std::set<Key> marked(const ScanGrid& grid, ScanFlag flag = kFreeSpace) {
   std::set<Key> keys;
   for (const auto& block : grid.blocks())
     for (int x = 0; x < 8; ++x)
@@ -21,7 +21,7 @@ std::set<Key> marked(const ScanGrid& grid) {
           const octomap::OcTreeKey key(static_cast<std::uint16_t>(block.key[0] + x),
                                        static_cast<std::uint16_t>(block.key[1] + y),
                                        static_cast<std::uint16_t>(block.key[2] + z));
-          if ((block.flags[cell_of(key)] & kFreeSpace) != 0) keys.insert({key[0], key[1], key[2]});
+          if ((block.flags[cell_of(key)] & flag) != 0) keys.insert({key[0], key[1], key[2]});
         }
   return keys;
 }
@@ -59,6 +59,29 @@ TEST(ScanGrid, ARayEndsBeforeItsLastVoxelAndCoversAxesExactly) {
   grid.reset({100, 100, 100}, {140, 140, 140});
   grid.cast_ray({120.2, 120.2, 120.2}, {120.8, 120.9, 120.1});
   EXPECT_TRUE(marked(grid).empty());
+}
+
+TEST(ScanGrid, NeighboursAreMarkedInTouchedBlocksOnly) {
+  ScanGrid grid;
+  grid.reset({96, 96, 96}, {127, 127, 127});
+  const octomap::OcTreeKey corner(103, 103, 103);
+  grid.block_of(corner);
+  grid.block_of({104, 103, 103});
+  grid.mark_beside(corner);
+  std::set<Key> expected;
+  for (int z = 102; z <= 103; ++z)
+    for (int y = 102; y <= 103; ++y)
+      for (int x = 102; x <= 104; ++x) expected.insert({x, y, z});
+  EXPECT_EQ(marked(grid, kBesideSurface), expected);
+}
+
+TEST(ScanGrid, NeighboursEndWithTheGrid) {
+  ScanGrid grid;
+  grid.reset({96, 96, 96}, {127, 127, 127});
+  for (const std::uint16_t first : {96, 120})
+    for (const std::uint16_t second : {96, 120}) grid.block_of({first, second, 96});
+  grid.mark_beside({96, 96, 96});
+  EXPECT_EQ(marked(grid, kBesideSurface).size(), 8);
 }
 
 }  // namespace

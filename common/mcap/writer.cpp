@@ -59,7 +59,8 @@ Result Writer::write(Message message) {
 }
 
 Result Writer::end_chunk() {
-  if (indexes_.empty()) return {};
+  if (indexes_.empty() && head_.empty()) return {};
+  if (indexes_.empty()) return give(std::exchange(head_, {}));
   const Bytes compressed = compress(records_, options_.compression);
   const Chunk chunk{
       chunk_start_time_, chunk_end_time_, records_.size(), crc32_of(records_), name_of(options_.compression),

@@ -37,7 +37,7 @@ class Writer {
 
   /// @param message  of a channel that was announced; its sequence counts within the channel if it is 0.
   tl::expected<void, std::string> write(Message message);
-  /// Gives what waits to the sink.
+  /// Gives what waits to the sink; the first time at least the beginning of the file.
   tl::expected<void, std::string> end_chunk();
   /// Gives the rest of the file to the sink.
   tl::expected<void, std::string> finish();

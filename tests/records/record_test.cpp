@@ -57,10 +57,12 @@ class Record : public testing::TestWithParam<const char*> {
     EXPECT_TRUE(scan) << scan.error();
     return last;
   }
-  void wait_for_bytes() const {
+  /// Until the first messages are in the file.
+  void wait_for_messages() const {
+    constexpr std::uintmax_t kMoreThanAHeader = 1000;
     const auto deadline = std::chrono::steady_clock::now() + 20s;
     std::error_code error;
-    while ((!fs::exists(file(), error) || fs::file_size(file(), error) == 0) &&
+    while ((!fs::exists(file(), error) || fs::file_size(file(), error) < kMoreThanAHeader) &&
            std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(5ms);
   }
@@ -87,8 +89,9 @@ TEST_P(Record, NothingOfACameraIsLost) {
 TEST_P(Record, AKilledOneLeavesAllButItsLastSecond) {
   const int moments = std::getenv("RDS_SOAK") != nullptr ? 50 : 5;
   for (int i = 0; i < moments; ++i) {
-    Process process(recorder({"--camera", "--force"}));
-    wait_for_bytes();
+    fs::remove(file());
+    Process process(recorder({"--camera"}));
+    wait_for_messages();
     std::this_thread::sleep_for(std::chrono::milliseconds(200 + 37 * i));
     const std::int64_t killed_ns = now_ns();
     process.kill();
@@ -105,7 +108,7 @@ TEST_P(Record, AKilledOneLeavesAllButItsLastSecond) {
 
 TEST_P(Record, AnInterruptedOneIsWhole) {
   Process process(recorder({}));
-  wait_for_bytes();
+  wait_for_messages();
   process.send(SIGINT);
   EXPECT_EQ(process.wait(20s), 0) << process.standard_error();
   const auto recovered = run_process({rds(), "record", "--recover", file().string()}, 30s);

@@ -144,14 +144,18 @@ class Records(unittest.TestCase):
         self.assertEqual(statistics.message_end_time, max(m[2] for m in self.messages))
         for channel in summary.channels.values():
             self.assertEqual(statistics.channel_message_counts[channel.id], sum(m[0] == channel.topic for m in self.messages))
-            self.assertIn("reliability: 1", channel.metadata["offered_qos_profiles"])
-            self.assertTrue(channel.metadata["topic_type_hash"].startswith("RIHS01_"))
 
     def test_our_type_hashes_are_those_of_ros(self):
         store = get_typestore(Stores.ROS2_JAZZY)
+        with open(self.bag, "rb") as file:
+            summary = mcap.reader.make_reader(file).get_summary()
+        for channel in summary.channels.values():
+            name = summary.schemas[channel.schema_id].name
+            self.assertEqual(channel.metadata["topic_type_hash"], store.hash_rihs01(name), name)
+
+    def test_our_qos_is_what_publishers_offer(self):
         with Reader(self.bag) as reader:
             for connection in reader.connections:
-                self.assertEqual(connection.digest, store.hash_rihs01(connection.msgtype), connection.msgtype)
                 self.assertEqual([(q.reliability, q.durability) for q in connection.ext.offered_qos_profiles], [(QosReliability.RELIABLE, QosDurability.VOLATILE)])
 
     def test_we_read_the_bags_of_rosbags(self):
@@ -199,7 +203,8 @@ class Records(unittest.TestCase):
         path.write_bytes(whole[: len(whole) * 2 // 3])
         self.assertEqual(rds("record", "--recover", path).returncode, 0)
         messages = by_mcap(path)
-        self.assertGreater(len(messages), len(self.messages) // 2)
+        pictures = [sum(m[1] == "sensor_msgs/msg/Image" for m in all) for all in (messages, self.messages)]
+        self.assertGreater(pictures[0], pictures[1] // 2)
         self.assertTrue(set(messages) <= set(self.messages))
 
 

@@ -171,6 +171,9 @@ TEST(Mcap, ARecordOverTheLimitIsLeftOut) {
 TEST(Mcap, AnEmptyRecordingIsAWholeFile) {
   MemoryFile file;
   Writer writer({}, file.sink());
+  ASSERT_TRUE(writer.end_chunk());
+  Seen none;
+  EXPECT_FALSE(test::read_all(file, none).complete) << "it is one from its beginning";
   ASSERT_TRUE(writer.finish());
   Seen seen;
   EXPECT_TRUE(test::read_all(file, seen).complete);

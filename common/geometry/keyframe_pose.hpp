@@ -14,11 +14,4 @@ struct KeyframePose {
   Pose map_from_camera = Pose::Identity();
 };
 
-/// Two keyframes that show the same place, and how they stand to each other as measured from what both see.
-struct LoopMatch {
-  std::uint64_t later = 0;
-  std::uint64_t earlier = 0;
-  Pose earlier_from_later = Pose::Identity();
-};
-
 }  // namespace rds::geometry

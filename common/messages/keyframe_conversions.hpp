@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include "common/geometry/keyframe_pose.hpp"
+#include "common/geometry/loop_match.hpp"
 #include "common/geometry/pose.hpp"
 #include "common/image/rgbd_frame.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"

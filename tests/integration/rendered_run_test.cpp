@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the camera
-// with people in the picture, and a way around the room that closes a loop.
+// Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the
+// camera with people in the picture, and a way around the room that closes a loop.
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -19,7 +19,8 @@ struct RenderedFigures {
   double max_ate_m;
   double min_box_recall;
   double max_residue;
-  std::optional<double> min_static_recall;  // none where the camera stands: what aligns map and truth is loose
+  std::optional<double>
+      min_static_recall;  // none where the camera stands: what aligns map and truth is loose
 };
 
 void PrintTo(const RenderedFigures& figures, std::ostream* out) {
@@ -51,20 +52,33 @@ INSTANTIATE_TEST_SUITE_P(Path, RenderedRun,
                                            RenderedFigures{"static", "cyclonedds", 0.005, 0.80, 0.02, {}}),
                          [](const auto& path) { return path.param.name; });
 
-/// A lap of the room drifts by a centimetre, which by default is not worth a correction.
-TEST(RenderedLoop, IsClosedThroughAllProcesses) {
-  const TemporaryFolder place;
+/// What a lap around the room leaves behind. @param closer  the tracker listens to the loop closer.
+nlohmann::json lap(const std::filesystem::path& place, bool closer) {
   const auto dataset = rendered_recording("loop");
-  write_text(place / "config.yaml",
-             "loop_closer: {consistency: {min_correction_m: 0, min_correction_rad: 0}}\n");
-  const ProcessResult result = run(dataset, place / "out",
-                                   {"--rate", "max", "--no-dynamics", "--config", (place / "config.yaml").string()});
-  ASSERT_EQ(result.status, 0) << result.standard_error;
-  const auto summary = nlohmann::json::parse(read_text(place / "out/summary.json"));
-  EXPECT_GE(summary["loops_closed"].get<int>(), 1);
-  const auto figures = score(dataset, place / "out");
-  EXPECT_EQ(figures["tracked"].get<double>(), 1.0);
-  EXPECT_LE(figures["ate_final"].get<double>(), 0.010);
+  write_text(place / "config.yaml", closer ? "{}\n" : "tracker: {loop_closer: false}\n");
+  const auto out = place / (closer ? "joined" : "open");
+  const ProcessResult result =
+      run(dataset, out, {"--rate", "max", "--no-dynamics", "--config", (place / "config.yaml").string()});
+  if (result.status != 0) throw std::runtime_error(result.standard_error);
+  auto figures = score(dataset, out, dataset);
+  figures["loops_closed"] = nlohmann::json::parse(read_text(out / "summary.json"))["loops_closed"];
+  return figures;
+}
+
+/// The end of the lap sees the start again: where it is not joined, the walls there stand twice.
+TEST(RenderedLoop, IsJoinedThroughAllProcesses) {
+  const TemporaryFolder place;
+  const auto open = lap(place.path(), false);
+  const auto joined = lap(place.path(), true);
+  EXPECT_EQ(open["loops_closed"].get<int>(), 0);
+  EXPECT_GE(joined["loops_closed"].get<int>(), 1);
+  EXPECT_GE(joined["loops_true"].get<int>(), 3);
+  EXPECT_EQ(joined["loops_false"].get<int>(), 0);
+  EXPECT_EQ(joined["tracked"].get<double>(), 1.0);
+  EXPECT_LE(joined["ate_final"].get<double>(), 0.006);
+  EXPECT_LT(joined["ate_final"].get<double>(), 0.7 * open["ate_final"].get<double>());
+  EXPECT_LT(joined["map_occupied"].get<int>(), open["map_occupied"].get<int>());
+  EXPECT_GE(joined["map_precision"].get<double>(), open["map_precision"].get<double>());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/geometry/keyframe_pose.hpp"
+#include "common/geometry/loop_match.hpp"
 #include "common/geometry/pose.hpp"
 
 namespace rds::loop_closer {

@@ -15,7 +15,6 @@
 namespace rds::tracker {
 
 using geometry::KeyframePose;
-using geometry::LoopMatch;
 using geometry::Pose;
 
 struct CovisibleKeyframe {

@@ -91,6 +91,9 @@ void apply_global_adjustment(SlamMap& map, const LocalMappingResult& result) {
 
   for (const auto& moved : result.keyframes)
     if (Keyframe* k = map.keyframe(moved.id)) k->map_from_camera = moved.map_from_camera;
+  for (const auto& moved : result.keyframes)
+    if (map.keyframe(moved.id) == nullptr)
+      set_pose(map, moved.id, moved.map_from_camera);  // culled meanwhile
   for (const auto& [id, reference] : reference_of_new)
     if (reference != kNoId)
       map.keyframe(id)->map_from_camera = motion.now_from_before(reference) * map.pose_of(id);

@@ -3,10 +3,13 @@
 
 #include <map>
 
+#include "common/geometry/loop_match.hpp"
 #include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/map/slam_map.hpp"
 
 namespace rds::tracker {
+
+using geometry::LoopMatch;
 
 /// Points that are gone, each with the one that took its place.
 using ReplacedPoints = std::map<PointId, PointId>;

@@ -78,7 +78,7 @@ TEST_F(SavedKeyframes, ALoopToASavedPlaceMovesTheNewKeyframesAlone) {
     after = (answer.poses.back().map_from_camera.translation() - truth.translation()).norm();
   }
   ASSERT_EQ(closer.revision(), 1U);
-  EXPECT_GT(before, 0.05);
+  EXPECT_GT(before, 0.02);
   EXPECT_LT(after, 0.4 * before);
 }
 

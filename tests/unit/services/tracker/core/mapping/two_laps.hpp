@@ -17,7 +17,7 @@ class TwoLaps {
   static constexpr KeyframeId kPerLap = 5;
   static constexpr std::size_t kPoints = 500;
 
-  explicit TwoLaps(const Pose& drift) : drift(drift) {
+  explicit TwoLaps(const Pose& drifted_by) : drift(drifted_by) {
     for (KeyframeId k = 0; k < 2 * kPerLap; ++k) add_keyframe(k, k < kPerLap ? first_lap : second_lap);
   }
 

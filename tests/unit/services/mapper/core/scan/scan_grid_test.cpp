@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/scan/scan_grid.hpp"
 
+#include <array>
 #include <random>
 #include <set>
 
@@ -78,8 +79,8 @@ TEST(ScanGrid, NeighboursAreMarkedInTouchedBlocksOnly) {
 TEST(ScanGrid, NeighboursEndWithTheGrid) {
   ScanGrid grid;
   grid.reset({96, 96, 96}, {127, 127, 127});
-  for (const std::uint16_t first : {96, 120})
-    for (const std::uint16_t second : {96, 120}) grid.block_of({first, second, 96});
+  for (const auto first : std::array<std::uint16_t, 2>{96, 120})
+    for (const auto second : std::array<std::uint16_t, 2>{96, 120}) grid.block_of({first, second, 96});
   grid.mark_beside({96, 96, 96});
   EXPECT_EQ(marked(grid, kBesideSurface).size(), 8);
 }

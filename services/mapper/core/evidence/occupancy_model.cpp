@@ -90,7 +90,8 @@ void add_to(BlockOccupancy& block, std::size_t i, const BlockStep& step) {
   const Lanes longer = row > 0 ? clamped(row + 1, 0, kSolidRow) : 1 - Lanes{};
   store(balance, block.balance[i]);
   store(lasting_now, block.lasting[i]);
-  store((hit & lasting_now) | (~hit & value_now), block.values[i]);
+  const Lanes is_there = hit | members(step.seen_static, i);  // so that the misses were noise
+  store((is_there & lasting_now) | (~is_there & value_now), block.values[i]);
   store((hit & longer) | (missed & ~hit & -length) | (~(hit | missed) & row), block.row[i]);
 }
 

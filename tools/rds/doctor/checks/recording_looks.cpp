@@ -11,13 +11,13 @@ constexpr std::size_t kEdgeViews = 30;
 
 struct Pictures {
   cv::Mat gray;
-  cv::Mat depth;
+  image::DepthImage depth;
 };
 
 Pictures pictures_of(const image::RgbdFrame& frame) {
   Pictures pictures;
   frame.color.to_gray(pictures.gray);
-  pictures.depth = frame.depth.values;
+  pictures.depth = frame.depth;
   return pictures;
 }
 
@@ -26,8 +26,8 @@ FrameLook look_at(const image::RgbdFrame& frame, const Pictures& now, const Pict
                  std::numeric_limits<double>::quiet_NaN(), false};
   if (before.gray.empty()) return look;
   look.color_change = cv::norm(now.gray, before.gray, cv::NORM_L1) / static_cast<double>(now.gray.total());
-  look.depth_repeated =
-      cv::countNonZero(now.depth) > 0 && cv::norm(now.depth, before.depth, cv::NORM_INF) == 0;
+  look.depth_repeated = cv::countNonZero(now.depth.values) > 0 &&
+                        cv::norm(now.depth.values, before.depth.values, cv::NORM_INF) == 0;
   return look;
 }
 
@@ -46,7 +46,7 @@ RecordingLooks look_at_pictures(const image::Recording& dataset, std::size_t eve
     }
     const Pictures now = pictures_of(*frame);
     looks.frames.push_back(look_at(*frame, now, before));
-    if (i % edges_every == 0) looks.edges.push_back(find_edges(now.gray, now.depth));
+    if (i % edges_every == 0) looks.edges.push_back(find_edges(now.gray, now.depth.values));
     before = now;
   }
   return looks;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/image/tum_dataset.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tools/rds/doctor/checks/dataset_check.hpp"
 

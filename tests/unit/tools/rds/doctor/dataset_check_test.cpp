@@ -8,8 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/image/tum_dataset.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/recording/conversion.hpp"
+#include "tools/recording/open_recording.hpp"
 
 namespace rds::doctor {
 namespace {
@@ -44,6 +47,13 @@ TEST_F(DatasetCheckTest, LooksAtEveryNthFrameOnce) {
   EXPECT_NEAR(looks.frames.front().depth.median_m, 2.0, 0.2);
   EXPECT_TRUE(std::isnan(looks.frames.front().color_change));
   EXPECT_GT(looks.frames.back().color_change, 1);
+}
+
+TEST_F(DatasetCheckTest, FindsTheSameInABag) {
+  const auto writer = recording::make_bag_writer(folder / "a.mcap", mcap::Compression::kLz4).value();
+  ASSERT_TRUE(recording::write_bag(open(), *writer));
+  const auto bag = recording::open_recording(folder / "a.mcap").value();
+  EXPECT_EQ(to_text(check_dataset(*bag.recording, 1)), to_text(check_dataset(open(), 1)));
 }
 
 TEST_F(DatasetCheckTest, CountsMissingPictures) {

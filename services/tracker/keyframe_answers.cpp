@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/keyframe_answers.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <spdlog/spdlog.h>
@@ -11,7 +12,9 @@
 namespace rds::tracker {
 namespace {
 constexpr std::size_t kMaxAnswers = 100;
-}
+constexpr std::chrono::milliseconds kBetweenBeats(
+    500);  // while own threads, which always answer, take their time
+}  // namespace
 
 KeyframeAnswers::KeyframeAnswers(service::ServiceContext& context, concurrency::Mailbox& mailbox,
                                  const LockstepConfig& lockstep, int mapping_nice)
@@ -87,12 +90,11 @@ void KeyframeAnswers::await(std::uint64_t frame, std::uint64_t map_epoch, const 
   while (!stop.stop_requested()) {
     beat();
     sort_in(map_epoch);
-    if (boxes_.complete(frame) && poses_.complete(frame) && mappings_.complete(frame) &&
-        adjustments_.complete(frame))
-      return;
+    const bool have_own = mappings_.complete(frame) && adjustments_.complete(frame);
+    if (have_own && boxes_.complete(frame) && poses_.complete(frame)) return;
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) break;
-    mailbox_.wait_for(stop, left, [this] { return locked_ready(); });
+    if (have_own && left.count() <= 0) break;
+    mailbox_.wait_for(stop, std::max(left, kBetweenBeats), [this] { return locked_ready(); });
   }
   ++diagnostics_.counter("lockstep timeouts");
   spdlog::warn("frame {} goes on without an answer it waited {} s for", frame, lockstep_.timeout_s);

@@ -62,7 +62,8 @@ class KeyframeAnswers {
   /// An adjustment that runs is stopped and counts no more.
   void ask_for_adjustment(LocalMappingJob job, std::uint64_t frame);
 
-  /// In lockstep: waits until all that takes effect at this frame is here, as long as the settings allow.
+  /// In lockstep: waits until all that takes effect at this frame is here; for other processes as long as the
+  /// settings allow.
   /// @param beat  called now and then meanwhile.
   void await(std::uint64_t frame, std::uint64_t map_epoch, const std::stop_token& stop,
              const std::function<void()>& beat);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/host_network.hpp"
 #include "tests/hosts/maps/revisions.hpp"

@@ -13,10 +13,10 @@
 //                                        surface of something dynamic
 //
 // Misses since the voxel was hit last are noise (a surface at a grazing angle, an edge), or what stood there
-// has gone. C is L with these misses taken for a change, by what was known of the voxel; a hit says that it
-// was noise. A voxel is occupied if C > 0:
+// has gone. C is L with these misses taken for a change, by what was known of the voxel; who sees it again
+// says that it was noise. A voxel is occupied if C > 0:
 //
-//   hit      C ← L                       after the hit
+//   seen     C ← L                       as static or doubtful, a hit or not; L with the hit
 //   miss     C ← clamp(C − m)            m = 1.2 if C > 0 and b < 0   (ghost)
 //                                        m = .7  if C > 0 and r ≥ 8   (solid)
 //                                        m = .41 else: as the paper

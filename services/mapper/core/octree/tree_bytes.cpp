@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "services/mapper/core/keyframe/voxel_key.hpp"
 #include "services/mapper/core/octree/editable_octree.hpp"
 
 namespace rds::mapper {
@@ -36,8 +37,11 @@ class VoxelBudget {
   VoxelBudget(std::size_t bytes, std::uint64_t voxels_per_byte)
       : left_(std::min(kMaxVoxels, kFreeVoxels + voxels_per_byte * bytes)) {}
 
-  /// A leaf at this depth stands for all voxels below it. @return false if these are too many.
-  bool take_leaf(unsigned depth) {
+  /// A leaf stands for all voxels below it, and what lies in a block of the evidence makes all of the block.
+  /// @return false if these are too many.
+  bool take(unsigned depth, bool is_leaf) {
+    constexpr unsigned kBlockDepth = EditableOcTree::kDepth - kBlockBits;
+    if (depth > kBlockDepth || (depth < kBlockDepth && !is_leaf)) return true;
     const std::uint64_t voxels = std::uint64_t{1} << 3 * (EditableOcTree::kDepth - depth);
     if (voxels > left_) return false;
     left_ -= voxels;
@@ -87,8 +91,8 @@ class TreeReader {
     node->setLogOdds(value);
     node->setColor(bytes_[at_ + 4], bytes_[at_ + 5], bytes_[at_ + 6]);
     at_ += kNodeBytes;
+    if (!budget_.take(depth, children == 0)) return kTooManyVoxels;
     if (children == 0) {
-      if (!budget_.take_leaf(depth)) return kTooManyVoxels;
       expand(tree_, node, depth);
       return {};
     }
@@ -109,12 +113,12 @@ class TreeReader {
     for (unsigned i = 0; i < 8; ++i) {
       const unsigned state = bits >> 2 * i & 3;
       if (state == kUnknown) continue;
+      if (!budget_.take(depth + 1, state != kInner)) return kTooManyVoxels;
       Node* child = tree_.child(node, i);
       if (state == kInner) {
         if (auto fault = children_of(child, depth + 1); !fault.empty()) return fault;
         continue;
       }
-      if (!budget_.take_leaf(depth + 1)) return kTooManyVoxels;
       child->setLogOdds(state == kOccupied ? kBinaryLogOdds : -kBinaryLogOdds);
       expand(tree_, child, depth + 1);
     }

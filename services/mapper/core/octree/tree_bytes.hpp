@@ -16,7 +16,7 @@ std::vector<std::uint8_t> to_bytes(const octomap::ColorOcTree& tree);
 
 /// Reads such a payload after checking it node by node, so that no byte sequence can do harm: depth, length,
 /// finite values, and no more than kFreeVoxels + kVoxelsPerByte × bytes voxels (at most kMaxVoxels), whatever
-/// pruned leaves stand for.
+/// pruned leaves stand for; a block of 8×8×8 counts as a whole, as it takes memory.
 ///
 /// @param resolution_m  of the voxels.
 /// @return the tree, every leaf at the finest level; or one sentence saying what is wrong.

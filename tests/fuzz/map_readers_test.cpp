@@ -191,7 +191,13 @@ TEST(MapReaders, SavedMapFiles) {
 TEST(MapReaders, SectionOfTheMapper) {
   mapper::MapperConfig config;
   config.octree.resolution_m = 0.5;
-  const auto bound = [](std::size_t bytes) { return expanded(mapper::kVoxelsPerByte + 8, bytes); };
+  // Beside the tree's node a voxel has counts, occupancy and look in its block of evidence, and in the final
+  // part that the block begins with.
+  constexpr std::uint64_t kEvidenceOfVoxel = 192;
+  constexpr std::uint64_t kPerByte = mapper::kVoxelsPerByte + 8;
+  const auto bound = [](std::size_t bytes) {
+    return expanded(kPerByte, bytes) + kEvidenceOfVoxel * (mapper::kFreeVoxels + kPerByte * bytes);
+  };
   feed(10, examples().maps, bound, [&](const Bytes& bytes) {
     mapper::SemanticMapper mapper(config);
     const bool is_whole = mapper::test::start_from(mapper, bytes, config).has_value();

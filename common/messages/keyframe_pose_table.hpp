@@ -11,6 +11,10 @@
 
 namespace rds::messages {
 
+/// KeyFramePoses.source: as the tracker has them, or as the loop closer proposes.
+inline constexpr std::uint8_t kPosesOfTracker = 0;
+inline constexpr std::uint8_t kPosesOfLoopCloser = 1;
+
 /// A reader's side of rds/keyframe/poses: what one writer has told, from messages with all poses and from
 /// messages with changes.
 class KeyframePoseTable {

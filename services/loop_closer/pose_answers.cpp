@@ -2,12 +2,12 @@
 #include "services/loop_closer/pose_answers.hpp"
 
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::loop_closer {
 namespace {
 constexpr int kRepeats = 32;
-constexpr std::uint8_t kLoop = 1;
 }  // namespace
 
 PoseAnswers::PoseAnswers(bus::Participant& bus, std::uint64_t instance)
@@ -55,7 +55,7 @@ rds_msgs::msg::KeyFramePoses PoseAnswers::answer_to(const Features& features) co
   message.instance(instance_);
   message.loop_instance(instance_);
   message.map_epoch(features->map_epoch());
-  message.source(kLoop);
+  message.source(messages::kPosesOfLoopCloser);
   message.answered_keyframe_id(features->keyframe_id());
   return message;
 }

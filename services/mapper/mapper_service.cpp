@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/checkpoints.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/service/possible_poses.hpp"
@@ -56,7 +57,7 @@ double ms_since(std::chrono::steady_clock::time_point started) {
 MapperService::MapperService(service::ServiceContext& context, const MapperServiceConfig& config)
     : Service(context),
       config_(config),
-      epochs_(accepts(context.bus, service::kTracker), accepts(context.bus, service::kLoopCloser)),
+      epochs_(accepts(context.bus, service::kTracker)),
       checkpoints_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
                    config.maps.checkpoint_s),
       mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
@@ -110,7 +111,8 @@ void MapperService::subscribe() {
                                                [this](Boxes m) { inboxes_.boxes.push(std::move(m)); }));
   }
   subscriptions_.push_back(subscribe_to_instances(topics::kKeyframePoses, topics::kMapper, [this](Poses m) {
-    if (service::is_possible(*m, context_.diagnostics)) inboxes_.poses.push(std::move(m));
+    if (m->source() == messages::kPosesOfTracker && service::is_possible(*m, context_.diagnostics))
+      inboxes_.poses.push(std::move(m));
   }));
 }
 

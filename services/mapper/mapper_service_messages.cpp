@@ -20,10 +20,8 @@ void MapperService::take_messages() {
 }
 
 bool MapperService::is_of_tracker(std::uint64_t instance, std::uint64_t map_epoch, const std::string& topic) {
-  const std::uint64_t before = epochs_.tracker();
   const auto refusal =
       epochs_.hear_tracker(instance, map_epoch, mapper_.map().epoch, EpochFollower::Clock::now());
-  if (epochs_.tracker() != before) poses_.forget_loops();
   if (refusal) context_.diagnostics.reject(topic, refusal->code, refusal->reason);
   return !refusal;
 }
@@ -45,14 +43,8 @@ void MapperService::take(const Boxes& boxes) {
 }
 
 void MapperService::take(const Poses& message) {
-  const bool is_local = KnownPoses::is_local(*message);
-  if (is_local) {
-    if (!is_of_tracker(message->instance(), message->map_epoch(), topics::kKeyframePoses.name)) return;
-  } else if (const auto refusal =
-                 epochs_.hear_loop_closer(message->instance(), message->map_epoch(), mapper_.map().epoch)) {
-    return context_.diagnostics.reject(topics::kKeyframePoses.name, refusal->code, refusal->reason);
-  }
-  auto poses = messages::to_keyframe_poses(*message);
+  if (!is_of_tracker(message->instance(), message->map_epoch(), topics::kKeyframePoses.name)) return;
+  const auto poses = messages::to_keyframe_poses(*message);
   if (!poses)
     return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
                                        poses.error());
@@ -69,9 +61,8 @@ void MapperService::take(const Poses& message) {
       return;
     }
   }
-  poses_.take(*message, std::move(*poses));
-  if (is_local && message->base_revision() == 0 && !config_.lockstep)
-    mapper_.make_others_final(poses_.poses_of_tracker());
+  poses_.take(*message, *poses);
+  if (message->base_revision() == 0 && !config_.lockstep) mapper_.make_others_final(poses_.poses());
 }
 
 /// A new epoch is a new tracker, with the saved map or an empty one.

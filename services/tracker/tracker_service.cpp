@@ -12,6 +12,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
@@ -20,8 +21,6 @@
 
 namespace rds::tracker {
 namespace {
-
-constexpr std::uint8_t kLoop = 1;
 
 /// On the calling thread, the worker, and on a helper of its own.
 Executor executor_with_helper() {
@@ -47,7 +46,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
                                              [this](BoxesMessage m) { answers_.push(std::move(m)); }));
   subscriptions_.push_back(
       subscribe_to_instances(topics::kKeyframePoses, topics::kTracker, [this](PosesMessage m) {
-        if (m->source() == kLoop && service::is_possible(*m, context_.diagnostics))
+        if (m->source() == messages::kPosesOfLoopCloser && service::is_possible(*m, context_.diagnostics))
           answers_.push(std::move(m));
       }));
   if (epoch_.is_resuming()) publish_poses();

@@ -4,6 +4,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/service/possible_poses.hpp"
 #include "common/topics/endpoints.hpp"
 
@@ -11,7 +12,6 @@ namespace rds::transformer {
 namespace {
 constexpr std::size_t kMaxWaiting = 100;
 constexpr std::size_t kMaxPoses = 2000;
-constexpr std::uint8_t kLocal = 0;
 }  // namespace
 
 TransformerService::TransformerService(service::ServiceContext& context,
@@ -28,7 +28,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                              [this](Detections m) { detections_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(
       subscribe_to_instances(topics::kKeyframePoses, topics::kTransformer, [this](Poses m) {
-        if (m->source() == kLocal && service::is_possible(*m, context_.diagnostics))
+        if (m->source() == messages::kPosesOfTracker && service::is_possible(*m, context_.diagnostics))
           poses_inbox_.push(std::move(m));
       }));
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kCameraInfo.named(config.camera_info_topic),

@@ -191,9 +191,9 @@ TEST(MapReaders, SavedMapFiles) {
 TEST(MapReaders, SectionOfTheMapper) {
   mapper::MapperConfig config;
   config.octree.resolution_m = 0.5;
-  // Beside the tree's node a voxel has counts, occupancy and look in its block of evidence, and in the final
+  // Beside the tree's node a voxel has a look in its block of evidence, and a look and counts in the final
   // part that the block begins with.
-  constexpr std::uint64_t kEvidenceOfVoxel = 192;
+  constexpr std::uint64_t kEvidenceOfVoxel = 96;
   constexpr std::uint64_t kPerByte = mapper::kVoxelsPerByte + 8;
   const auto bound = [](std::size_t bytes) {
     return expanded(kPerByte, bytes) + kEvidenceOfVoxel * (mapper::kFreeVoxels + kPerByte * bytes);

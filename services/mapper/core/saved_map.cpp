@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,13 +64,19 @@ VoxelLook look_of(const octomap::ColorOcTreeNode& node) {
 }
 
 std::shared_ptr<const FinalMap> voxels_of(const ColorOcTree& tree, const Looks& looks) {
-  auto voxels = std::make_shared<FinalMap>();
+  std::map<std::uint64_t, FinalBlock> blocks;
   for_each_voxel(tree, [&](const OcTreeKey& key, const octomap::ColorOcTreeNode& node) {
     const double rounded = std::round(kPerNat * double{node.getLogOdds()});
     const auto log_odds = static_cast<LogOdds>(std::clamp(rounded, double{kLowest}, double{kHighest}));
     const auto look = looks.find(packed(key));
-    voxels->add(key, log_odds, look != looks.end() ? look->second : look_of(node));
+    blocks[packed(block_key(key))].add(cell_of(key), log_odds,
+                                       look != looks.end() ? look->second : look_of(node));
   });
+  auto voxels = std::make_shared<FinalMap>();
+  while (!blocks.empty()) {
+    auto block = blocks.extract(blocks.begin());
+    voxels->blocks.emplace(block.key(), std::make_shared<const FinalBlock>(std::move(block.mapped())));
+  }
   return voxels;
 }
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t kPosesMark = std::numeric_limits<std::uint64_t>::max(); 
 std::optional<Refusal> EpochFollower::hear_tracker(std::uint64_t instance, std::uint64_t map_epoch,
                                                    std::uint64_t current, Clock::time_point now) {
   const bool same_map = map_epoch == current;
-  if (!accepts_tracker_(instance, same_map)) return Refusal{Rejection::kForeign, "another tracker"};
+  if (!accepts_(instance, same_map)) return Refusal{Rejection::kForeign, "another tracker"};
   if (std::exchange(tracker_, instance) != instance) earlier_.clear();
   if (same_map) {
     next_.deny();
@@ -38,13 +38,6 @@ bool EpochFollower::is_over(std::uint64_t map_epoch, Clock::time_point now) {
   if (now - heard_ < kSilent) return true;
   std::erase(earlier_, map_epoch);
   return false;
-}
-
-std::optional<Refusal> EpochFollower::hear_loop_closer(std::uint64_t instance, std::uint64_t map_epoch,
-                                                       std::uint64_t current) {
-  if (map_epoch != current) return Refusal{Rejection::kOutdated, "loops of another map epoch"};
-  if (!accepts_loop_closer_(instance, false)) return Refusal{Rejection::kForeign, "another loop closer"};
-  return std::nullopt;
 }
 
 std::vector<EpochFollower::Images> EpochFollower::confirm(const Images& keyframe) {

@@ -34,18 +34,12 @@ class EpochFollower {
   /// Whether messages of a writer are used, as service::FollowedWriter::accept().
   using Accepts = std::function<bool(std::uint64_t instance, bool same_map)>;
 
-  EpochFollower(Accepts tracker, Accepts loop_closer)
-      : accepts_tracker_(std::move(tracker)), accepts_loop_closer_(std::move(loop_closer)) {}
+  explicit EpochFollower(Accepts tracker) : accepts_(std::move(tracker)) {}
 
   /// A message of a tracker. @param current  the epoch of the map.
   /// @return nullopt if the message is of that epoch, or of another one that may begin.
   std::optional<Refusal> hear_tracker(std::uint64_t instance, std::uint64_t map_epoch, std::uint64_t current,
                                       Clock::time_point now);
-  /// A message of a loop closer: one is followed, in the current epoch.
-  std::optional<Refusal> hear_loop_closer(std::uint64_t instance, std::uint64_t map_epoch,
-                                          std::uint64_t current);
-  /// The instance that is followed; 0: none yet.
-  [[nodiscard]] std::uint64_t tracker() const { return tracker_; }
 
   /// A keyframe of another epoch. @return the keyframes with which that one begins; empty: not confirmed yet.
   std::vector<Images> confirm(const Images& keyframe);
@@ -60,8 +54,7 @@ class EpochFollower {
  private:
   bool is_over(std::uint64_t map_epoch, Clock::time_point now);
 
-  Accepts accepts_tracker_;
-  Accepts accepts_loop_closer_;
+  Accepts accepts_;
   std::uint64_t tracker_ = 0;
   std::deque<std::uint64_t> earlier_;  // epochs of that tracker
   Clock::time_point heard_;            // the newest message of the current epoch

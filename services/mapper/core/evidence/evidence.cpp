@@ -201,7 +201,7 @@ FinalMap Evidence::final_map() const {
   FinalMap map;
   map.origin_ms = origin_ms_;
   for (const auto& [key, place] : blocks_)
-    if (const FinalBlock* block = place.evidence.final_part()) map.blocks.emplace(key, *block);
+    if (place.evidence.final_part()) map.blocks.emplace(key, place.evidence.final_part());
   return map;
 }
 

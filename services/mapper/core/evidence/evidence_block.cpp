@@ -105,10 +105,10 @@ void EvidenceBlock::outdate(const Rank& rank) {
   if (const auto at = find(rank); at && *at < added_up_) change_from(*at);
 }
 
-void EvidenceBlock::begin_with(const FinalBlock& known) {
-  final_ = std::make_unique<FinalBlock>(known);
-  for (const auto& [cell, look] : known.looks) looks_.add(cell, look);
-  occupancy_ = known.occupancy;
+void EvidenceBlock::begin_with(std::shared_ptr<const FinalBlock> known) {
+  final_ = std::move(known);
+  for (const auto& [cell, look] : final_->looks) looks_.add(cell, look);
+  occupancy_ = final_->occupancy;
   changed_ = BlockMask::all();
 }
 
@@ -117,10 +117,11 @@ void EvidenceBlock::make_final(const Rank& rank,
   const auto at = find(rank);
   if (!at) return;
   const Entry& entry = entries_[*at];
-  if (!final_) final_ = std::make_unique<FinalBlock>();
-  final_->occupancy.add(entry.view->step(entry.block));
-  count(entry, final_->counts);
-  for (const auto& [cell, look] : looks) final_->looks[cell].add(look);
+  auto final_now = final_ ? std::make_shared<FinalBlock>(*final_) : std::make_shared<FinalBlock>();
+  final_now->occupancy.add(entry.view->step(entry.block));
+  count(entry, final_now->counts);
+  for (const auto& [cell, look] : looks) final_now->looks[cell].add(look);
+  final_ = std::move(final_now);
   if (*at > 0 || added_up_ == 0 || changed_from_) {  // else all is added up in the order in which it was
     change_from(0);
   } else {

@@ -47,7 +47,7 @@ class EvidenceBlock {
     changed_.insert(cell);
   }
   /// What is known of the block before all keyframes; before any other call.
-  void begin_with(const FinalBlock& known);
+  void begin_with(std::shared_ptr<const FinalBlock> known);
   /// What a keyframe said stays as it is now. @param looks  of it, in this block.
   void make_final(const Rank& rank, const std::vector<std::pair<std::uint16_t, SurfaceLook>>& looks);
 
@@ -67,7 +67,7 @@ class EvidenceBlock {
   BlockMask take_changed() { return std::exchange(changed_, {}); }
   /// Of a cell; nullptr if no keyframe has seen a surface there.
   [[nodiscard]] const VoxelLook* look(std::uint16_t cell) const { return looks_.find(cell); }
-  [[nodiscard]] const FinalBlock* final_part() const { return final_.get(); }
+  [[nodiscard]] const std::shared_ptr<const FinalBlock>& final_part() const { return final_; }
   /// Whether nothing is known of it.
   [[nodiscard]] bool empty() const { return entries_.empty() && !final_; }
 
@@ -87,9 +87,9 @@ class EvidenceBlock {
   std::vector<Entry>
       entries_;  // by rank; what goes leaves a gap until the next update(), for it may come back
   bool has_gaps_ = false;
-  BlockLooks looks_;  // with the final ones
-  std::unique_ptr<FinalBlock> final_;
-  std::unique_ptr<BlockCounts> counts_;  // nullptr: nobody has asked yet
+  BlockLooks looks_;                         // with the final ones
+  std::shared_ptr<const FinalBlock> final_;  // shared with the saved map; nullptr: none
+  std::unique_ptr<BlockCounts> counts_;      // nullptr: nobody has asked yet
   BlockOccupancy occupancy_;
   std::size_t added_up_ = 0;                 // the first so many entries are in occupancy_; the rest is new
   std::optional<std::size_t> changed_from_;  // of these, the first that is not as it was added up

@@ -2,6 +2,7 @@
 #include "services/mapper/core/evidence/final_map.hpp"
 
 #include <cstdlib>
+#include <utility>
 
 namespace rds::mapper {
 namespace {
@@ -87,18 +88,16 @@ FinalBlock get_block(ByteReader& reader, std::size_t labels) {
 
 }  // namespace
 
-void FinalMap::add(const octomap::OcTreeKey& key, LogOdds log_odds, const std::optional<VoxelLook>& look) {
-  FinalBlock& block = blocks[packed(block_key(key))];
-  const auto cell = cell_of(key);
-  block.occupancy.values[cell] = block.occupancy.lasting[cell] = log_odds;
-  block.occupancy.known.insert(cell);
+void FinalBlock::add(std::uint16_t cell, LogOdds log_odds, const VoxelLook& look) {
+  occupancy.values[cell] = occupancy.lasting[cell] = log_odds;
+  occupancy.known.insert(cell);
   if (log_odds <= 0) return;
-  if (log_odds == kHighest) block.occupancy.row[cell] = kSolidRow;  // it has stood for long
-  block.occupancy.balance[cell] = kMostBalance;
-  block.counts.statics.count[cell] = kOften;
-  block.counts.statics.first[cell] = kBeforeAll;
-  block.counts.statics.last[cell] = kAfterAll;
-  if (look) block.looks[cell] = *look;
+  if (log_odds == kHighest) occupancy.row[cell] = kSolidRow;  // it has stood for long
+  occupancy.balance[cell] = kMostBalance;
+  counts.statics.count[cell] = kOften;
+  counts.statics.first[cell] = kBeforeAll;
+  counts.statics.last[cell] = kAfterAll;
+  looks[cell] = look;
 }
 
 void FinalMap::put(ByteWriter& writer) const {
@@ -107,7 +106,7 @@ void FinalMap::put(ByteWriter& writer) const {
   writer.put_count(blocks.size());
   for (const auto& [key, block] : blocks) {
     writer.put(key);
-    mapper::put(writer, block);
+    mapper::put(writer, *block);
   }
 }
 
@@ -121,7 +120,8 @@ FinalMap FinalMap::get(ByteReader& reader, std::size_t labels) {
     const auto key = reader.get<std::uint64_t>();
     if (key > kLastKey || packed(block_key(unpacked(key))) != key)
       reader.refuse("a block outside of any map");
-    if (!map.blocks.emplace(key, get_block(reader, labels)).second) reader.refuse("a block twice");
+    auto block = std::make_shared<const FinalBlock>(get_block(reader, labels));
+    if (!map.blocks.emplace(key, std::move(block)).second) reader.refuse("a block twice");
   }
   return map;
 }

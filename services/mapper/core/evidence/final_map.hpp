@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "services/mapper/core/evidence/occupancy_model.hpp"
@@ -14,15 +15,15 @@ struct FinalBlock {
   BlockOccupancy occupancy;
   BlockCounts counts;
   std::map<std::uint16_t, VoxelLook> looks;  // by cell
+
+  /// Adds a voxel that counts as seen at all times. @param look  of an occupied one.
+  void add(std::uint16_t cell, LogOdds log_odds, const VoxelLook& look);
 };
 
 /// What is final in a map, by the key of the block's lowest voxel.
 struct FinalMap {
-  std::map<std::uint64_t, FinalBlock> blocks;
+  std::map<std::uint64_t, std::shared_ptr<const FinalBlock>> blocks;
   std::optional<std::int64_t> origin_ms;  // that the blocks' times count from; nullopt: they count from none
-
-  /// Adds a voxel that counts as seen at all times. @param look  of an occupied one.
-  void add(const octomap::OcTreeKey& key, LogOdds log_odds, const std::optional<VoxelLook>& look);
 
   void put(map_file::ByteWriter& writer) const;
   /// @param labels  of the label table. Refuses what put() cannot have written.

@@ -6,6 +6,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/keyframe_conversions.hpp"
+#include "common/messages/keyframe_pose_table.hpp"
 #include "common/topics/endpoints.hpp"
 
 namespace rds::run {
@@ -134,7 +135,7 @@ void Recorder::on_loops(const rds_msgs::msg::KeyFramePoses& message) {
 
 void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
   if (!messages::fault_of(message).empty()) return;
-  if (message.source() != 0) return on_loops(message);
+  if (message.source() != messages::kPosesOfTracker) return on_loops(message);
   {
     const std::lock_guard lock(mutex_);
     if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;

@@ -12,7 +12,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr std::uint64_t kTracker = 7;
-constexpr std::uint64_t kLoopCloser = 9;
 constexpr std::uint64_t kEpoch = 42;
 
 EpochFollower::Images keyframe(std::uint64_t epoch, std::uint64_t id) {
@@ -43,8 +42,7 @@ class Epochs : public ::testing::Test {
   }
 
   std::uint64_t followed_ = kTracker;
-  EpochFollower epochs_{[this](std::uint64_t instance, bool) { return instance == followed_; },
-                        [](std::uint64_t instance, bool) { return instance == kLoopCloser; }};
+  EpochFollower epochs_{[this](std::uint64_t instance, bool) { return instance == followed_; }};
   std::uint64_t current_ = kEpoch;
   EpochFollower::Clock::time_point now_{1000s};
 };
@@ -52,7 +50,6 @@ class Epochs : public ::testing::Test {
 TEST_F(Epochs, AnotherTrackerIsForeign) {
   EXPECT_EQ(hear(kEpoch), std::nullopt);
   EXPECT_EQ(hear(kEpoch, kTracker + 1), Rejection::kForeign);
-  EXPECT_EQ(epochs_.tracker(), kTracker);
 }
 
 TEST_F(Epochs, OneThatIsOverIsRefusedWhileItsSuccessorIsHeard) {
@@ -73,12 +70,6 @@ TEST_F(Epochs, OfAnotherTrackerNoneIsOver) {
   begin(kEpoch + 1);
   followed_ = kTracker + 1;
   EXPECT_EQ(hear(kEpoch, kTracker + 1), std::nullopt);
-}
-
-TEST_F(Epochs, LoopsCountInTheCurrentEpochOnly) {
-  EXPECT_EQ(epochs_.hear_loop_closer(kLoopCloser, kEpoch, kEpoch), std::nullopt);
-  EXPECT_EQ(epochs_.hear_loop_closer(kLoopCloser, kEpoch + 1, kEpoch)->code, Rejection::kOutdated);
-  EXPECT_EQ(epochs_.hear_loop_closer(kLoopCloser + 1, kEpoch, kEpoch)->code, Rejection::kForeign);
 }
 
 TEST_F(Epochs, TheNextOneBeginsWithItsSecondKeyframe) {

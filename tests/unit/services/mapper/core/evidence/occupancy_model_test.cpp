@@ -137,10 +137,9 @@ TEST(OccupancyModel, WhatStandsASecondBeforeOrAfterIsNotTransient) {
 }
 
 TEST(OccupancyModel, ASavedVoxelHasAlwaysBeenThere) {
-  FinalMap map;
-  map.add({100, 200, 300}, 3476, std::nullopt);
-  const FinalBlock& block = map.blocks.at(packed(block_key({100, 200, 300})));
   const auto cell = cell_of({100, 200, 300});
+  FinalBlock block;
+  block.add(cell, 3476, {});
   EXPECT_TRUE(seen_apart(block.counts, cell, 0, kApart));
   EXPECT_FALSE(seen_apart(block.counts, cell_of({100, 200, 301}), 0, kApart));
   BlockOccupancy occupancy = block.occupancy;

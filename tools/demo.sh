@@ -9,7 +9,7 @@ demo=$root/build/demo
 rds=$root/build/release/bin/rds
 room=(--path xyz --seconds 20 --seed 1)
 
-"$root/tools/setup.sh"
+"$root/tools/setup.sh" --no-zenoh
 build release rds rds-tracker rds-detector rds-transformer rds-mapper rds-loop-closer
 
 # render NAME OPTION...: a sequence below build/demo, unless it is there already.

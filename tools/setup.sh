@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# setup.sh [--ros]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
+# setup.sh [--ros | --no-zenoh]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
 # (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
 #
+# --no-zenoh  without the compiler and sources of Zenoh (100 MB), so --bus zenoh is left out of the build.
 # --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs, and readers of
-#             ROS 2's recordings in .venv-records.
+#             ROS 2's recordings in .venv-records, and other people's Zenoh in .venv-zenoh.
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -38,9 +39,9 @@ set_up_packages() {
   local -a missing
   mapfile -t missing < <(missing_packages)
   if [ ${#missing[@]} = 0 ]; then
-    say "[1/3] Debian packages: all there"
+    say "[1/4] Debian packages: all there"
   else
-    say "[1/3] Debian packages: installing ${missing[*]}"
+    say "[1/4] Debian packages: installing ${missing[*]}"
     install_packages "${missing[@]}"
   fi
 }
@@ -67,24 +68,36 @@ set_up_ros() {
     set_up_venv ".venv-$distribution" "ROS 2 $distribution" "$root/tests/ros/requirements-$distribution.txt"
   done
   set_up_venv .venv-records "readers of recordings" "$root/tests/records/requirements.txt"
+  set_up_venv .venv-zenoh "other programs on Zenoh" "$root/tests/integration/bus/zenoh_requirements.txt"
+}
+
+# A cargo of the user's own, else Debian's; what the crate is built of comes from crates.io.
+set_up_zenoh() {
+  local cargo
+  export PATH=$PATH:$HOME/.cargo/bin
+  command -v cargo >/dev/null || install_packages rustc-web cargo-web
+  cargo=$(command -v cargo)
+  say "[4/4] Zenoh: $("$cargo" --version)"
+  long_step cargo-fetch quiet "$cargo" fetch --locked --manifest-path "$root/common/bus/zenoh/crate/Cargo.toml"
 }
 
 set_up_network() {
   local shared=${RDS_SHARED:+$RDS_SHARED/models/mobilenetv2_ssdlite_voc.onnx}
   if [ -n "$shared" ] && [ -f "$shared" ]; then
-    say "[3/3] network: $shared"
+    say "[3/4] network: $shared"
     return
   fi
-  say "[3/3] network: NanoDet-g"
+  say "[3/4] network: NanoDet-g"
   if ! "$root/tools/networks/fetch_nanodet_g.sh" 2>/dev/null; then
     command -v npm >/dev/null || { say "  npm, to fetch it"; install_packages npm; }
     "$root/tools/networks/fetch_nanodet_g.sh"
   fi
 }
 
-case ${1:-} in "" | --ros) ;; *) fail "$1: expected --ros or nothing" ;; esac
+case ${1:-} in "" | --ros | --no-zenoh) ;; *) fail "$1: expected --ros, --no-zenoh or nothing" ;; esac
 check_system
 set_up_packages
-set_up_venv .venv "[2/3] PyPI packages" "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt"
+set_up_venv .venv "[2/4] PyPI packages" "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt"
 set_up_network
+[ "${1:-}" = --no-zenoh ] || set_up_zenoh
 [ "${1:-}" != --ros ] || set_up_ros

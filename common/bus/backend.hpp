@@ -74,23 +74,9 @@ std::unique_ptr<Backend> make_cyclonedds_backend(const ParticipantOptions& optio
 /// A participant of DDS as a node of ROS 2: topics of ROS, and the node and its endpoints announced.
 std::unique_ptr<Backend> as_ros_node(std::unique_ptr<Backend> participant, const ParticipantOptions& options);
 
-/// Content of the USER_DATA policies, as ROS 2 writes them.
-inline std::string endpoint_user_data(const TypeOps& type) {
-  return "typehash=" + type.type_hash + ";";
-}
-inline constexpr const char* kParticipantUserData = "enclave=/;";
+std::unique_ptr<Backend> make_zenoh_backend(const ParticipantOptions& options);
 
-// Both vendors: the highest participant number searched on 127.0.0.1, how often a participant announces
-// itself, and after which silence the others give it up. A loaded machine must not lose participants that
-// live.
-inline constexpr int kLoopbackParticipants = 60;
-/// On the network every machine hears each announcement, also one that has no part in this.
-inline int announcement_period_s(const ParticipantOptions& options) {
-  return options.loopback_only ? 1 : 3;
-}
-inline constexpr int kLeaseDurationS = 10;
-
-/// History both vendors keep: "all" is the last `max_samples`, so that no writer ever waits for a reader.
+/// History that all keep: "all" is the last `max_samples`, so that no writer ever waits for a reader.
 inline int history_depth(const Qos& qos) {
   return qos.depth > 0 ? qos.depth : qos.max_samples;
 }

@@ -59,6 +59,19 @@ class EndpointDirectory {
     return result;
   }
 
+  [[nodiscard]] std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return present_.size();
+  }
+
+  /// How many of those who are there are so.
+  template <class Predicate>
+  [[nodiscard]] int count_if(Predicate is_so) const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(
+        std::ranges::count_if(present_, [&](const auto& entry) { return is_so(entry.second.endpoint); }));
+  }
+
   /// Writers, present and departed, on the topic of `own` whose type differs from its own.
   [[nodiscard]] std::set<Key> writers_of_another_version(const DiscoveredEndpoint& own) const {
     const std::lock_guard lock(mutex_);

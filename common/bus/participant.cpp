@@ -77,6 +77,22 @@ class BusParticipant final : public Participant {
   std::shared_ptr<detail::ParticipantState> state_;
 };
 
+/// @throws BusError for what no participant can be made of.
+void check(const ParticipantOptions& options) {
+  if (options.domain < 0 || options.domain > kHighestDomain) {
+    throw BusError("domain " + std::to_string(options.domain) + ", expected 0 to " +
+                   std::to_string(kHighestDomain));
+  }
+  if (options.credentials && options.domain > kHighestSecuredDomain)
+    throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
+                   std::to_string(kHighestSecuredDomain) + " for a secured one");
+  if (options.vendor == Vendor::kZenoh) return;
+  for (const std::string& peer : options.peers)
+    if (peer.find('/') != std::string::npos)
+      throw BusError("peer '" + peer + "': an endpoint of Zenoh, expected a name or an address with --bus " +
+                     name_of(options.vendor));
+}
+
 /// Lets freed memory stay with the process. By itself the C library adapts to large messages only by chance:
 /// in some runs it gives every picture's memory back to the kernel, which has to clear it for the next one,
 /// and a picture's way takes more than twice as long.
@@ -89,23 +105,18 @@ void keep_freed_memory() {
 }  // namespace
 
 Vendor vendor_from_name(const std::string& name) {
-  if (name == "fastdds") return Vendor::kFastDds;
-  if (name == "cyclonedds") return Vendor::kCycloneDds;
-  throw std::invalid_argument("bus '" + name + "', expected fastdds or cyclonedds");
+  const auto known = std::ranges::find(kVendorNames, name);
+  if (known == kVendorNames.end())
+    throw std::invalid_argument("bus '" + name + "', expected " + kVendorChoice);
+  return static_cast<Vendor>(known - kVendorNames.begin());
 }
 
 std::string name_of(Vendor vendor) {
-  return vendor == Vendor::kFastDds ? "fastdds" : "cyclonedds";
+  return kVendorNames.at(static_cast<std::size_t>(vendor));
 }
 
 std::unique_ptr<Participant> Participant::create(const ParticipantOptions& options) {
-  if (options.domain < 0 || options.domain > kHighestDomain) {
-    throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
-                   std::to_string(kHighestDomain));
-  }
-  if (options.credentials && options.domain > kHighestSecuredDomain)
-    throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
-                   std::to_string(kHighestSecuredDomain) + " for a secured one");
+  check(options);
   keep_freed_memory();
   return std::make_unique<BusParticipant>(options);
 }

@@ -23,9 +23,14 @@ class BusError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Vendor { kFastDds, kCycloneDds };
+/// What a participant is on: DDS by one of two vendors, or Zenoh.
+enum class Vendor { kFastDds, kCycloneDds, kZenoh };
 
-/// "fastdds" or "cyclonedds"; @throws std::invalid_argument otherwise, naming both.
+/// In the order of Vendor.
+inline constexpr std::array kVendorNames{"fastdds", "cyclonedds", "zenoh"};
+inline constexpr const char* kVendorChoice = "fastdds, cyclonedds or zenoh";
+
+/// One of kVendorNames; @throws std::invalid_argument otherwise, naming all.
 Vendor vendor_from_name(const std::string& name);
 std::string name_of(Vendor vendor);
 
@@ -34,7 +39,7 @@ struct ParticipantOptions {
   int domain = 0;
   std::string node_name;                        // as `ros2 node list` shows it, without the leading slash
   bool loopback_only = false;                   // this machine only: no multicast, nobody else is disturbed
-  std::vector<std::string> peers = {};          // IPv4 addresses of other machines, found without multicast
+  std::vector<std::string> peers = {};          // other machines, found without multicast: peer_addresses()
   std::optional<Credentials> credentials = {};  // of a secured domain; without them the bus is open
 };
 
@@ -44,7 +49,7 @@ using ParticipantId = std::array<std::uint8_t, 12>;
 
 /// Traffic of one endpoint since its creation.
 struct EndpointStatistics {
-  std::string topic;  // without "rt/"
+  std::string topic;
   bool publisher = false;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
@@ -55,8 +60,8 @@ struct EndpointStatistics {
 
 /// An endpoint somebody announced on the bus.
 struct DiscoveredEndpoint {
-  std::string topic;  // without "rt/"
-  std::string type;   // DDS type name, e.g. "nav_msgs::msg::dds_::Odometry_"
+  std::string topic;
+  std::string type;  // DDS type name, e.g. "nav_msgs::msg::dds_::Odometry_"
   bool publisher = false;
   std::string type_hash =
       {};                 // "RIHS01_…"; empty if not announced, as by plain DDS programs and ROS 2 Humble
@@ -122,13 +127,13 @@ class Participant {
   static std::unique_ptr<Participant> create(const ParticipantOptions& options);
   virtual ~Participant() = default;
 
-  /// @param topic  without "rt/". @throws BusError
+  /// @param topic  as ROS names it, without the first slash. @throws BusError
   template <class T>
   Publisher<T> advertise(const std::string& topic, const Qos& qos) {
     return Publisher<T>(make_publisher(topic, type_ops<T>(), qos));
   }
 
-  /// @param topic  without "rt/". @throws BusError
+  /// @throws BusError
   template <class T>
   Subscription subscribe(const std::string& topic, const Qos& qos,
                          std::function<void(std::shared_ptr<const T>)> callback) {

@@ -16,6 +16,7 @@ namespace rds::bus::detail {
 class Endpoint;
 
 inline std::unique_ptr<Backend> make_backend(const ParticipantOptions& options) {
+  if (options.vendor == Vendor::kZenoh) return make_zenoh_backend(options);
   return as_ros_node(
       options.vendor == Vendor::kFastDds ? make_fastdds_backend(options) : make_cyclonedds_backend(options),
       options);

@@ -32,7 +32,8 @@ std::string address_of(const std::string& name) {
 std::vector<std::string> peer_addresses(const std::string& names) {
   std::vector<std::string> addresses;
   std::istringstream list(names);
-  for (std::string name; std::getline(list, name, ',');) addresses.push_back(address_of(name));
+  for (std::string name; std::getline(list, name, ',');)
+    addresses.push_back(name.find('/') == std::string::npos ? address_of(name) : name);
   return addresses;
 }
 

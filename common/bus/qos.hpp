@@ -5,37 +5,49 @@
 
 namespace rds::bus {
 
+/// What goes first where there is not room for all, the most urgent first. Only Zenoh orders messages by it.
+enum class Urgency { kState, kBoxes, kKeyframes, kMaps, kPictures };
+
 /// What a topic promises; both ends use the same profile. `depth` 0 keeps all samples up to `max_samples`.
 struct Qos {
   bool reliable = true;
   bool transient_local = false;
   int depth = 10;
   int max_samples = 5000;
-  /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces the
-  /// ones before: what was replaced before it was sent is no loss.
+  /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces
+  /// the ones before: what was replaced before it was sent is no loss.
   bool counts_lost = true;
   /// Whether a writer may take half a second before it sends again what readers lack. For what is large and
   /// soon replaced: readers behind a slow link ask for the same again and again while it is on its way.
   bool repairs_slowly = false;
+  /// Of poses, states, commands and whatever else is small, if nothing else is said.
+  Urgency urgency = Urgency::kState;
 };
 
 // The profiles of the topic table (see common/bus/README.md).
-inline constexpr Qos kSensor{.reliable = true, .depth = 5};
-inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5};
+inline constexpr Qos kSensor{.reliable = true, .depth = 5, .urgency = Urgency::kPictures};
+inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5, .urgency = Urgency::kPictures};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};
 inline constexpr Qos kTransform{.reliable = true, .depth = 100};
 inline constexpr Qos kPoses{.reliable = true, .transient_local = true, .depth = 100};
 inline constexpr Qos kCommand{.reliable = true, .depth = 100};
-inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, .depth = 20};
-inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};
+inline constexpr Qos kKeyframeImages{
+    .reliable = true, .transient_local = true, .depth = 20, .urgency = Urgency::kKeyframes};
+inline constexpr Qos kKeyframeFeatures{
+    .reliable = true, .transient_local = true, .depth = 0, .urgency = Urgency::kKeyframes};
 /// As many keyframes' boxes as a mapper may still wait for, so that one which starts again gets them.
-inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 100};
+inline constexpr Qos kBoxes{
+    .reliable = true, .transient_local = true, .depth = 100, .urgency = Urgency::kBoxes};
 /// What the reader itself asks for again.
-inline constexpr Qos kDatagrams{.reliable = false, .depth = 256};
-inline constexpr Qos kDelta{.reliable = true, .depth = 64, .repairs_slowly = true};
+inline constexpr Qos kDatagrams{.reliable = false, .depth = 256, .urgency = Urgency::kKeyframes};
+inline constexpr Qos kDelta{.reliable = true, .depth = 64, .repairs_slowly = true, .urgency = Urgency::kMaps};
 inline constexpr Qos kLatched{.reliable = true, .transient_local = true, .depth = 1, .counts_lost = false};
-inline constexpr Qos kLatchedLarge{
-    .reliable = true, .transient_local = true, .depth = 1, .counts_lost = false, .repairs_slowly = true};
+inline constexpr Qos kLatchedLarge{.reliable = true,
+                                   .transient_local = true,
+                                   .depth = 1,
+                                   .counts_lost = false,
+                                   .repairs_slowly = true,
+                                   .urgency = Urgency::kMaps};
 /// For a reader of the newest message of each of many writers.
 inline constexpr Qos kLatchedOfEach{
     .reliable = true, .transient_local = true, .depth = 100, .counts_lost = false};

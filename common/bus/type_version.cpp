@@ -6,28 +6,16 @@
 namespace rds::bus::detail {
 namespace {
 
-constexpr std::string_view kKey = "typehash=";
 constexpr std::string_view kKind = "RIHS01_";
 constexpr std::size_t kDigits = 64;
+
+}  // namespace
 
 bool is_type_hash(std::string_view text) {
   if (!text.starts_with(kKind)) return false;
   text.remove_prefix(kKind.size());
   const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
   return text.size() == kDigits && std::ranges::all_of(text, is_digit);
-}
-
-}  // namespace
-
-std::string type_hash_in(std::string_view user_data) {
-  while (!user_data.empty()) {
-    const std::string_view entry = user_data.substr(0, user_data.find(';'));
-    if (entry.starts_with(kKey) && is_type_hash(entry.substr(kKey.size()))) {
-      return std::string(entry.substr(kKey.size()));
-    }
-    user_data.remove_prefix(std::min(entry.size() + 1, user_data.size()));
-  }
-  return {};
 }
 
 bool is_another_version(const DiscoveredEndpoint& own, const DiscoveredEndpoint& other) {

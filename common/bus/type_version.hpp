@@ -8,9 +8,8 @@
 
 namespace rds::bus::detail {
 
-/// The type hash in an endpoint's USER_DATA ("typehash=RIHS01_<64 hex>;", as ROS 2 writes it); "" if there is
-/// none.
-std::string type_hash_in(std::string_view user_data);
+/// "RIHS01_<64 hex>"
+bool is_type_hash(std::string_view text);
 
 /// True if both endpoints are on one topic, with types of one name and of different definition. Who announces
 /// no type hash (plain DDS programs, ROS 2 Humble) is taken at his type's name.

@@ -38,13 +38,14 @@ void set_up_log(const std::string& name, const std::string& level) {
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", RDS_VERSION);
-  app.add_option("--bus", options.vendor, "fastdds or cyclonedds")
-      ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  app.add_option("--domain", options.domain, "DDS domain (default: ROS_DOMAIN_ID or 0)")
+  app.add_option("--bus", options.vendor, bus::kVendorChoice)
+      ->check(CLI::IsMember(std::vector<std::string>(bus::kVendorNames.begin(), bus::kVendorNames.end())));
+  app.add_option("--domain", options.domain, "domain (default: ROS_DOMAIN_ID or 0)")
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   app.add_flag("--loopback", options.loopback_only, "this machine only");
-  app.add_option("--peers", options.peers, "Other machines, names or addresses: robot,nas.local,10.0.0.7")
+  app.add_option("--peers", options.peers,
+                 "Other machines, names or addresses: robot,nas.local,10.0.0.7; on zenoh also tcp/robot:7447")
       ->envname("RDS_PEERS");
   app.add_option("--secure", options.secure, "folder of rds secure init, for a secured domain")
       ->envname("RDS_SECURE");

@@ -7,6 +7,7 @@
 #include "common/bus/cyclonedds/cyclonedds_domain.hpp"
 #include "common/bus/cyclonedds/cyclonedds_endpoints.hpp"
 #include "common/bus/cyclonedds/cyclonedds_type.hpp"
+#include "common/bus/dds/user_data.hpp"
 #include "common/bus/security_properties.hpp"
 
 namespace rds::bus::detail {

@@ -7,6 +7,8 @@
 
 #include <dds/dds.h>
 
+#include "common/bus/dds/dds_settings.hpp"
+
 namespace rds::bus::detail {
 namespace {
 
@@ -38,8 +40,9 @@ constexpr const char* kNoSharedMemory =
     "Id=\"any\"><SharedMemory><Enable>false</Enable></SharedMemory></Domain></CycloneDDS>";
 
 std::string discovery_settings(const ParticipantOptions& options) {
-  std::string text = "<Discovery><SPDPInterval>" + std::to_string(announcement_period_s(options)) + "s</SPDPInterval>" +
-                     "<LeaseDuration>" + std::to_string(kLeaseDurationS) + "s</LeaseDuration>";
+  std::string text = "<Discovery><SPDPInterval>" + std::to_string(announcement_period_s(options)) +
+                     "s</SPDPInterval>" + "<LeaseDuration>" + std::to_string(kLeaseDurationS) +
+                     "s</LeaseDuration>";
   if (options.loopback_only || !options.peers.empty()) {
     text += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
             std::to_string(kLoopbackParticipants) +
@@ -62,8 +65,7 @@ std::string configuration(const ParticipantOptions& options) {
 
 struct Domain {
   explicit Domain(const ParticipantOptions& options) : loopback_only(options.loopback_only) {
-    handle =
-        dds_create_domain(static_cast<dds_domainid_t>(options.domain), configuration(options).c_str());
+    handle = dds_create_domain(static_cast<dds_domainid_t>(options.domain), configuration(options).c_str());
     if (handle < 0) {
       throw BusError("Cyclone DDS could not join domain " + std::to_string(options.domain) + ": " +
                      dds_strretcode(handle) + " (its configuration is ours and CYCLONEDDS_URI)");

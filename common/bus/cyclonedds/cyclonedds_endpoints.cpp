@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "common/bus/type_version.hpp"
+#include "common/bus/dds/user_data.hpp"
 
 namespace rds::bus::detail {
 namespace {

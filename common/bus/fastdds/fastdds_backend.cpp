@@ -16,9 +16,9 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "common/bus/dds/user_data.hpp"
 #include "common/bus/fastdds/fastdds_settings.hpp"
 #include "common/bus/fastdds/fastdds_type.hpp"
-#include "common/bus/type_version.hpp"
 
 namespace rds::bus::detail {
 namespace {

@@ -11,6 +11,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "common/bus/dds/dds_settings.hpp"
+#include "common/bus/dds/user_data.hpp"
 #include "common/bus/security_properties.hpp"
 
 namespace rds::bus::detail {
@@ -121,8 +123,8 @@ dds::DataWriterQos fastdds_writer_qos(const TypeOps& type, const Qos& qos) {
   writer.liveliness().lease_duration = {kLivelinessLeaseS, 0};
   writer.liveliness().announcement_period = {kLivelinessLeaseS / 2, 0};
   writer.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(kHeartbeatPeriodS);
-  writer.reliable_writer_qos().times.nackResponseDelay = eprosima::fastrtps::Duration_t(
-      qos.repairs_slowly ? kSlowNackResponseDelayS : kNackResponseDelayS);
+  writer.reliable_writer_qos().times.nackResponseDelay =
+      eprosima::fastrtps::Duration_t(qos.repairs_slowly ? kSlowNackResponseDelayS : kNackResponseDelayS);
   return writer;
 }
 

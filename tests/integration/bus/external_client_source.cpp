@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Publishes what external_client.py subscribes: external_client_source fastdds|cyclonedds DOMAIN SECONDS.
+// Publishes what external_client.py subscribes: external_client_source fastdds|cyclonedds|zenoh DOMAIN
+// SECONDS.
 #include <chrono>
 #include <iostream>
 #include <string>
@@ -68,7 +69,7 @@ void publish(bus::Participant& participant, std::chrono::seconds duration) {
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::cerr << "usage: external_client_source fastdds|cyclonedds DOMAIN SECONDS\n";
+    std::cerr << "usage: external_client_source fastdds|cyclonedds|zenoh DOMAIN SECONDS\n";
     return 2;
   }
   try {

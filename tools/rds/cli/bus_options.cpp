@@ -21,17 +21,17 @@ std::vector<std::string> addresses_of(const std::string& names) {
 }  // namespace
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
-  command.add_option("--bus", options.vendor, "fastdds or cyclonedds")
-      ->check(CLI::IsMember({"fastdds", "cyclonedds"}))
+  command.add_option("--bus", options.vendor, bus::kVendorChoice)
+      ->check(CLI::IsMember(std::vector<std::string>(bus::kVendorNames.begin(), bus::kVendorNames.end())))
       ->capture_default_str();
-  command.add_option("--domain", options.domain, "DDS domain (default: ROS_DOMAIN_ID or 0)")
+  command.add_option("--domain", options.domain, "domain (default: ROS_DOMAIN_ID or 0)")
       ->envname("ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232));
   command.add_flag("--loopback", options.loopback_only, "this machine only");
   command
       .add_option_function<std::string>(
           "--peers", [&options](const std::string& names) { options.peers = addresses_of(names); },
-          "Other machines, names or addresses: robot,nas.local,10.0.0.7")
+          "Other machines, names or addresses: robot,nas.local,10.0.0.7; on zenoh also tcp/robot:7447")
       ->envname("RDS_PEERS");
   add_secure_options(command, options.secure);
 }

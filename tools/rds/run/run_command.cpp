@@ -31,8 +31,8 @@ void parse_vendors(const std::string& text, RunOptions& options) {
   for (const std::string& part : CLI::detail::split(text, ',')) {
     const auto equals = part.find('=');
     const std::string name = part.substr(equals == std::string::npos ? 0 : equals + 1);
-    if (name != "fastdds" && name != "cyclonedds")
-      throw std::invalid_argument(fmt::format("--bus {}: expected fastdds or cyclonedds", part));
+    if (std::ranges::find(bus::kVendorNames, name) == bus::kVendorNames.end())
+      throw std::invalid_argument(fmt::format("--bus {}: expected {}", part, bus::kVendorChoice));
     const bus::Vendor vendor = bus::vendor_from_name(name);
     if (equals == std::string::npos) {
       options.default_vendor = vendor;
@@ -47,6 +47,16 @@ void parse_vendors(const std::string& text, RunOptions& options) {
                       part));
     options.vendors[process] = vendor;
   }
+}
+
+/// Zenoh and DDS do not hear each other.
+void check_vendors(const RunOptions& options) {
+  const auto on_zenoh = [&](const std::string& process) {
+    return options.vendor_of(process) == bus::Vendor::kZenoh;
+  };
+  const auto count = std::ranges::count_if(kProcesses, on_zenoh);
+  if (count != 0 && count != std::ssize(kProcesses))
+    throw std::runtime_error("--bus: expected zenoh for all processes or for none, it does not meet DDS");
 }
 
 void check_files(const RunOptions& options) {
@@ -121,6 +131,7 @@ std::optional<Elsewhere> place(RunOptions& options, const HostsOptions& where) {
 int run(RunOptions& options, const std::string& vendors, const HostsOptions& where) {
   try {
     parse_vendors(vendors, options);
+    check_vendors(options);
     check_secured(options);
     check_files(options);
     check_map(options);
@@ -157,7 +168,7 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--out", options->out, "folder for the results");
   command
       ->add_option("--bus", *vendors,
-                   "fastdds, cyclonedds, or per process: tracker=cyclonedds,mapper=fastdds")
+                   "fastdds, cyclonedds, zenoh, or per process: tracker=cyclonedds,mapper=fastdds")
       ->capture_default_str();
   add_rate_option(*command, options->rate);
   command->add_flag("--no-dynamics", *no_dynamics, "plain RGB-D SLAM: no detection, no prediction");

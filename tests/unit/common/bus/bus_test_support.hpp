@@ -67,9 +67,20 @@ inline std::string name_of(const VendorPair& pair) {
   return name_of(pair.writer) + "_to_" + name_of(pair.reader);
 }
 
-inline const VendorPair kAllPairs[] = {{Vendor::kFastDds, Vendor::kFastDds},
-                                       {Vendor::kFastDds, Vendor::kCycloneDds},
-                                       {Vendor::kCycloneDds, Vendor::kFastDds},
-                                       {Vendor::kCycloneDds, Vendor::kCycloneDds}};
+inline const VendorPair kAllPairs[] = {
+    {Vendor::kFastDds, Vendor::kFastDds},    {Vendor::kFastDds, Vendor::kCycloneDds},
+    {Vendor::kCycloneDds, Vendor::kFastDds}, {Vendor::kCycloneDds, Vendor::kCycloneDds},
+#ifdef RDS_HAS_ZENOH
+    {Vendor::kZenoh, Vendor::kZenoh},
+#endif
+};
+
+inline const Vendor kAllVendors[] = {
+    Vendor::kFastDds,
+    Vendor::kCycloneDds,
+#ifdef RDS_HAS_ZENOH
+    Vendor::kZenoh,
+#endif
+};
 
 }  // namespace rds::bus

@@ -20,10 +20,17 @@ using std_msgs::msg::Header;
 TEST(Vendor, HasANameThatReadsBack) {
   EXPECT_EQ(vendor_from_name("fastdds"), Vendor::kFastDds);
   EXPECT_EQ(vendor_from_name(name_of(Vendor::kCycloneDds)), Vendor::kCycloneDds);
+  EXPECT_EQ(vendor_from_name("zenoh"), Vendor::kZenoh);
   EXPECT_THROW(vendor_from_name("opendds"), std::invalid_argument);
 }
 
+TEST(Vendor, OfDdsRefusesAnEndpointOfZenohAsPeer) {
+  EXPECT_THROW(Participant::create({.node_name = "node", .loopback_only = true, .peers = {"tcp/robot:7447"}}),
+               BusError);
+}
+
 class OneVendor : public ::testing::TestWithParam<Vendor> {};
+class OneVendorOfDds : public OneVendor {};
 
 TEST_P(OneVendor, RefusesADomainThatRtpsHasNoPortsFor) {
   EXPECT_THROW(join(GetParam(), "node", 233), BusError);
@@ -82,7 +89,7 @@ std::size_t count_nonzero(const std::vector<rmw_dds_common::msg::Gid>& gids) {
   }));
 }
 
-TEST_P(OneVendor, AnnouncesItsNodeWithItsEndpoints) {
+TEST_P(OneVendorOfDds, AnnouncesItsNodeWithItsEndpoints) {
   auto participant = join(GetParam(), "rds_tracker");
   auto publisher = participant->advertise<Header>("a", kStream);
   auto subscription = participant->subscribe<Header>("b", kStream, [](const auto&) {});
@@ -125,7 +132,9 @@ TEST_P(OneVendor, CountsWhatItCannotDecode) {
   EXPECT_EQ(inbox.size(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, OneVendor, ::testing::Values(Vendor::kFastDds, Vendor::kCycloneDds),
+INSTANTIATE_TEST_SUITE_P(All, OneVendor, ::testing::ValuesIn(kAllVendors),
+                         [](const auto& instance) { return name_of(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Both, OneVendorOfDds, ::testing::Values(Vendor::kFastDds, Vendor::kCycloneDds),
                          [](const auto& instance) { return name_of(instance.param); });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/bus/dds/user_data.hpp"
 #include "common/bus/endpoint_directory.hpp"
 #include "std_msgs/msg/Header.h"
 #include "tests/unit/common/bus/bus_test_support.hpp"

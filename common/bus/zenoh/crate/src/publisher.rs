@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+use std::ffi::{c_char, c_int};
+use std::time::Duration;
+
+use zenoh::bytes::ZBytes;
+use zenoh::qos::{CongestionControl, Priority, Reliability};
+use zenoh::Wait;
+use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig, RepliesConfig};
+
+use crate::border::{done, key, made};
+use crate::session::Session;
+
+#[repr(C)]
+pub struct PublisherOptions {
+    priority: u8,
+    express: u8,
+    reliable: u8,
+    latched: u8,
+    cache: usize,
+    heartbeat_ms: u64,
+}
+
+pub type Publisher = AdvancedPublisher<'static>;
+pub type Buffer = Vec<u8>;
+
+pub unsafe extern "C" fn declare_publisher(
+    session: *const Session,
+    key_expression: *const c_char,
+    options: *const PublisherOptions,
+    error: *mut c_char,
+    capacity: usize,
+) -> *mut Publisher {
+    made(error, capacity, || {
+        let options = &*options;
+        let priority = Priority::try_from(options.priority)?;
+        let reliability = match options.reliable {
+            0 => Reliability::BestEffort,
+            _ => Reliability::Reliable,
+        };
+        let mut detection = MissDetectionConfig::default(); // numbers the messages
+        if options.heartbeat_ms > 0 {
+            detection = detection.sporadic_heartbeat(Duration::from_millis(options.heartbeat_ms));
+        }
+        let mut builder = (*session)
+            .session
+            .declare_publisher(key(key_expression)?)
+            .reliability(reliability)
+            .congestion_control(CongestionControl::BlockFirst)
+            .priority(priority)
+            .express(options.express != 0)
+            .advanced()
+            .sample_miss_detection(detection);
+        if options.cache > 0 {
+            let replies = RepliesConfig::default()
+                .priority(priority)
+                .congestion_control(CongestionControl::Block);
+            builder = builder.cache(
+                CacheConfig::default()
+                    .max_samples(options.cache)
+                    .replies_config(replies),
+            );
+        }
+        if options.latched != 0 {
+            builder = builder.publisher_detection();
+        }
+        Ok(builder.wait()?)
+    })
+}
+
+pub unsafe extern "C" fn make_buffer(size: usize, data: *mut *mut u8) -> *mut Buffer {
+    let mut buffer = Vec::<u8>::with_capacity(size);
+    // The caller writes all of it: to clear it first costs as much as the message's copy.
+    #[allow(clippy::uninit_vec)]
+    buffer.set_len(size);
+    *data = buffer.as_mut_ptr();
+    Box::into_raw(Box::new(buffer))
+}
+
+pub unsafe extern "C" fn put(
+    publisher: *const Publisher,
+    buffer: *mut Buffer,
+    attachment: *const u8,
+    attachment_size: usize,
+) -> c_int {
+    let payload = ZBytes::from(*Box::from_raw(buffer));
+    let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
+    c_int::from(done(|| Ok((*publisher).put(payload).attachment(attachment).wait()?)))
+}

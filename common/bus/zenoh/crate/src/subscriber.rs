@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+use std::ffi::{c_char, c_void};
+use std::time::Duration;
+
+use zenoh::sample::Sample;
+use zenoh::Wait;
+use zenoh_ext::{AdvancedSubscriber, AdvancedSubscriberBuilderExt, HistoryConfig, RecoveryConfig};
+
+use crate::border::{key, made, Object, OnSample, Release};
+use crate::session::{write_text, Session};
+
+/// How long the state of a publisher is kept that nobody knows to be alive: a bound for made-up ones.
+const RETENTION: Duration = Duration::from_secs(300);
+const ATTACHMENT: usize = 64;
+
+#[repr(C)]
+pub struct SubscriberOptions {
+    history: usize,
+    recover: u8,
+}
+
+#[repr(C)]
+pub struct View {
+    key: *const c_char,
+    key_size: usize,
+    data: *const u8,
+    size: usize,
+    attachment_size: usize,
+    attachment: [u8; ATTACHMENT],
+    source: [c_char; 33],
+}
+
+/// Undeclared when dropped.
+#[allow(dead_code)]
+pub enum Subscriber {
+    Plain(zenoh::pubsub::Subscriber<()>),
+    Advanced(AdvancedSubscriber<()>),
+}
+
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn declare_subscriber(
+    session: *const Session,
+    key_expression: *const c_char,
+    options: *const SubscriberOptions,
+    callback: OnSample,
+    object: *mut c_void,
+    release: Release,
+    error: *mut c_char,
+    capacity: usize,
+) -> *mut Subscriber {
+    let object = Object::new(object, release);
+    made(error, capacity, || {
+        let options = &*options;
+        let builder = (*session)
+            .session
+            .declare_subscriber(key(key_expression)?)
+            .callback(move |sample| callback(object.get(), Box::into_raw(Box::new(sample))));
+        if options.history == 0 && options.recover == 0 {
+            return Ok(Subscriber::Plain(builder.wait()?));
+        }
+        let mut builder = builder.advanced();
+        if options.history > 0 {
+            let history = HistoryConfig::default()
+                .detect_late_publishers()
+                .max_samples(options.history);
+            builder = builder.history(history).subscriber_detection();
+        }
+        if options.recover != 0 {
+            builder = builder.recovery(RecoveryConfig::default().heartbeat().retention_period(RETENTION));
+        }
+        Ok(Subscriber::Advanced(builder.wait()?))
+    })
+}
+
+pub unsafe extern "C" fn view(sample: *const Sample, view: *mut View) {
+    let (sample, view) = (&*sample, &mut *view);
+    let key = sample.key_expr().as_str();
+    view.key = key.as_ptr().cast();
+    view.key_size = key.len();
+    view.size = sample.payload().len();
+    let mut pieces = sample.payload().slices();
+    view.data = match (pieces.next(), pieces.next()) {
+        (Some(only), None) => only.as_ptr(),
+        _ => std::ptr::null(),
+    };
+    view.attachment_size = sample.attachment().map_or(0, |a| a.len());
+    if let Some(attachment) = sample.attachment() {
+        let bytes = attachment.to_bytes();
+        let count = bytes.len().min(ATTACHMENT);
+        view.attachment[..count].copy_from_slice(&bytes[..count]);
+    }
+    let source = sample
+        .source_info()
+        .map_or(String::new(), |s| s.source_id().zid().to_string());
+    write_text(&source, view.source.as_mut_ptr());
+}
+
+pub unsafe extern "C" fn gather(sample: *const Sample, mut data: *mut u8) {
+    for piece in (*sample).payload().slices() {
+        std::ptr::copy_nonoverlapping(piece.as_ptr(), data, piece.len());
+        data = data.add(piece.len());
+    }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/bus/zenoh/zenoh_library.hpp"
+
+#include <cstdlib>
+
+#include <dlfcn.h>
+
+#include "common/bus/participant.hpp"
+
+namespace rds::bus::detail {
+namespace {
+
+/// Each reader that is behind holds one of Zenoh's threads per class; it has 50 by itself, which a few frozen
+/// ones would use up. The user's own setting stays.
+void allow_many_slow_readers() {
+  setenv("ZENOH_RUNTIME", "(net: (max_blocking_threads: 512))", 0);
+}
+
+const RdsZenohApi& load() {
+  allow_many_slow_readers();
+  // The first: where the build puts it, for programs in bin, tests and bench. The second: where the system
+  // looks.
+  for (const char* file : {"$ORIGIN/../lib/librds_zenoh.so", "librds_zenoh.so"}) {
+    void* library = dlopen(file, RTLD_NOW | RTLD_LOCAL);  // never closed: Zenoh keeps threads
+    if (library == nullptr) continue;
+    const auto api = reinterpret_cast<decltype(rds_zenoh_api)*>(dlsym(library, "rds_zenoh_api"));
+    if (api != nullptr && api()->version == RDS_ZENOH_VERSION) return *api();
+    throw BusError("librds_zenoh.so is of another build than this program");
+  }
+  throw BusError(
+      "--bus zenoh: librds_zenoh.so was not found beside this program; the build makes it where there is a "
+      "cargo, which tools/setup.sh installs");
+}
+
+}  // namespace
+
+const RdsZenohApi& zenoh_library() {
+  static const RdsZenohApi& api = load();
+  return api;
+}
+
+void ZenohFailure::refuse(const std::string& what) const {
+  throw BusError("Zenoh refused " + what + ": " + text_);
+}
+
+ZenohSession open_zenoh(const std::string& settings, const char* over) {
+  ZenohFailure failure;
+  return ZenohSession(failure.check(
+      zenoh_library().open(settings.c_str(), over, failure.text(), ZenohFailure::kCapacity), "a session"));
+}
+
+ZenohPublisher declare_publisher(const ZenohSession& session, const std::string& key,
+                                 const RdsZenohPublisherOptions& options) {
+  ZenohFailure failure;
+  return ZenohPublisher(
+      failure.check(zenoh_library().declare_publisher(session.get(), key.c_str(), &options, failure.text(),
+                                                      ZenohFailure::kCapacity),
+                    "a publisher on " + key));
+}
+
+ZenohToken declare_token(const ZenohSession& session, const std::string& key) {
+  ZenohFailure failure;
+  return ZenohToken(failure.check(
+      zenoh_library().declare_token(session.get(), key.c_str(), failure.text(), ZenohFailure::kCapacity),
+      "the token " + key));
+}
+
+}  // namespace rds::bus::detail

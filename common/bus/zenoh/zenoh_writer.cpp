@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/bus/zenoh/zenoh_writer.hpp"
+
+#include <algorithm>
+
+namespace rds::bus::detail {
+namespace {
+
+using std::chrono::steady_clock;
+using std::chrono::system_clock;
+
+/// Messages that wait to be sent at least, whatever the history: two in a row are no reason to lose the
+/// first.
+constexpr int kShortestQueue = 8;
+/// How long a writer that goes still sends what waits.
+constexpr std::chrono::seconds kFarewell{1};
+/// As rmw_zenoh's.
+constexpr std::uint64_t kHeartbeatMs = 500;
+
+/// Zenoh's classes, from 1 (real time) to 7 (background).
+std::uint8_t priority_of(Urgency urgency) {
+  constexpr std::uint8_t kInteractiveHigh = 2;
+  return static_cast<std::uint8_t>(kInteractiveHigh + static_cast<int>(urgency));
+}
+
+RdsZenohPublisherOptions publisher_options(const Qos& qos) {
+  const bool keeps = qos.transient_local || recovers(qos);
+  return {.priority = priority_of(qos.urgency),
+          .express = qos.urgency <= Urgency::kBoxes,
+          .reliable = qos.reliable,
+          .latched = qos.transient_local,
+          .cache = keeps ? static_cast<std::size_t>(history_depth(qos)) : 0,
+          .heartbeat_ms = recovers(qos) ? kHeartbeatMs : 0};
+}
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+ZenohWriter::ZenohWriter(ZenohNode& node, const std::string& topic, const TypeOps& type, const Qos& qos)
+    : node_(node),
+      topic_(topic),
+      type_(type),
+      depth_(static_cast<std::size_t>(std::max(history_depth(qos), kShortestQueue))),
+      token_(node.new_endpoint(topic, type, qos, true)),
+      gid_(gid_of_token(token_)),
+      publisher_(
+          declare_publisher(node.session(), topic_key(node.domain(), topic, type), publisher_options(qos))),
+      announced_(node, token_),
+      sender_([this] { send_all(); }) {}
+
+ZenohWriter::~ZenohWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_one();
+  sender_.join();
+}
+
+bool ZenohWriter::write(const void* message) {
+  const std::size_t size = type_.encoded_size(message);
+  std::uint8_t* bytes = nullptr;
+  ZenohBuffer buffer(zenoh_library().make_buffer(size, &bytes));
+  if (type_.encode(message, bytes, size) == 0) return false;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back({std::move(buffer), {++sequence_, now_ns(), gid_}});
+    if (waiting_.size() > depth_) waiting_.pop_front();
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void ZenohWriter::send_all() {
+  steady_clock::time_point end = steady_clock::time_point::max();
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
+    if (closing_ && end == steady_clock::time_point::max()) end = steady_clock::now() + kFarewell;
+    if (waiting_.empty() || steady_clock::now() > end) return;
+    Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    const auto attachment = to_bytes(next.attachment);
+    zenoh_library().put(publisher_.get(), next.buffer.release(), attachment.data(), attachment.size());
+    lock.lock();
+  }
+}
+
+}  // namespace rds::bus::detail

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Processes on Zenoh that freeze, die and come back: zenoh_processes_test.py PATH_OF_bus_peer"""
+
+import functools
+import itertools
+import json
+import os
+import signal
+import subprocess
+import sys
+import unittest
+
+import peer_process
+
+PEER = sys.argv.pop(1)
+Peer = functools.partial(peer_process.Peer, PEER)
+DOMAINS = itertools.count(10 + os.getpid() % 180)
+PICTURES = 300  # ten seconds
+
+
+class Processes(unittest.TestCase):
+    def test_a_frozen_reader_costs_nobody_a_picture_and_the_writer_no_time(self):
+        domain = next(DOMAINS)
+        with Peer("reader", "zenoh", domain) as healthy, Peer("reader", "zenoh", domain) as frozen, \
+             Peer("writer", "zenoh", domain, 2, PICTURES) as writer:
+            self.assertTrue(frozen.wait_for(lambda lines: len(lines) >= 3))
+            frozen.send(signal.SIGSTOP)
+            self.assertTrue(healthy.wait_for(lambda lines: len(lines) >= 245))  # eight seconds later
+            frozen.send(signal.SIGCONT)
+            self.assertTrue(writer.wait_for(lambda lines: len(lines) == 1))
+            report = json.loads(writer.lines[0])
+            print(f"slowest write beside a frozen reader: {report['slowest_ms']:.2f} ms", file=sys.stderr)
+            self.assertEqual(report["refused"], 0)
+            self.assertLess(report["slowest_ms"], 1000)  # a writer that waits for the reader takes seconds
+            self.assertTrue(healthy.wait_for(lambda lines: lines[-1] == str(PICTURES - 1)), healthy.lines[-3:])
+            self.assertEqual(healthy.lines, [str(i) for i in range(PICTURES)])
+            self.assertTrue(frozen.wait_for(lambda lines: int(lines[-1]) > 245), frozen.lines[-3:])
+
+    def test_a_killed_reader_is_replaced(self):
+        domain = next(DOMAINS)
+        with Peer("writer", "zenoh", domain, 1, 200) as writer:
+            with Peer("reader", "zenoh", domain) as first:
+                self.assertTrue(first.wait_for(lambda lines: len(lines) >= 3))
+                first.send(signal.SIGKILL)
+            with Peer("reader", "zenoh", domain) as second:
+                self.assertTrue(second.wait_for(lambda lines: len(lines) >= 3))
+                self.assertTrue(second.wait_for(lambda lines: lines[-1] == "199"))
+            self.assertTrue(writer.wait_for(lambda lines: len(lines) == 1))
+            self.assertEqual(json.loads(writer.lines[0])["refused"], 0)
+
+    def test_twenty_participants_find_each_other(self):
+        domain = next(DOMAINS)
+        peers = []
+        try:
+            peers = [Peer("census", "zenoh", domain, 20) for _ in range(20)]
+            for peer in peers:
+                self.assertTrue(peer.wait_for(lambda lines: len(lines) == 1))
+            seconds = sorted(json.loads(peer.lines[0])["seconds"] for peer in peers)
+            print(f"twenty participants: median {seconds[10]:.1f} s, last {seconds[-1]:.1f} s", file=sys.stderr)
+        finally:
+            for peer in peers:
+                peer.__exit__()
+
+    def test_a_program_without_the_library_says_so(self):
+        copy = os.path.join(os.environ.get("TMPDIR", "/tmp"), f"bus_peer_{os.getpid()}")
+        subprocess.run(["cp", PEER, copy], check=True)
+        try:
+            result = subprocess.run([copy, "reader", "zenoh", "1"], capture_output=True, text=True, check=False)
+        finally:
+            os.remove(copy)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("librds_zenoh.so was not found", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

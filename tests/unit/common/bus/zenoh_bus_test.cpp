@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is Zenoh's own: domains, strangers that speak plain Zenoh, pieces, losses.
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/zenoh_library.hpp"
+#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/zenoh_settings.hpp"
+#include "std_msgs/msg/Header.h"
+#include "tests/unit/common/bus/bus_test_support.hpp"
+
+namespace rds::bus {
+namespace {
+
+using std_msgs::msg::Header;
+using namespace std::chrono_literals;
+
+Header numbered(int number) {
+  Header header;
+  header.stamp().sec(number);
+  return header;
+}
+
+std::vector<std::uint8_t> bytes_of(const Header& header) {
+  const TypeOps& type = type_ops<Header>();
+  std::vector<std::uint8_t> bytes(type.encoded_size(&header));
+  bytes.resize(type.encode(&header, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+/// A program that speaks plain Zenoh.
+class Stranger {
+ public:
+  explicit Stranger(const std::string& key) {
+    const RdsZenohPublisherOptions options{
+        .priority = 5, .express = 1, .reliable = 1, .latched = 0, .cache = 0, .heartbeat_ms = 0};
+    publisher_ = detail::declare_publisher(session_, key, options);
+  }
+  void put(const std::vector<std::uint8_t>& payload, const std::vector<std::uint8_t>& attachment) {
+    const RdsZenohApi& zenoh = detail::zenoh_library();
+    std::uint8_t* data = nullptr;
+    RdsZenohBuffer* buffer = zenoh.make_buffer(payload.size(), &data);
+    std::ranges::copy(payload, data);
+    zenoh.put(publisher_.get(), buffer, attachment.data(), attachment.size());
+  }
+  detail::ZenohToken say(const std::string& token) { return detail::declare_token(session_, token); }
+
+ private:
+  detail::ZenohSession session_ = detail::open_zenoh(
+      detail::zenoh_settings({.domain = test_domain(), .node_name = "stranger", .loopback_only = true}),
+      nullptr);
+  detail::ZenohPublisher publisher_;
+};
+
+const detail::Guid kStrangersGid = detail::gid_of_token("stranger");
+
+std::vector<std::uint8_t> attachment(std::int64_t sequence) {
+  const auto bytes = detail::to_bytes({sequence, 0, kStrangersGid});
+  return {bytes.begin(), bytes.end()};
+}
+
+class OnZenoh : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::uint64_t dropped() const { return reader_side->statistics().at(0).dropped; }
+  [[nodiscard]] std::uint64_t delivered() const { return reader_side->statistics().at(0).messages; }
+
+  std::unique_ptr<Participant> reader_side = join(Vendor::kZenoh, "reader");
+  Inbox<Header> inbox;
+  Subscription subscription = reader_side->subscribe<Header>("numbers", kTransform, inbox.callback());
+  std::string key = detail::topic_key(test_domain(), "numbers", type_ops<Header>());
+};
+
+TEST_F(OnZenoh, DomainsDoNotMeet) {
+  const auto elsewhere = join(Vendor::kZenoh, "elsewhere", test_domain() + 1);
+  auto publisher = elsewhere->advertise<Header>("numbers", kTransform);
+  const auto here = join(Vendor::kZenoh, "here");
+  auto other = here->advertise<Header>("numbers", kTransform);
+  ASSERT_TRUE(eventually([&] { return subscription.matched() == 1 && other.matched() == 1; }));
+  publisher.write(numbered(1));
+  other.write(numbered(2));
+  ASSERT_TRUE(eventually([&] { return inbox.size() > 0; }));
+  EXPECT_EQ(inbox.messages().front()->stamp().sec(), 2);
+  EXPECT_EQ(publisher.matched(), 0);
+}
+
+TEST_F(OnZenoh, WhatComesWithoutAnAttachmentIsDroppedAndCounted) {
+  Stranger stranger(key);
+  ASSERT_TRUE(eventually([&] {
+    stranger.put(bytes_of(numbered(1)), {});
+    return dropped() > 0;
+  }));
+  EXPECT_EQ(inbox.size(), 0U);
+}
+
+TEST_F(OnZenoh, AStrangersMessageIsHeard) {
+  Stranger stranger(key);
+  ASSERT_TRUE(eventually([&] {
+    stranger.put(bytes_of(numbered(1)), attachment(1));
+    return inbox.size() > 0;
+  }));
+  EXPECT_EQ(*inbox.messages().front(), numbered(1));
+}
+
+TEST_F(OnZenoh, MissingNumbersAreCountedAsDropped) {
+  Stranger stranger(key);
+  ASSERT_TRUE(eventually([&] {
+    stranger.put(bytes_of(numbered(1)), attachment(1));
+    return inbox.size() > 0;
+  }));
+  stranger.put(bytes_of(numbered(2)), attachment(5));
+  ASSERT_TRUE(eventually([&] { return inbox.messages().back()->stamp().sec() == 2; }));
+  EXPECT_EQ(dropped(), 3U);
+}
+
+/// Payloads and attachments, mutated: nothing but counts, and the next good message comes.
+TEST_F(OnZenoh, HostileMessagesAreCountedAndHurtNobody) {
+  constexpr int kMutations = 10'000;
+  std::mt19937 random(3);
+  Stranger stranger(key);
+  Header named = numbered(3);
+  named.frame_id("map");
+  const auto mutate = [&](std::vector<std::uint8_t> bytes) {
+    bytes.resize(std::uniform_int_distribution<std::size_t>(0, bytes.size() + 3)(random));
+    for (int i = 0; i < 3 && !bytes.empty(); ++i)
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    return bytes;
+  };
+  for (int i = 0; i < kMutations; ++i) {
+    const bool payload = i % 2 == 0;
+    stranger.put(payload ? mutate(bytes_of(named)) : bytes_of(named),
+                 payload ? attachment(1) : mutate(attachment(1)));
+  }
+  EXPECT_TRUE(eventually([&] {
+    stranger.put(bytes_of(numbered(-1)), attachment(2));
+    return inbox.size() > 0 && inbox.messages().back()->stamp().sec() == -1;
+  }));
+  EXPECT_GT(dropped(), 0U);
+}
+
+TEST_F(OnZenoh, HostileTokensAreNoEndpoints) {
+  constexpr int kTokens = 1'000;  // 10^4 without the network: zenoh_names_test
+  Stranger stranger(key);
+  std::vector<detail::ZenohToken> tokens;
+  const std::string domain = "@ros2_lv/" + std::to_string(test_domain());
+  for (int i = 0; i < kTokens; ++i) {
+    const std::string name = "%" + std::to_string(i);
+    tokens.push_back(stranger.say(domain + "/xyz/0/1/MP/%/%/n/" + name + "/T/RIHS01_/::,1:,:,:,,"));
+    tokens.push_back(stranger.say(domain + "/" + name));
+  }
+  tokens.push_back(stranger.say(domain + "/abc/0/1/MP/%/%/n/%good/T/RIHS01_/::,1:,:,:,,"));
+  ASSERT_TRUE(eventually([&] {
+    return std::ranges::any_of(reader_side->discovered(), [](const auto& e) { return e.topic == "good"; });
+  }));
+  EXPECT_EQ(std::ranges::count_if(reader_side->discovered(), [](const auto& e) { return e.publisher; }), 1);
+}
+
+TEST_F(OnZenoh, ATopicsNameIsChecked) {
+  EXPECT_THROW(reader_side->advertise<Header>("**", kStream), BusError);
+  EXPECT_THROW(reader_side->advertise<Header>("a//b", kStream), BusError);
+}
+
+TEST_F(OnZenoh, KnowsNoSecuredDomain) {
+  ParticipantOptions options{.vendor = Vendor::kZenoh, .domain = test_domain(), .node_name = "node"};
+  options.credentials.emplace();
+  EXPECT_THROW(Participant::create(options), BusError);
+}
+
+/// No writer waits for its readers: a hundred pictures into a queue of five.
+TEST_F(OnZenoh, AWriterNeverWaits) {
+  const auto writer_side = join(Vendor::kZenoh, "writer");
+  auto publisher = writer_side->advertise<Header>("numbers", kTransform);
+  ASSERT_TRUE(eventually([&] { return publisher.matched() == 1; }));
+  Header large;
+  large.frame_id(std::string(1'500'000, 'x'));
+  auto slowest = 0ns;
+  for (int i = 0; i < 100; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(publisher.write(large));
+    slowest = std::max(slowest, std::chrono::steady_clock::now() - start);
+  }
+  EXPECT_LT(slowest, 1s);  // one that waits takes seconds
+}
+
+TEST_F(OnZenoh, TheUsersSettingsWin) {
+  const std::string ours =
+      detail::zenoh_settings({.domain = 3, .node_name = "n", .peers = {"10.0.0.7", "tls/robot:1"}});
+  EXPECT_THAT(ours, ::testing::HasSubstr(R"(["tcp/10.0.0.7:7447","tls/robot:1"])"));
+  EXPECT_THAT(ours, ::testing::HasSubstr("224.0.0.224:7003"));
+  EXPECT_THROW((void)detail::open_zenoh(ours, "/no/such/file"), BusError);
+}
+
+}  // namespace
+}  // namespace rds::bus

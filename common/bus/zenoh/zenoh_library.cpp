@@ -10,10 +10,12 @@
 namespace rds::bus::detail {
 namespace {
 
-/// Each reader that is behind holds one of Zenoh's threads per class; it has 50 by itself, which a few frozen
-/// ones would use up. The user's own setting stays.
+/// Zenoh's threads, where the user has not said otherwise. Each reader that is behind holds one of 50 per
+/// class, and whoever answers a late joiner or says a heartbeat may wait for him on one of two and of one: a
+/// few frozen readers would use them up.
 void allow_many_slow_readers() {
-  setenv("ZENOH_RUNTIME", "(net: (max_blocking_threads: 512))", 0);
+  setenv("ZENOH_RUNTIME", "(rx: (worker_threads: 4), net: (worker_threads: 2, max_blocking_threads: 512))",
+         0);
 }
 
 const RdsZenohApi& load() {

@@ -7,8 +7,11 @@
 namespace rds::bus::detail {
 namespace {
 
-constexpr int kRouterPort = 7447;          // Zenoh's own
-constexpr int kScoutingPort = 7000;        // plus the domain; below RTPS' ports and apart from Zenoh's 7446
+constexpr int kRouterPort = 7447;    // Zenoh's own
+constexpr int kScoutingPort = 7000;  // plus the domain; below RTPS' ports and apart from Zenoh's 7446
+/// What a session waits for to know the others before it is used: a reader asks for what was written before
+/// when it is made, and what it hears before it could ask would stand for all.
+constexpr int kFindingMs = 250;
 constexpr int kLeaseMs = 10'000;           // of a silent link: as with DDS
 constexpr int kWaitBeforeDropUs = 20'000;  // of a sending thread for a reader that does not keep up
 /// Of what must not be dropped, as declarations; then the link goes.
@@ -43,8 +46,8 @@ std::string zenoh_settings(const ParticipantOptions& options) {
       R"({{mode: "peer",
 connect: {{timeout_ms: -1, exit_on_failure: false, endpoints: {}}},
 listen: {{timeout_ms: {}, exit_on_failure: false, endpoints: {}}},
-open: {{return_conditions: {{connect_scouted: false, declares: false}}}},
-scouting: {{multicast: {{enabled: true, address: "224.0.0.224:{}", interface: "127.0.0.1"}}, gossip: {{enabled: true}}}},
+open: {{return_conditions: {{connect_scouted: true, declares: true}}}},
+scouting: {{delay: {}, multicast: {{enabled: true, address: "224.0.0.224:{}", interface: "127.0.0.1"}}, gossip: {{enabled: true}}}},
 timestamping: {{enabled: true}},
 transport: {{
   link: {{
@@ -54,7 +57,8 @@ transport: {{
   shared_memory: {{enabled: false}},
 }}}})",
       nlohmann::json(connected(options)).dump(), elsewhere ? -1 : 0, nlohmann::json(listened(options)).dump(),
-      kScoutingPort + options.domain, kLeaseMs, kWaitBeforeDropUs, kWaitBeforeCloseUs, kLargestMessage);
+      kFindingMs, kScoutingPort + options.domain, kLeaseMs, kWaitBeforeDropUs, kWaitBeforeCloseUs,
+      kLargestMessage);
 }
 
 }  // namespace rds::bus::detail

@@ -35,9 +35,10 @@ inline constexpr Qos kKeyframeImages{
     .reliable = true, .transient_local = true, .depth = 20, .urgency = Urgency::kKeyframes};
 inline constexpr Qos kKeyframeFeatures{
     .reliable = true, .transient_local = true, .depth = 0, .urgency = Urgency::kKeyframes};
-/// As many keyframes' boxes as a mapper may still wait for, so that one which starts again gets them.
+/// The boxes of as many keyframes as are made in some minutes, so that a mapper which starts again, or was
+/// out of reach, gets them: 2 MB.
 inline constexpr Qos kBoxes{
-    .reliable = true, .transient_local = true, .depth = 100, .urgency = Urgency::kBoxes};
+    .reliable = true, .transient_local = true, .depth = 1000, .urgency = Urgency::kBoxes};
 /// What the reader itself asks for again.
 inline constexpr Qos kDatagrams{.reliable = false, .depth = 256, .urgency = Urgency::kKeyframes};
 inline constexpr Qos kDelta{.reliable = true, .depth = 64, .repairs_slowly = true, .urgency = Urgency::kMaps};

@@ -73,7 +73,7 @@ std::unique_ptr<Backend> make_cyclonedds_backend(const ParticipantOptions& optio
 
 /// Content of the USER_DATA policies, as ROS 2 writes them.
 inline std::string endpoint_user_data(const TypeOps& type) {
-  return "typehash=" + type.type_hash + ";";
+  return type.type_hash.empty() ? "" : "typehash=" + type.type_hash + ";";
 }
 inline constexpr const char* kParticipantUserData = "enclave=/;";
 

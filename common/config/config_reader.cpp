@@ -21,24 +21,6 @@ ConfigReader ConfigReader::from_file(const std::string& path) {
   }
 }
 
-namespace {
-void merge(YAML::Node target, const YAML::Node& values) {
-  for (const auto& entry : values) {
-    const auto key = entry.first.as<std::string>();
-    if (entry.second.IsMap() && target[key] && target[key].IsMap())
-      merge(target[key], entry.second);
-    else
-      target[key] = entry.second;
-  }
-}
-}  // namespace
-
-void ConfigReader::override_with(const YAML::Node& values, const std::string& source) {
-  if (values.size() == 0) return;
-  source_ = node_.size() == 0 ? source : source_ + ", " + source;
-  merge(node_, values);
-}
-
 void ConfigReader::choice(const std::string& key, std::string& target,
                           const std::vector<std::string>& allowed) {
   std::string read = target;

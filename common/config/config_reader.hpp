@@ -31,10 +31,6 @@ class ConfigReader {
   /// @throws ConfigError if the file cannot be read or is not a YAML map.
   static ConfigReader from_file(const std::string& path);
 
-  /// Sets values that win over those which are there, section by section. Before anything is read.
-  /// @param values  a map. @param source  named in messages, beside the file.
-  void override_with(const YAML::Node& values, const std::string& source);
-
   /// Number within [lowest, highest]; `unit` is for the message ("m", "px", "" for none).
   template <class T>
   void value(const std::string& key, T& target, T lowest, T highest, const std::string& unit = "") {

@@ -12,6 +12,7 @@
 #include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
+#include "common/config/overrides.hpp"
 #include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
 #include "common/service/ros/ros_arguments.hpp"
@@ -81,7 +82,7 @@ std::optional<bus::Credentials> credentials(const std::string& name, const Optio
 }
 
 /// Takes what stands behind --ros-args, and what a setting of every service says.
-/// @throws std::runtime_error with one sentence
+/// @throws CLI::ValidationError
 void take_ros_arguments(RosArguments&& arguments, Options& options) {
   if (arguments.node_name) options.node_name = *arguments.node_name;
   if (arguments.node_namespace) options.node_namespace = *arguments.node_namespace;
@@ -91,6 +92,8 @@ void take_ros_arguments(RosArguments&& arguments, Options& options) {
   for (const auto& [name, target] :
        {std::pair("frame_prefix", &options.frame_prefix), std::pair("ros_distro", &options.ros_distro)}) {
     if (!options.parameters[name]) continue;
+    if (!options.parameters[name].IsScalar())
+      throw CLI::ValidationError("--ros-args", std::string(name) + ": expected a text");
     *target = options.parameters[name].as<std::string>();
     options.parameters.remove(name);
   }
@@ -98,9 +101,7 @@ void take_ros_arguments(RosArguments&& arguments, Options& options) {
 
 int start(const std::string& name, const Options& options,
           const std::function<ServiceFactory(config::ConfigReader&)>& read) {
-  auto reader = options.config_path.empty() ? config::ConfigReader()
-                                            : config::ConfigReader::from_file(options.config_path);
-  reader.override_with(options.parameters, "ROS parameters");
+  auto reader = config::from_file_with(options.config_path, options.parameters, "ROS parameters");
   const ServiceFactory factory = read(reader);
   auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
                                                .domain = options.domain,

@@ -27,11 +27,12 @@ RECORDING = sys.argv.pop(1)
 SERVICES = ("tracker", "detector", "transformer", "mapper", "loop-closer")
 DISTRIBUTIONS = ("jazzy", "kilted")
 STRUCTS = idl_model.load([ROOT / "idl" / "ros2", ROOT / "idl"])
-ROBOTS = {"robot1": ["--namespace", "robot1", "--frame-prefix", "robot1/"],
-          "robot2": ["--ros-args", "-r", "__ns:=/robot2", "-p", "frame_prefix:=robot2/"]}  # as a launch file starts them
-GLOBAL = ("/tf", "/tf_static", "/diagnostics")
+OWN_TF = ["-r", "/tf:=tf", "-r", "/tf_static:=tf_static"]  # both cameras are of one name
+ROBOTS = {"robot1": ["--namespace", "robot1", "--frame-prefix", "robot1/", "--ros-args", *OWN_TF],
+          "robot2": ["--ros-args", "-r", "__ns:=/robot2", "-p", "frame_prefix:=robot2/", *OWN_TF]}  # as a launch file starts them
+GLOBAL = ("/diagnostics",)
 # Reliable and latched, as the table of topics says.
-QOS = {"rds/odometry": (True, False), "/tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
+QOS = {"rds/odometry": (True, False), "tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
        "rds/services": (True, True), "rds/transfer/requests": (False, False), "/diagnostics": (True, False)}
 
 
@@ -119,9 +120,9 @@ class RosGraph(unittest.TestCase):
             states = self.messages("rds/tracking_state", 3, "--namespace", robot)
             instances[robot] = {m["instance"] for m in states}
             self.assertEqual(len(instances[robot]), 1)
+            frames = {t["header"]["frame_id"] for m in self.messages("tf", 10, "--namespace", robot) for t in m["transforms"]}
+            self.assertEqual(frames, {f"{robot}/map", f"{robot}/odom"})
         self.assertNotEqual(instances["robot1"], instances["robot2"])
-        frames = {t["header"]["frame_id"] for m in self.messages("/tf", 20) for t in m["transforms"]}
-        self.assertEqual(frames, {f"{robot}/{frame}" for robot in ROBOTS for frame in ("map", "odom")})
         checkpoints = {str(file.relative_to(self.folder)) for file in self.folder.rglob("*.db")}
         for robot in ROBOTS:
             self.assertIn(f"checkpoints/domain-{self.domain}/{robot}/tracker.db", checkpoints)

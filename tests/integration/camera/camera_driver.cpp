@@ -210,7 +210,7 @@ void TrackerWithDriver::publish(const image::RgbdFrame& given, std::int64_t stam
   if (!habits_.half_depth) return void(depth_.write(messages::to_image_message(frame.depth, depth_header)));
   geometry::CameraModel half = frame.camera;
   half.width /= 2, half.height /= 2, half.fx /= 2, half.fy /= 2;
-  half.cx = (half.cx + 0.5) / 2 - 0.5, half.cy = (half.cy + 0.5) / 2 - 0.5;
+  half.cx /= 2, half.cy /= 2;  // every other pixel, from the first on
   depth_info_.write(messages::to_camera_info(half, depth_header));
   image::DepthImage small = frame.depth;
   cv::resize(frame.depth.values, small.values = cv::Mat(), {half.width, half.height}, 0, 0,

@@ -110,7 +110,9 @@ TEST(Odometry, TellsTheSpeedOfTheBaseInItsOwnFrame) {
   Pose base = at(1, 2, 3, 0.7);
   for (int i = 0; i < 20; ++i) {
     step = odometry.step(pose(33 * i, base * frames.child_from_camera), frames);
-    if (i == 0) EXPECT_GT(step.twist_covariance(0, 0), 0.5) << "not known yet";
+    if (i == 0) {
+      EXPECT_GT(step.twist_covariance(0, 0), 0.5) << "not known yet";
+    }
     base = base * se3_exp(0.033 * speed);
   }
   EXPECT_TRUE(step.twist.isApprox(speed, 1e-6)) << step.twist.transpose();

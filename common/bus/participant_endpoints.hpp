@@ -15,14 +15,10 @@ class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
   WriterEndpoint(std::shared_ptr<ParticipantState> state, const std::string& topic, const TypeOps& type,
                  const Qos& qos)
       : Endpoint(std::move(state), topic, type, qos, true),
-        writer_(state_->backend->make_writer(kRosPrefix + full_name_, type, qos)) {
-    state_->announcer.add_writer(guid());
+        writer_(state_->backend->make_writer(full_name_, type, qos)) {
     enter();
   }
-  ~WriterEndpoint() override {
-    leave();
-    state_->announcer.remove(guid());
-  }
+  ~WriterEndpoint() override { leave(); }
 
   bool write(const void* message) override {
     const bool written = writer_->write(message);
@@ -54,9 +50,8 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
       : Endpoint(std::move(state), topic, type, qos, false),
         callback_(std::move(callback)),
         pool_(type),
-        reader_(state_->backend->make_reader(kRosPrefix + full_name_, type, qos)),
+        reader_(state_->backend->make_reader(full_name_, type, qos)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
-    state_->announcer.add_reader(guid());
     enter();
   }
   ~ReaderEndpoint() override {
@@ -64,7 +59,6 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
     thread_.request_stop();
     with_reader([](BackendReader& reader) { reader.wake(); });
     thread_.join();
-    state_->announcer.remove(guid());
   }
 
   [[nodiscard]] int matched() const override {
@@ -128,8 +122,7 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
   [[nodiscard]] bool best_effort_is_all_that_is_offered() const {
     bool is_offered = false;
     for (const DiscoveredEndpoint& endpoint : state_->backend->discovered()) {
-      if (!endpoint.publisher || endpoint.topic != kRosPrefix + full_name_ || endpoint.type != type_.dds_name)
-        continue;
+      if (!endpoint.publisher || endpoint.topic != full_name_ || endpoint.type != type_.dds_name) continue;
       if (endpoint.reliable) return false;
       is_offered = true;
     }
@@ -139,15 +132,12 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
   void ask_for_best_effort() {
     Qos less = qos_;
     less.reliable = false;
-    std::unique_ptr<BackendReader> reader =
-        state_->backend->make_reader(kRosPrefix + full_name_, type_, less);
-    state_->announcer.remove(reader_->guid());
+    std::unique_ptr<BackendReader> reader = state_->backend->make_reader(full_name_, type_, less);
     {
       const std::lock_guard lock(reader_mutex_);
       reader_.swap(reader);
     }
     reliable_ = false;
-    state_->announcer.add_reader(reader_->guid());
   }
 
   static constexpr std::chrono::seconds kIdleAfter{2};  // then no memory is kept for the next message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/node_announcer.hpp"
+#include "common/bus/dds/node_announcer.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -12,8 +12,8 @@
 namespace rds::bus::detail {
 namespace {
 
-using rmw_dds_common::msg::ParticipantEntitiesInfo;
 using rmw_dds_common::msg::HumbleParticipantEntitiesInfo;
+using rmw_dds_common::msg::ParticipantEntitiesInfo;
 
 /// Zero beyond the 16 bytes of the GUID.
 template <class Gid>

@@ -10,7 +10,7 @@ namespace rds::bus::detail {
 
 /// Content of the USER_DATA policies, as ROS 2 writes them.
 inline std::string endpoint_user_data(const TypeOps& type) {
-  return "typehash=" + type.type_hash + ";";
+  return type.type_hash.empty() ? "" : "typehash=" + type.type_hash + ";";
 }
 inline constexpr const char* kParticipantUserData = "enclave=/;";
 

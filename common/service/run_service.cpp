@@ -70,14 +70,19 @@ int start(const std::string& name, const Options& options,
   auto reader = options.config_path.empty() ? config::ConfigReader()
                                             : config::ConfigReader::from_file(options.config_path);
   const ServiceFactory factory = read(reader);
-  auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
-                                               .domain = options.domain,
-                                               .node_name = name,
-                                               .loopback_only = options.loopback_only,
-                                               .peers = bus::peer_addresses(options.peers),
-                                               .credentials = credentials(name, options)});
+  const bus::ParticipantOptions joining{.vendor = bus::vendor_from_name(options.vendor),
+                                        .domain = options.domain,
+                                        .node_name = name,
+                                        .loopback_only = options.loopback_only,
+                                        .peers = bus::peer_addresses(options.peers),
+                                        .credentials = credentials(name, options)};
+  auto participant = bus::Participant::create(joining);
   Diagnostics diagnostics;
-  ServiceContext context{name, *participant, diagnostics, options.domain};
+  ServiceContext context{.name = name,
+                         .bus = *participant,
+                         .diagnostics = diagnostics,
+                         .domain = options.domain,
+                         .participant = joining};
   ServiceProcess process(context, factory, options.exit_when_hung_s);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
@@ -92,7 +97,8 @@ void give_way(int nice) {
 }
 
 int run_service(const std::string& name, int argc, char** argv,
-                const std::function<ServiceFactory(config::ConfigReader&)>& read) {
+                const std::function<ServiceFactory(config::ConfigReader&)>& read,
+                const std::function<void(CLI::App&)>& add_own_options) {
   const sigset_t signals =
       stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -100,6 +106,7 @@ int run_service(const std::string& name, int argc, char** argv,
   CLI::App app{name + ", a service of RDS-SLAM"};
   Options options;
   add_options(app, options);
+  if (add_own_options) add_own_options(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -35,6 +35,13 @@ double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf
   return side * side * side;
 }
 
+/// Sum of x + y + z over the keys of the voxels inside a leaf.
+std::uint64_t key_sum_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf) {
+  const std::uint64_t side = std::uint64_t{1} << (tree.getTreeDepth() - leaf.getDepth());
+  const octomap::OcTreeKey first = leaf.getIndexKey();
+  return side * side * side * (first[0] + first[1] + first[2]) + 3 * side * side * side * (side - 1) / 2;
+}
+
 std::vector<ColoredPoint> occupied_points(const ColorOcTree& tree) {
   std::vector<ColoredPoint> points;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
@@ -123,12 +130,14 @@ nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
   double occupied = 0;
   double free = 0;
   std::size_t leaves = 0;
+  std::uint64_t key_sum = 0;
   Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     ++leaves;
     (is_occupied(*leaf) ? occupied : free) += voxels_of(tree, leaf);
     if (!is_occupied(*leaf)) continue;
+    key_sum += key_sum_of(tree, leaf);
     const Eigen::Array3d center(leaf.getX(), leaf.getY(), leaf.getZ());
     low = low.min(center - leaf.getSize() / 2);
     high = high.max(center + leaf.getSize() / 2);
@@ -140,6 +149,7 @@ nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
                               {"leaves", leaves},
                               {"occupied_voxels", static_cast<std::uint64_t>(occupied)},
                               {"free_voxels", static_cast<std::uint64_t>(free)},
+                              {"occupied_key_sum", key_sum},
                               {"occupied_m3", occupied * voxel_m * voxel_m * voxel_m}};
   if (occupied > 0) {
     json["bounds_min"] = {low.x(), low.y(), low.z()};

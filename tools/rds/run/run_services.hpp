@@ -41,13 +41,17 @@ class RunServices {
 
   /// Brings what services on other machines have below `folder` of the run here.
   void fetch(const std::string& folder, const std::stop_token& stop);
-  /// Stops all, and brings the others' logs and settings here. @return what each used.
+  /// Stops all but a viewer that is kept, and brings the others' logs and settings here. @return what each used.
   std::map<std::string, ServiceUsage> stop(const std::stop_token& stop);
+  /// Keeps the viewer's page until stop is requested, or the viewer is given up.
+  void keep_viewer(const std::stop_token& stop);
 
  private:
   std::filesystem::path folder_;
   std::unique_ptr<FarMachines> far_;  // nullptr: all are here
   Fleet fleet_;
+  std::unique_ptr<Fleet> viewer_;  // nullptr: none; it is no part of the results
+  bool keeps_viewer_;
 };
 
 }  // namespace rds::run

@@ -41,6 +41,8 @@ struct RunOptions {
   bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
   std::optional<Placement> here;  // empty: all services, on this machine
   SecureOptions secure{.identities = {"operator"}};
+  std::string view;        // where rds-viewer serves its page, ADDRESS:PORT or PORT; empty: nowhere
+  bool view_keep = false;  // after the results, until the user stops it
   bool video = false;
   bool force = false;
 

@@ -32,7 +32,7 @@ struct ServiceContext {
   bus::Participant& bus;
   Diagnostics& diagnostics;
   int domain = 0;
-  std::uint64_t instance = random_id();  // of this process, in all that it publishes
+  std::uint64_t instance = random_id();      // of this process, in all that it publishes
   bus::ParticipantOptions participant = {};  // how it joined the bus
 };
 

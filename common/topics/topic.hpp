@@ -19,9 +19,9 @@ enum class Process : std::uint16_t {
   kMapper = 8,
   kLoopCloser = 16,
   kServices = 31,  // these five
-  kPlayer = 32,  // rds run, rds play
-  kTool = 64,    // the other subcommands of rds
-  kFarRun = 128,  // rds run on a machine without the camera
+  kPlayer = 32,    // rds run, rds play
+  kTool = 64,      // the other subcommands of rds
+  kFarRun = 128,   // rds run on a machine without the camera
   kViewer = 256,
 };
 using enum Process;

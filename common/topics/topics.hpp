@@ -148,11 +148,14 @@ inline constexpr Topic<rds_msgs::msg::CommandResult> kRunReply{
 inline constexpr Topic<rds_msgs::msg::Command> kCommand{
     "rds/command", {{kPlayer | kTool | kViewer, bus::kCommand}}, {{kServices | kViewer, bus::kCommand}}};
 inline constexpr Topic<rds_msgs::msg::CommandResult> kCommandResult{
-    "rds/command_result", {{kServices | kViewer, bus::kCommand}}, {{kPlayer | kTool | kViewer, bus::kCommand}}};
+    "rds/command_result",
+    {{kServices | kViewer, bus::kCommand}},
+    {{kPlayer | kTool | kViewer, bus::kCommand}}};
 inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
     "rds/services",
     {{kServices | kViewer, bus::kLatched}},
-    {{kServices | kPlayer | kViewer, bus::kLatchedOfEach}, {kTool, bus::kStream}}};  // rds status: what is said now
+    {{kServices | kPlayer | kViewer, bus::kLatchedOfEach},
+     {kTool, bus::kStream}}};  // rds status: what is said now
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
     "diagnostics", {{kServices | kViewer, bus::kStream}}, {{kViewer, bus::kStream}}};
 

@@ -25,7 +25,7 @@
 namespace rds::viewer {
 namespace {
 
-constexpr std::size_t kMostSamples = 256;  // between two looks of the worker, milliseconds
+constexpr std::size_t kMostSamples = 256;               // between two looks of the worker, milliseconds
 constexpr const char* kStaticTransforms = "tf_static";  // of the robot
 
 std::uint64_t now_ns() {
@@ -64,8 +64,7 @@ FoxgloveBridge::FoxgloveBridge(service::ServiceContext& context, const ViewerSer
   offer<diagnostic_msgs::msg::DiagnosticArray>(topics::kDiagnostics.name, offered(topics::kDiagnostics));
 }
 
-/// Callbacks end before what they use.
-FoxgloveBridge::~FoxgloveBridge() {
+void FoxgloveBridge::stop_listening() {
   for (auto& [channel, topic] : topics_) topic.subscription.reset();
 }
 
@@ -99,7 +98,8 @@ void FoxgloveBridge::hear(foxglove::FoxgloveClient& client, std::uint32_t channe
   topic.subscription = bus_->make_subscription(
       topic.name, topic.type, topic.qos,
       [this, channel](std::shared_ptr<const void> message, const bus::ParticipantId&) {
-        const auto serialized = std::static_pointer_cast<const messages::SerializedMessage>(std::move(message));
+        const auto serialized =
+            std::static_pointer_cast<const messages::SerializedMessage>(std::move(message));
         samples_.push({channel, now_ns(), {serialized, &serialized->bytes}});
         notify_();
       });

@@ -17,14 +17,15 @@
 
 namespace rds::viewer {
 
-/// The bus for clients of Foxglove's protocol: our topics of standard types, and some of ours, as they are on the
-/// wire. It joins the bus as a participant of its own while there is such a client, and reads a topic while one
-/// hears it.
+/// The bus for clients of Foxglove's protocol: our topics of standard types, and some of ours, as they are on
+/// the wire. It joins the bus as a participant of its own while there is such a client, and reads a topic
+/// while one hears it.
 class FoxgloveBridge {
  public:
   /// @param notify  called when a message has come (bus threads).
-  FoxgloveBridge(service::ServiceContext& context, const ViewerServiceConfig& config, std::function<void()> notify);
-  ~FoxgloveBridge();
+  FoxgloveBridge(service::ServiceContext& context, const ViewerServiceConfig& config,
+                 std::function<void()> notify);
+  ~FoxgloveBridge() { stop_listening(); }
   FoxgloveBridge(const FoxgloveBridge&) = delete;
   FoxgloveBridge& operator=(const FoxgloveBridge&) = delete;
 
@@ -33,6 +34,8 @@ class FoxgloveBridge {
   void close(const foxglove::FoxgloveClient& client);
   /// Hands what has come to those who hear it.
   void take();
+  /// No callback runs after this.
+  void stop_listening();
 
  private:
   struct Topic {

@@ -12,7 +12,8 @@ namespace {
 
 bool is_ip(const std::string& address) {
   in6_addr unused{};
-  return inet_pton(AF_INET, address.c_str(), &unused) == 1 || inet_pton(AF_INET6, address.c_str(), &unused) == 1;
+  return inet_pton(AF_INET, address.c_str(), &unused) == 1 ||
+         inet_pton(AF_INET6, address.c_str(), &unused) == 1;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ tl::expected<ListenAddress, std::string> parse_listen_address(const std::string&
   const std::string_view port = std::string_view(text).substr(colon == std::string::npos ? 0 : colon + 1);
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), listen.port);
   if (error != std::errc() || end != port.data() + port.size() || !is_ip(listen.address))
-    return tl::unexpected("ADDRESS:PORT with an IP address of this machine, or a port");
+    return tl::unexpected(std::string("ADDRESS:PORT with an IP address of this machine, or a port"));
   return listen;
 }
 

@@ -22,8 +22,10 @@ int main(int argc, char** argv) {
   ViewerOptions options;
   const auto add_options = [&](CLI::App& app) {
     app.add_option("--listen", options.listen, "ADDRESS:PORT or PORT of the page (default: 127.0.0.1:8080)");
-    app.add_option("--token-file", options.token_file, "File with the token that others than this machine need");
-    app.add_flag("--allow-commands", options.allow_commands, "Pages may pause, resume, reset and save the map");
+    app.add_option("--token-file", options.token_file,
+                   "File with the token that others than this machine need");
+    app.add_flag("--allow-commands", options.allow_commands,
+                 "Pages may pause, resume, reset and save the map");
   };
   const auto read_config = [&](config::ConfigReader& reader) -> service::ServiceFactory {
     viewer::ViewerServiceConfig config;

@@ -8,7 +8,9 @@
 namespace rds::viewer {
 
 MapFeed::MapFeed(service::ServiceContext& context, Board& board, std::function<void()> notify)
-    : board_(board), notify_(std::move(notify)), map_(context, transfer::this_host(), [this](const auto* applied) {
+    : board_(board),
+      notify_(std::move(notify)),
+      map_(context, transfer::this_host(), [this](const auto* applied) {
         {
           const std::lock_guard lock(mutex_);
           changed_.add(applied);
@@ -16,7 +18,8 @@ MapFeed::MapFeed(service::ServiceContext& context, Board& board, std::function<v
         notify_();
       }) {}
 
-/// What the map has by now may be newer than the changes that are taken here; the next ones say the same again.
+/// What the map has by now may be newer than the changes that are taken here; the next ones say the same
+/// again.
 void MapFeed::take() {
   ChangedChunks changed;
   {

@@ -17,7 +17,8 @@ PictureFeed::PictureFeed(service::ServiceContext& context, const ViewerServiceCo
                          concurrency::Mailbox& mailbox, std::function<void()> notify)
     : context_(context),
       topic_(config.color_topic),
-      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / config.picture_hz))),
+      period_(
+          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / config.picture_hz))),
       board_(board),
       notify_(std::move(notify)),
       compressor_(config.picture_quality),
@@ -52,7 +53,8 @@ void PictureFeed::receive(Image image) {
 }
 
 void PictureFeed::take() {
-  while (auto image = images_.try_pop()) waiting_[messages::to_nanoseconds((*image)->header().stamp())] = *image;
+  while (auto image = images_.try_pop())
+    waiting_[messages::to_nanoseconds((*image)->header().stamp())] = *image;
   while (const auto features = features_.try_pop()) {
     const auto picture = waiting_.extract(messages::to_nanoseconds((*features)->header().stamp()));
     if (!picture.empty()) put(picture.key(), picture.mapped(), features->get());
@@ -63,12 +65,14 @@ void PictureFeed::take() {
   }
 }
 
-void PictureFeed::put(std::int64_t stamp_ns, const Image& image, const rds_msgs::msg::FrameFeatures* features) {
+void PictureFeed::put(std::int64_t stamp_ns, const Image& image,
+                      const rds_msgs::msg::FrameFeatures* features) {
   const auto picture = messages::to_color_image(image);
   if (!picture) return context_.diagnostics.reject(topic_, service::Rejection::kInvalid, picture.error());
   const auto jpeg = compressor_.compress(*picture);
   auto frame = picture_frame(jpeg, stamp_ns, image->width(), image->height(), features);
-  if (!frame) return context_.diagnostics.reject(topics::kFeatures.name, service::Rejection::kInvalid, frame.error());
+  if (!frame)
+    return context_.diagnostics.reject(topics::kFeatures.name, service::Rejection::kInvalid, frame.error());
   board_.put(Kind::kPicture, std::move(*frame));
 }
 

@@ -56,10 +56,11 @@ Scene::Scene(service::ServiceContext& context, const ViewerServiceConfig& config
 
 template <class Message>
 void Scene::listen(const topics::Topic<Message>& topic, concurrency::Inbox<Of<Message>>& inbox) {
-  subscriptions_.push_back(topics::subscribe(context_.bus, topic, topics::kViewer, [this, &inbox](Of<Message> message) {
-    inbox.push(std::move(message));
-    notify_();
-  }));
+  subscriptions_.push_back(
+      topics::subscribe(context_.bus, topic, topics::kViewer, [this, &inbox](Of<Message> message) {
+        inbox.push(std::move(message));
+        notify_();
+      }));
 }
 
 /// Messages that name the instance of the service which wrote them, in its own name.
@@ -104,7 +105,8 @@ void Scene::show(Kind kind, const char* topic, Expected<Bytes> frame) {
 
 void Scene::take(const State& state) {
   if (!tracker_.accept(state->instance(), state->map_epoch() == map_epoch_))
-    return context_.diagnostics.reject(topics::kTrackingState.name, service::Rejection::kForeign, "another tracker");
+    return context_.diagnostics.reject(topics::kTrackingState.name, service::Rejection::kForeign,
+                                       "another tracker");
   if (state->map_epoch() != map_epoch_) forget_path();
   map_epoch_ = state->map_epoch();
   auto frame = tracking_frame(*state);
@@ -135,7 +137,8 @@ void Scene::take(const Poses& poses) {
 void Scene::take_of_tracker(const Poses& poses) {
   const auto converted = messages::to_keyframe_poses(*poses);
   if (!converted)
-    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid, converted.error());
+    return context_.diagnostics.reject(topics::kKeyframePoses.name, service::Rejection::kInvalid,
+                                       converted.error());
   if (!tracker_.accept(poses->instance(), poses->map_epoch() == map_epoch_)) return;
   if (poses->map_epoch() != map_epoch_) {
     forget_path();

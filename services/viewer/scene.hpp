@@ -30,12 +30,15 @@ namespace rds::viewer {
 class Scene {
  public:
   /// @param notify  called when something has come (any thread): take() is due.
-  Scene(service::ServiceContext& context, const ViewerServiceConfig& config, Board& board, std::function<void()> notify);
+  Scene(service::ServiceContext& context, const ViewerServiceConfig& config, Board& board,
+        std::function<void()> notify);
 
   /// Takes what has come.
   void take();
   /// Once a second: the services' figures, with how long ago each was heard.
-  void put_services(double now_s) { board_.put(Kind::kServices, text_frame(Kind::kServices, services_.to_json(now_s))); }
+  void put_services(double now_s) {
+    board_.put(Kind::kServices, text_frame(Kind::kServices, services_.to_json(now_s)));
+  }
   void want_picture(bool wanted) { picture_.want(wanted); }
   /// Another map begins: the path of the one before goes.
   void forget_path() { board_.path.clear(); }

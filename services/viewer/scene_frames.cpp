@@ -48,10 +48,12 @@ bool all_finite(const Values& values) {
 std::string fault_of(const rds_msgs::msg::PredictedBoxes& m) {
   const std::size_t n = m.ids().size();
   if (n > kMostBoxes) return fmt::format("{} boxes", n);
-  if (m.labels().size() != n || m.scores().size() != n || m.boxes().size() != 4 * n || m.minimums().size() != 3 * n ||
-      m.maximums().size() != 3 * n || m.velocities().size() != 3 * n || m.ages().size() != n)
+  if (m.labels().size() != n || m.scores().size() != n || m.boxes().size() != 4 * n ||
+      m.minimums().size() != 3 * n || m.maximums().size() != 3 * n || m.velocities().size() != 3 * n ||
+      m.ages().size() != n)
     return "arrays that do not fit each other";
-  if (!all_finite(m.minimums()) || !all_finite(m.maximums()) || !all_finite(m.velocities()) || !all_finite(m.boxes()))
+  if (!all_finite(m.minimums()) || !all_finite(m.maximums()) || !all_finite(m.velocities()) ||
+      !all_finite(m.boxes()))
     return "numbers that are not finite";
   return {};
 }
@@ -75,19 +77,20 @@ void put_pose(map_file::ByteWriter& frame, const geometry::Pose& pose) {
 Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state) {
   const auto map_from_camera = messages::to_pose(state.map_from_camera());
   if (!map_from_camera) return tl::unexpected(map_from_camera.error());
-  return json_frame(Kind::kTracking, {{"stamp_s", static_cast<double>(messages::to_nanoseconds(state.header().stamp())) / 1e9},
-                                      {"state", state.state()},
-                                      {"pose", to_json(*map_from_camera)},
-                                      {"frame", state.frame_index()},
-                                      {"features", state.features()},
-                                      {"dynamic", state.dynamic_features()},
-                                      {"inliers", state.inliers()},
-                                      {"keyframe", state.is_keyframe()},
-                                      {"extract_ms", in_ms(state.extract_us())},
-                                      {"predict_ms", in_ms(state.predict_us())},
-                                      {"track_ms", in_ms(state.track_us())},
-                                      {"total_ms", in_ms(state.total_us())},
-                                      {"dropped", state.frames_dropped()}});
+  return json_frame(Kind::kTracking,
+                    {{"stamp_s", static_cast<double>(messages::to_nanoseconds(state.header().stamp())) / 1e9},
+                     {"state", state.state()},
+                     {"pose", to_json(*map_from_camera)},
+                     {"frame", state.frame_index()},
+                     {"features", state.features()},
+                     {"dynamic", state.dynamic_features()},
+                     {"inliers", state.inliers()},
+                     {"keyframe", state.is_keyframe()},
+                     {"extract_ms", in_ms(state.extract_us())},
+                     {"predict_ms", in_ms(state.predict_us())},
+                     {"track_ms", in_ms(state.track_us())},
+                     {"total_ms", in_ms(state.total_us())},
+                     {"dropped", state.frames_dropped()}});
 }
 
 Expected<Bytes> boxes_frame(const rds_msgs::msg::PredictedBoxes& boxes) {
@@ -124,8 +127,10 @@ Expected<Bytes> grid_frame(const nav_msgs::msg::OccupancyGrid& grid) {
   const auto& info = grid.info();
   const std::size_t cells = std::size_t{info.width()} * info.height();
   if (cells != grid.data().size() || cells > kMostCells)
-    return tl::unexpected(fmt::format("{} × {} cells, {} values", info.width(), info.height(), grid.data().size()));
-  if (!(info.resolution() > 0 && info.resolution() < 1e3F)) return tl::unexpected("a resolution of no use");
+    return tl::unexpected(
+        fmt::format("{} × {} cells, {} values", info.width(), info.height(), grid.data().size()));
+  if (!(info.resolution() > 0 && info.resolution() < 1e3F))
+    return tl::unexpected(std::string("a resolution of no use"));
   const auto map_from_grid = messages::to_pose(info.origin());
   if (!map_from_grid) return tl::unexpected(map_from_grid.error());
   auto frame = begin_frame(Kind::kGrid);

@@ -46,6 +46,14 @@ ViewerService::ViewerService(service::ServiceContext& context, const ViewerServi
                token.empty() ? "" : "?token=…");
 }
 
+/// Bus threads end before the server that they tell, and that before those whom its sessions tell.
+ViewerService::~ViewerService() {
+  scene_.reset();
+  command_port_.reset();
+  foxglove_->stop_listening();
+  server_.reset();
+}
+
 void ViewerService::run(const std::stop_token& stop) {
   for (double services_put_s = 0; !stop.stop_requested();) {
     beat();
@@ -102,10 +110,16 @@ Opening ViewerService::open(const Request& request) {
   if (!target || !is_own_host(request.host, rules_) || !is_allowed_origin(request, rules_))
     return {nullptr, {}, refused(403, "not from this page (setting allowed_origins)")};
   if (!has_token(request, *target, rules_)) return {nullptr, {}, refused(401, "expected the token")};
-  if (target->path == kSocketPath && !choose_protocol(request.protocols, {kPageProtocol}).empty()) return open_page();
+  if (target->path == kSocketPath && !choose_protocol(request.protocols, {kPageProtocol}).empty())
+    return open_page();
   const std::string protocol = choose_protocol(request.protocols, foxglove::kProtocols);
   if (protocol.empty()) return {nullptr, {}, refused(400, "no such protocol")};
-  return {foxglove_->open(), protocol, {}};
+  try {
+    return {foxglove_->open(), protocol, {}};
+  } catch (const bus::BusError& e) {
+    spdlog::warn("the bus cannot be joined for a client: {}", e.what());
+    return {nullptr, {}, refused(503, "the bus cannot be joined")};
+  }
 }
 
 Opening ViewerService::open_page() {
@@ -126,7 +140,9 @@ void ViewerService::close(Conversation& conversation) {
 }
 
 std::string ViewerService::hello() const {
-  return nlohmann::json{{"version", RDS_VERSION}, {"domain", context_.domain}, {"commands", config_.allow_commands}}.dump();
+  return nlohmann::json{
+      {"version", RDS_VERSION}, {"domain", context_.domain}, {"commands", config_.allow_commands}}
+      .dump();
 }
 
 service::CommandOutcome ViewerService::execute(const std::string& verb, const std::string& /*argument*/) {

@@ -17,13 +17,17 @@
 
 namespace rds::viewer {
 
-/// Shows what is on the bus: a web page, clients of Foxglove's protocol, Prometheus. Reads the bus alone, but for
-/// commands of pages, where they are allowed. The worker serves the sockets and owns all else.
+/// Shows what is on the bus: a web page, clients of Foxglove's protocol, Prometheus. Reads the bus alone, but
+/// for commands of pages, where they are allowed. The worker serves the sockets and owns all else.
 class ViewerService final : public service::Service, private WebApp {
  public:
   /// @param token  that clients need; empty: none.
   /// @throws std::runtime_error where the port cannot be had.
-  ViewerService(service::ServiceContext& context, const ViewerServiceConfig& config, const std::string& token);
+  ViewerService(service::ServiceContext& context, const ViewerServiceConfig& config,
+                const std::string& token);
+  ~ViewerService() override;
+  ViewerService(const ViewerService&) = delete;
+  ViewerService& operator=(const ViewerService&) = delete;
   void run(const std::stop_token& stop) override;
 
  protected:
@@ -44,11 +48,11 @@ class ViewerService final : public service::Service, private WebApp {
   AccessRules rules_;
   Board board_;
   std::set<PageClient*> pages_;
-  std::atomic<bool> is_told_ = false;           // take() is under way
-  std::unique_ptr<CommandPort> command_port_;   // nullptr: commands are not allowed
+  std::atomic<bool> is_told_ = false;          // take() is under way
+  std::unique_ptr<CommandPort> command_port_;  // nullptr: commands are not allowed
   std::unique_ptr<FoxgloveBridge> foxglove_;
-  std::unique_ptr<WebServer> server_;           // its sessions tell the two above when they end
-  std::unique_ptr<Scene> scene_;                // last: bus threads tell the server
+  std::unique_ptr<WebServer> server_;  // its sessions tell the two above when they end
+  std::unique_ptr<Scene> scene_;
 };
 
 }  // namespace rds::viewer

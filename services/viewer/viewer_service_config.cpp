@@ -56,9 +56,9 @@ std::string access_token(const ViewerServiceConfig& config) {
     return token;
   }
   if (token.size() < kShortestToken || token.size() > kLongestToken || !std::ranges::all_of(token, is_plain))
-    throw config::ConfigError(
-        fmt::format("the viewer's token: expected {} to {} letters, digits, '-' and '_', e.g. of openssl rand -hex 16",
-                    kShortestToken, kLongestToken));
+    throw config::ConfigError(fmt::format(
+        "the viewer's token: expected {} to {} letters, digits, '-' and '_', e.g. of openssl rand -hex 16",
+        kShortestToken, kLongestToken));
   return token;
 }
 

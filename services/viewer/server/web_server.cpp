@@ -28,8 +28,9 @@ std::string text_of(boost::beast::string_view text) {
 }
 
 Request request_of(const Upgrade& message) {
-  return {text_of(message.target()), text_of(message[http::field::host]), text_of(message[http::field::origin]),
-          text_of(message[http::field::authorization]), text_of(message[http::field::sec_websocket_protocol])};
+  return {text_of(message.target()), text_of(message[http::field::host]),
+          text_of(message[http::field::origin]), text_of(message[http::field::authorization]),
+          text_of(message[http::field::sec_websocket_protocol])};
 }
 
 /// One connection, until it becomes a WebSocket.
@@ -46,15 +47,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     parser_->header_limit(kMostHeaderBytes);
     parser_->body_limit(0);
     stream_.expires_after(state_.limits.request_time);
-    http::async_read(stream_, received_, *parser_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
-      self->take(error);
-    });
+    http::async_read(
+        stream_, received_, *parser_,
+        [self = shared_from_this()](const beast::error_code& error, std::size_t) { self->take(error); });
   }
 
  private:
   void take(const beast::error_code& error) {
     const bool left = error == http::error::end_of_stream || error == beast::error::timeout ||
-                      error == boost::asio::error::connection_reset || error == boost::asio::error::operation_aborted;
+                      error == boost::asio::error::connection_reset ||
+                      error == boost::asio::error::operation_aborted;
     if (error && !left) ++state_.counts.malformed;
     if (error) return;
     const Upgrade message = parser_->release();
@@ -69,7 +71,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return answer(message, {.status = 503, .text = "too many clients\n"});
     Opening opening = state_.app.open(request_of(message));
     if (!opening.conversation) return answer(message, std::move(opening.refusal));
-    std::make_shared<WebSocketSession>(state_, connection_, std::move(stream_), std::move(opening))->accept(message);
+    std::make_shared<WebSocketSession>(state_, connection_, std::move(stream_), std::move(opening))
+        ->accept(message);
   }
 
   void answer(const Upgrade& message, HttpAnswer said) {
@@ -80,19 +83,21 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     answer_.version(message.version());
     answer_.result(said_.status);
     answer_.keep_alive(message.keep_alive() && said_.status < 400);
-    answer_.set(http::field::content_type, boost::beast::string_view(said_.content_type.data(), said_.content_type.size()));
+    answer_.set(http::field::content_type,
+                boost::beast::string_view(said_.content_type.data(), said_.content_type.size()));
     answer_.set(http::field::cache_control, "no-cache");
     answer_.set("Content-Security-Policy", kContentPolicy);
     answer_.set("X-Content-Type-Options", "nosniff");
     answer_.set("Referrer-Policy", "no-referrer");
     answer_.content_length(body.size());
     if (message.method() != http::verb::head) answer_.body() = {body.data(), body.size()};
-    http::async_write(stream_, answer_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
-      if (error) return;
-      if (self->answer_.keep_alive()) return self->read();
-      beast::error_code ignored;
-      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-    });
+    http::async_write(stream_, answer_,
+                      [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+                        if (error) return;
+                        if (self->answer_.keep_alive()) return self->read();
+                        beast::error_code ignored;
+                        self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+                      });
   }
 
   ServerState& state_;
@@ -156,6 +161,10 @@ WebServer::~WebServer() = default;
 
 void WebServer::serve_for(std::chrono::milliseconds duration) {
   listener_->context_.run_for(duration);
+}
+
+void WebServer::serve_what_is_due() {
+  listener_->context_.poll();
 }
 
 void WebServer::post(std::function<void()> task) {

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <exception>
+
+#include <spdlog/spdlog.h>
+
 #include "services/viewer/server/sessions.hpp"
 
 namespace rds::viewer {
@@ -29,7 +33,8 @@ WebSocketSession::~WebSocketSession() {
 
 void WebSocketSession::accept(const Upgrade& request) {
   beast::error_code ignored;
-  socket_.next_layer().socket().set_option(boost::asio::socket_base::send_buffer_size(kSocketBufferBytes), ignored);
+  socket_.next_layer().socket().set_option(boost::asio::socket_base::send_buffer_size(kSocketBufferBytes),
+                                           ignored);
   socket_.next_layer().socket().set_option(Tcp::no_delay(true), ignored);
   socket_.next_layer().expires_never();  // the WebSocket has times of its own
   socket_.set_option(websocket::stream_base::timeout{kHandshakeTime, state_.limits.silence, true});
@@ -56,7 +61,12 @@ void WebSocketSession::read() {
 void WebSocketSession::take() {
   const auto data = received_.data();
   const std::string_view message(static_cast<const char*>(data.data()), data.size());
-  if (!conversation_->receive(message, socket_.got_binary())) ++state_.counts.refused_messages;
+  try {
+    if (!conversation_->receive(message, socket_.got_binary())) ++state_.counts.refused_messages;
+  } catch (const std::exception& e) {
+    spdlog::warn("a client's message: {}", e.what());
+    ++state_.counts.refused_messages;
+  }
   received_.consume(received_.size());
   pump();
   read();
@@ -79,7 +89,8 @@ void WebSocketSession::pump() {
 /// The other operation under way fails with the closed socket, and with the last one the session goes.
 void WebSocketSession::end(const beast::error_code& error) {
   const bool left = error == websocket::error::closed || error == boost::asio::error::eof ||
-                    error == boost::asio::error::connection_reset || error == boost::asio::error::broken_pipe ||
+                    error == boost::asio::error::connection_reset ||
+                    error == boost::asio::error::broken_pipe ||
                     error == boost::asio::error::operation_aborted || error == beast::error::timeout;
   if (!left && is_open_) ++state_.counts.malformed;
   is_open_ = false;

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/segmentation/gravity.hpp"
+#include "services/mapper/io/map_files.hpp"
 
 namespace rds::tools {
 namespace {
@@ -47,8 +47,8 @@ std::vector<ColoredPoint> occupied_points(const ColorOcTree& tree) {
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     if (!is_occupied(*leaf)) continue;
     const auto color = leaf->getColor();
-    points.push_back({Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>(),
-                      {color.r, color.g, color.b}});
+    points.push_back(
+        {Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>(), {color.r, color.g, color.b}});
   }
   return points;
 }
@@ -118,7 +118,8 @@ Result export_map(const ColorOcTree& tree, const std::string& format, const std:
                   const std::string& up) {
   if (format == "ot") return mapper::write_tree(file, tree);
   if (format == "bt") return map_file::write_atomically(file, to_bt(tree));
-  if (format == "ply") return map_file::write_atomically(
+  if (format == "ply")
+    return map_file::write_atomically(
         file, to_ply(occupied_points(tree), fmt::format("occupied voxels of {} m", tree.getResolution())));
   if (format == "pcd") return map_file::write_atomically(file, to_pcd(occupied_points(tree)));
   if (format == "pgm") return write_pgm(tree, file, up);

@@ -195,9 +195,11 @@ void add_run_command(CLI::App& rds) {
   command
       ->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
       ->envname("RDS_SECURE");
-  command->add_flag("--view{8080}", options->view,
-                    "serve a page that shows the run: --view=PORT or --view=ADDRESS:PORT (default: 127.0.0.1:8080)");
-  command->add_flag("--view-keep", options->view_keep, "as --view, and the page stays after the results, until Ctrl-C");
+  command->add_flag(
+      "--view{8080}", options->view,
+      "serve a page that shows the run: --view=PORT or --view=ADDRESS:PORT (default: 127.0.0.1:8080)");
+  command->add_flag("--view-keep", options->view_keep,
+                    "as --view, and the page stays after the results, until Ctrl-C");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, no_dynamics] {

@@ -15,7 +15,8 @@ constexpr std::chrono::milliseconds kStopLimit{2500};
 RunServices::RunServices(const RunOptions& options, int domain, const std::filesystem::path& folder,
                          bus::Participant& bus, const std::optional<Elsewhere>& elsewhere)
     : folder_(folder),
-      far_(elsewhere ? std::make_unique<FarMachines>(bus, options, elsewhere->hosts, elsewhere->here) : nullptr),
+      far_(elsewhere ? std::make_unique<FarMachines>(bus, options, elsewhere->hosts, elsewhere->here)
+                     : nullptr),
       fleet_(service_commands(options, domain, folder)),
       keeps_viewer_(options.view_keep) {
   if (!options.view.empty())

@@ -42,7 +42,8 @@ std::vector<Role> roles(const Topics& camera_topics) {
       service("loop-closer", topics::kLoopCloser),
       service("viewer", topics::kViewer, Topics{topics::kTransforms.name, "tf_static"} + camera_topics),
       {"operator",
-       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name, topics::kMapRequests.name} +
+       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name,
+              topics::kMapRequests.name} +
            camera_topics,
        Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
       {"reader",

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "services/viewer/core/board/path_line.hpp"
 #include "services/viewer/core/frames/frame.hpp"
 #include "services/viewer/core/map/map_chunks.hpp"
-#include "services/viewer/core/board/path_line.hpp"
 
 namespace rds::viewer {
 

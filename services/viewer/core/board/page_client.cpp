@@ -15,9 +15,10 @@ using nlohmann::json;
 constexpr std::array<const char*, 4> kVerbs{"pause", "resume", "reset", "save"};
 
 Bytes refusal(const std::string& verb, const std::string& reason) {
-  return text_frame(Kind::kReply,
-                    json{{"verb", verb}, {"service", "rds-viewer"}, {"success", false}, {"message", reason}}.dump(
-                        -1, ' ', false, json::error_handler_t::replace));
+  return text_frame(
+      Kind::kReply,
+      json{{"verb", verb}, {"service", "rds-viewer"}, {"success", false}, {"message", reason}}.dump(
+          -1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class PathLine {
 
  private:
   std::vector<Eigen::Vector3f> points_;
-  std::uint64_t generation_ = 1;  // 0 is that of a client without a path
+  std::uint64_t generation_ = 0;  // a new client has all of an empty path
 };
 
 }  // namespace rds::viewer

@@ -41,8 +41,8 @@ void write_processes(MetricsText& metrics, const ServiceTable& services, double 
           [](const Entry& e) { return e.figures.cpu_s; });
   of_each(metrics, services, "rds_service_resident_bytes", "gauge", "Memory of the process",
           [](const Entry& e) { return e.figures.resident_mb * 1e6; });
-  of_each(metrics, services, "rds_service_worker_silent_seconds", "gauge", "Since the worker said that it is alive",
-          [](const Entry& e) { return e.figures.worker_silent_s; });
+  of_each(metrics, services, "rds_service_worker_silent_seconds", "gauge",
+          "Since the worker said that it is alive", [](const Entry& e) { return e.figures.worker_silent_s; });
 }
 
 void write_latencies(MetricsText& metrics, const ServiceTable& services) {
@@ -55,16 +55,19 @@ void write_latencies(MetricsText& metrics, const ServiceTable& services) {
 }
 
 void write_losses(MetricsText& metrics, const ServiceTable& services) {
-  metrics.begin("rds_dropped_messages_total", "counter", "Messages lost, by the service that did not get or write them");
+  metrics.begin("rds_dropped_messages_total", "counter",
+                "Messages lost, by the service that did not get or write them");
   for (const auto& [service, entry] : services.entries())
-    for (const auto& [topic, count] : entry.figures.dropped) metrics.add(count, {{"service", service}, {"topic", topic}});
+    for (const auto& [topic, count] : entry.figures.dropped)
+      metrics.add(count, {{"service", service}, {"topic", topic}});
   metrics.begin("rds_rejected_messages_total", "counter", "Messages that a service did not use");
   for (const auto& [service, entry] : services.entries())
     for (const auto& [what, count] : entry.figures.rejected)
       metrics.add(count, {{"service", service}, {"topic", what.first}, {"reason", what.second}});
   metrics.begin("rds_figure", "gauge", "Counters and queue depths of a service, by its own name for them");
   for (const auto& [service, entry] : services.entries())
-    for (const auto& [name, count] : entry.figures.counts) metrics.add(count, {{"service", service}, {"name", name}});
+    for (const auto& [name, count] : entry.figures.counts)
+      metrics.add(count, {{"service", service}, {"name", name}});
 }
 
 void write_scene(MetricsText& metrics, const SceneFigures& scene) {

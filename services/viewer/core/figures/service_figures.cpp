@@ -26,7 +26,8 @@ std::optional<double> to_number(std::string_view text) {
 /// Printable ASCII alone: neither JSON nor Prometheus takes all bytes.
 std::string cut(std::string_view text) {
   std::string kept(text.substr(0, kMostTextBytes));
-  std::ranges::replace_if(kept, [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::ranges::replace_if(
+      kept, [](char c) { return c < ' ' || c > '~'; }, '?');
   return kept;
 }
 
@@ -62,10 +63,9 @@ json to_json(const ServiceFigures& figures) {
   for (const auto& [topic, count] : figures.dropped) dropped += count;
   double rejected = 0;
   for (const auto& [topic, count] : figures.rejected) rejected += count;
-  return {{"level", figures.level},         {"message", figures.message},
-          {"cpu_s", figures.cpu_s},         {"rss_mb", figures.resident_mb},
-          {"latencies_ms", latencies},      {"dropped", dropped},
-          {"rejected", rejected},           {"counts", figures.counts}};
+  return {{"level", figures.level},        {"message", figures.message}, {"cpu_s", figures.cpu_s},
+          {"rss_mb", figures.resident_mb}, {"latencies_ms", latencies},  {"dropped", dropped},
+          {"rejected", rejected},          {"counts", figures.counts}};
 }
 
 }  // namespace

@@ -24,11 +24,11 @@ struct ServiceFigures {
   double cpu_s = 0;
   double resident_mb = 0;
   double worker_silent_s = 0;
-  std::map<std::string, StageLatency> latencies;                       // by stage
-  std::map<std::string, double> dropped;                               // by topic
-  std::map<std::pair<std::string, std::string>, double> rejected;     // by topic and reason
-  std::map<std::string, double> counts;                                // counters and gauges, by name
-  std::map<std::string, std::string> texts;                            // the rest
+  std::map<std::string, StageLatency> latencies;                   // by stage
+  std::map<std::string, double> dropped;                           // by topic
+  std::map<std::pair<std::string, std::string>, double> rejected;  // by topic and reason
+  std::map<std::string, double> counts;                            // counters and gauges, by name
+  std::map<std::string, std::string> texts;                        // the rest
 };
 
 using KeyValues = std::vector<std::pair<std::string, std::string>>;

@@ -5,7 +5,8 @@
 
 namespace rds::viewer::foxglove {
 
-FoxgloveClient::FoxgloveClient(const std::vector<Channel>& channels, std::string_view session, Changed subscribed)
+FoxgloveClient::FoxgloveClient(const std::vector<Channel>& channels, std::string_view session,
+                               Changed subscribed)
     : channels_(channels),
       subscribed_(std::move(subscribed)),
       texts_{server_info(session), advertise(channels)} {}

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "services/viewer/core/frames/conversation.hpp"
 #include "services/viewer/core/foxglove/channels.hpp"
+#include "services/viewer/core/frames/conversation.hpp"
 
 namespace rds::viewer::foxglove {
 
@@ -31,7 +31,8 @@ class FoxgloveClient final : public Conversation {
 
   using Changed = std::function<void(FoxgloveClient& client, std::uint32_t channel)>;
 
-  /// @param channels  outlive this. @param subscribed  called for each channel that the client begins to hear.
+  /// @param channels  outlive this. @param subscribed  called for each channel that the client begins to
+  /// hear.
   FoxgloveClient(const std::vector<Channel>& channels, std::string_view session, Changed subscribed);
 
   bool receive(std::string_view message, bool binary) override;

@@ -36,7 +36,8 @@ struct ChangedChunks {
 
  private:
   void add_keys(const std::vector<std::uint16_t>& keys) {
-    for (std::size_t i = 0; i + 2 < keys.size(); i += 3) chunks.insert(chunk_of(keys[i], keys[i + 1], keys[i + 2]));
+    for (std::size_t i = 0; i + 2 < keys.size(); i += 3)
+      chunks.insert(chunk_of(keys[i], keys[i + 1], keys[i + 2]));
   }
 };
 

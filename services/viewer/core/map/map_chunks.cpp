@@ -16,7 +16,9 @@ constexpr std::size_t kChunkHeaderBytes = 16;
 constexpr std::size_t kVoxelBytes = 8;
 
 octomap::OcTreeKey first_key(std::uint64_t chunk) {
-  const auto at = [&](unsigned shift) { return static_cast<std::uint16_t>((chunk >> shift & 0xffff) << kChunkBits); };
+  const auto at = [&](unsigned shift) {
+    return static_cast<std::uint16_t>((chunk >> shift & 0xffff) << kChunkBits);
+  };
   return {at(32), at(16), at(0)};
 }
 

@@ -44,7 +44,7 @@ class MapChunks {
   void show_all(const mapper::OctreeReplica& map);
   void put(std::uint64_t chunk, Bytes bytes);
 
-  std::map<std::uint64_t, Chunk> chunks_;                 // empty ones, too: clients may have seen them full
+  std::map<std::uint64_t, Chunk> chunks_;               // empty ones, too: clients may have seen them full
   std::map<std::uint64_t, std::uint64_t> by_sequence_;  // chunk by the number of its last change
   std::uint64_t generation_ = 1;                        // 0 is that of a client without a map
   std::uint64_t sequence_ = 0;

@@ -20,9 +20,8 @@ bool is_token_character(char c) {
 
 bool is_path(std::string_view path) {
   return path.starts_with('/') && path.find("..") == std::string_view::npos &&
-         path.find("//") == std::string_view::npos && std::ranges::all_of(path, [](char c) {
-           return is_token_character(c) || c == '.' || c == '/';
-         });
+         path.find("//") == std::string_view::npos &&
+         std::ranges::all_of(path, [](char c) { return is_token_character(c) || c == '.' || c == '/'; });
 }
 
 /// Takes the same time wherever they differ first.

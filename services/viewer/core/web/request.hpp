@@ -10,11 +10,11 @@ namespace rds::viewer {
 
 /// What of an HTTP request is looked at.
 struct Request {
-  std::string target;         // "/app.js?token=…", as the client sent it
-  std::string host;           // header fields; empty where they are missing
+  std::string target;  // "/app.js?token=…", as the client sent it
+  std::string host;    // header fields; empty where they are missing
   std::string origin;
   std::string authorization;
-  std::string protocols;      // Sec-WebSocket-Protocol
+  std::string protocols;  // Sec-WebSocket-Protocol
 };
 
 /// A target that was understood.
@@ -31,13 +31,13 @@ std::optional<Target> parse_target(std::string_view target);
 
 /// Who may connect.
 struct AccessRules {
-  bool loopback = true;                        // the port is one of 127.0.0.1 or ::1
-  std::string token;                           // empty: none is asked for
-  std::vector<std::string> allowed_origins;    // besides the page's own
+  bool loopback = true;                      // the port is one of 127.0.0.1 or ::1
+  std::string token;                         // empty: none is asked for
+  std::vector<std::string> allowed_origins;  // besides the page's own
 };
 
-/// True unless a page of another site may be behind it: the browser was led to this port by a name that is not
-/// this machine's (DNS rebinding). Any name will do where a token is asked for.
+/// True unless a page of another site may be behind it: the browser was led to this port by a name that is
+/// not this machine's (DNS rebinding). Any name will do where a token is asked for.
 bool is_own_host(std::string_view host, const AccessRules& rules);
 
 /// True for programs that are no browser (no Origin), for this server's own page, and for those allowed.

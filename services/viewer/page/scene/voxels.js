@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, BufferAttribute, Color, DataTexture, DoubleSide, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, RGBAFormat, ShaderMaterial, Sphere, UnsignedByteType, Vector3 } from "../vendor/three/three.module.js";
+import { Box3, BufferAttribute, DataTexture, DoubleSide, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, RGBAFormat, ShaderMaterial, Sphere, UnsignedByteType, Vector3 } from "../vendor/three/three.module.js";
 
 const SIDE = 32; // voxels of a chunk, as the frames have them
 const MIDDLE = 32768; // key of the map's origin
@@ -97,11 +97,9 @@ export class Voxels {
   put({ key, count, voxels }) {
     const name = key.join();
     const before = this.chunks.get(name);
-    if (before) {
-      this.drop(before.mesh);
-      for (const figure of ["voxels", "keySum", "labelled"]) this.stats[figure] -= before[figure];
-    }
-    const chunk = { voxels: count, ...this.sums(key, voxels), key, mesh: count ? this.mesh(key, voxels) : null };
+    for (const figure of ["voxels", "keySum", "labelled"]) this.stats[figure] -= before?.[figure] ?? 0;
+    if (!count) this.drop(before?.mesh);
+    const chunk = { voxels: count, ...this.sums(key, voxels), mesh: count ? this.mesh(key, voxels, before?.mesh) : null };
     for (const figure of ["voxels", "keySum", "labelled"]) this.stats[figure] += chunk[figure];
     this.chunks.set(name, chunk);
   }
@@ -116,7 +114,8 @@ export class Voxels {
     return { keySum, labelled };
   }
 
-  mesh(key, voxels) {
+  /// @param before  the mesh of this chunk until now, which is used again.
+  mesh(key, voxels, before) {
     const size = SIDE * this.resolution;
     const origin = new Vector3(...key).multiplyScalar(SIDE).subScalar(MIDDLE).multiplyScalar(this.resolution);
     const geometry = new InstancedBufferGeometry();
@@ -126,6 +125,11 @@ export class Voxels {
     geometry.instanceCount = voxels.length / 4;
     geometry.boundingBox = new Box3(origin.clone(), origin.clone().addScalar(size));
     geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
+    if (before) {
+      before.geometry.dispose();
+      before.geometry = geometry;
+      return before;
+    }
     const material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, uniforms: { ...this.shared, origin: { value: origin } } });
     const mesh = new Mesh(geometry, material);
     mesh.matrixAutoUpdate = false;

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
-#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::tools {

@@ -85,8 +85,8 @@ fs::path write_config(const YAML::Node& node, const fs::path& file) {
 }
 
 /// The command that starts a process of the run with these settings.
-ServiceCommand command_of(const std::string& process, const YAML::Node& settings, const RunOptions& options, int domain,
-                          const fs::path& folder) {
+ServiceCommand command_of(const std::string& process, const YAML::Node& settings, const RunOptions& options,
+                          int domain, const fs::path& folder) {
   const fs::path executables = fs::read_symlink("/proc/self/exe").parent_path();
   fs::create_directories(folder / "config");
   fs::create_directories(folder / "log");

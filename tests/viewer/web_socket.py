@@ -13,7 +13,10 @@ class Refused(Exception):
 
 class WebSocket:
     def __init__(self, port, target="/socket", protocol="rds.view.v1", headers=(), limit_s=60):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=limit_s)
+        self.socket = socket.socket()
+        self.socket.settimeout(limit_s)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 14)  # who does not read holds little
+        self.socket.connect(("127.0.0.1", port))
         self.buffered = b""
         lines = [
             f"GET {target} HTTP/1.1", f"Host: 127.0.0.1:{port}", "Upgrade: websocket", "Connection: Upgrade",

@@ -137,6 +137,7 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
   answers.status = commander_.ask_status(services_.names().size(), stop, seconds(2));
+  answers.status.erase(kViewer);  // who looks on is no part of the results
   return answers;
 }
 

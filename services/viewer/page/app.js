@@ -66,7 +66,7 @@ const listener = {
     clearTimeout(silence);
     silence = setTimeout(() => setState("no camera", "none"), SILENT_MS);
     byId("stat-frame").textContent = `${tracking.total_ms.toFixed(1)} ms`;
-    byId("stat-inliers").textContent = tracking.inliers;
+    byId("stat-inliers").textContent = tracking.inliers.toFixed(0);
     if (tracking.state === 1 || tracking.state === 2 || tracking.state === 4) view.setPose(tracking.pose);
     plots.add(tracking);
   },
@@ -99,7 +99,10 @@ const listener = {
     view.heights();
     view.fit(true);
   },
-  picture: (told) => picture.show(told),
+  async picture(told) {
+    await picture.show(told);
+    byId("picture").hidden = !settings.layers.has("picture");
+  },
   services: (told) => services.show(told),
   reply: (told) => commandsPanel.reply(told),
 };
@@ -127,7 +130,7 @@ function setLayer(name, shown) {
   else settings.layers.delete(name);
   document.querySelector(`input[name=layer][value=${name}]`).checked = shown;
   if (name === "picture") {
-    byId("picture").hidden = !shown;
+    byId("picture").hidden = !shown || !picture.shown;
     connection?.wantPicture(shown);
   } else {
     view.setLayer(name, shown);
@@ -154,6 +157,7 @@ function setFollow(follows) {
 function setPanel(shown) {
   byId("panel").hidden = !shown;
   byId("menu").setAttribute("aria-expanded", shown);
+  view.setInset(shown && !NARROW.matches ? byId("panel").offsetWidth + 12 : 0);
 }
 
 let addressDue = 0;
@@ -202,6 +206,7 @@ byId("fit").onclick = fit;
 byId("follow").onclick = () => setFollow(!view.follows);
 byId("theme").onclick = () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
 byId("menu").onclick = () => setPanel(byId("panel").hidden);
+NARROW.addEventListener("change", () => setPanel(!NARROW.matches));
 matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => settings.theme ?? setTheme(null));
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input:not([type=radio]):not([type=checkbox])")) return;

@@ -29,6 +29,7 @@ export class View {
     this.labels = new Labels(names);
     this.follows = false;
     this.pictures = 0;
+    this.inset = 0;
     this.orbit = new Orbit(this.camera, canvas, () => this.changed());
     this.hidden = new Set();
     this.setTheme("dark");
@@ -53,7 +54,14 @@ export class View {
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, this.inset / 2, 0, width, height);
     this.changed();
+  }
+
+  /// So much at the right is covered [px]: the middle of the picture is that of the rest.
+  setInset(inset) {
+    this.inset = inset;
+    this.resize();
   }
 
   /// The grid lies level at the floor's height: from it follow up and the floor.

@@ -26,7 +26,6 @@ void MapFeed::take() {
     const std::lock_guard lock(mutex_);
     changed = std::exchange(changed_, {});
   }
-  if (changed.empty()) return;
   map_.map().look([&](const mapper::OctreeReplica& map, const std::vector<std::string>& labels) {
     board_.map.show(map, changed);
     if (labels == labels_) return;

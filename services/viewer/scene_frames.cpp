@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/labels/table.hpp"
 #include "common/messages/detection_conversions.hpp"
 #include "common/messages/json.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
@@ -95,6 +96,7 @@ Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state) {
 
 Expected<Bytes> boxes_frame(const rds_msgs::msg::PredictedBoxes& boxes) {
   if (auto fault = fault_of(boxes); !fault.empty()) return tl::unexpected(std::move(fault));
+  static const labels::Table kTable;
   Json list = Json::array();
   for (std::size_t i = 0; i < boxes.ids().size(); ++i)
     list.push_back({{"id", boxes.ids()[i]},
@@ -105,6 +107,7 @@ Expected<Bytes> boxes_frame(const rds_msgs::msg::PredictedBoxes& boxes) {
                     {"max", row_of(boxes.maximums(), i, 3)},
                     {"velocity", row_of(boxes.velocities(), i, 3)},
                     {"age_s", boxes.ages()[i]},
+                    {"movable", kTable[boxes.labels()[i]].movable},
                     {"color", color_of(boxes.labels()[i])}});
   return json_frame(Kind::kBoxes, list);
 }

@@ -50,6 +50,15 @@ class LiveReplica {
     tell(nullptr);
   }
 
+  /// The label table of a map as it is told beside its deltas; another map's is left.
+  void tell_labels(std::uint64_t map_id, const std::vector<std::string>& labels) {
+    const std::lock_guard lock(mutex_);
+    if (!replica_.is_valid() || replica_.map_id() != map_id || labels == labels_) return;
+    labels_ = labels;
+    static const MapDelta kNoVoxels;
+    tell(&kNoVoxels);
+  }
+
   /// Of which map it is, and how far; zeros without one.
   struct Place {
     std::uint64_t map_id = 0;

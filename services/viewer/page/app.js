@@ -85,8 +85,9 @@ const listener = {
   },
   boxes(boxes) {
     picture.boxes = boxes;
-    view.layers.setBoxes(boxes);
-    moving.show(boxes.map(({ id, label, velocity, color }) => ({ text: `${label} ${id}`, note: `${Math.hypot(...velocity).toFixed(1)} m/s`, color })));
+    const passing = boxes.filter(({ movable }) => movable);
+    view.layers.setBoxes(passing);
+    moving.show(passing.map(({ id, label, velocity, color }) => ({ text: `${label} ${id}`, note: `${Math.hypot(...velocity).toFixed(1)} m/s`, color })));
     view.changed();
   },
   objects(told) {

@@ -65,7 +65,7 @@ std::map<std::string, ServiceUsage> RunServices::stop(const std::stop_token& sto
 
 void RunServices::keep_viewer(const std::stop_token& stop) {
   constexpr std::chrono::hours kLongest{24 * 365};
-  tools::wait_until(std::chrono::steady_clock::now() + kLongest, stop, [this] {
+  tools::wait_until(std::chrono::steady_clock::now() + kLongest, stop, [&] {
     if (!stop.stop_requested()) viewer_->watch();
     return !viewer_->alive(kViewer);
   });

@@ -33,9 +33,9 @@ export class Picture {
 
   drawBoxes(context, width) {
     context.lineWidth = width;
-    context.strokeStyle = context.fillStyle = "#ff8a3d";
     context.font = `600 ${7 * width}px system-ui, sans-serif`;
-    for (const { image, label, id } of this.boxes) {
+    for (const { image, label, id, movable } of this.boxes) {
+      context.strokeStyle = context.fillStyle = movable ? "#ff8a3d" : "rgba(225, 232, 240, .7)";
       context.strokeRect(image[0], image[1], image[2] - image[0], image[3] - image[1]);
       context.fillText(`${label} ${id}`, image[0] + 2 * width, Math.max(image[1], 8 * width) - 2 * width);
     }

@@ -52,6 +52,7 @@ export class Plots {
     this.dynamic = new Plot(element, "dynamic", "", whole);
     this.dropped = new Plot(element, "dropped", "", whole);
     this.plots = [this.total, this.inliers, this.dynamic, this.dropped];
+    new ResizeObserver(() => this.draw()).observe(element);
   }
 
   add(tracking) {
@@ -63,7 +64,11 @@ export class Plots {
     this.due = true;
     requestAnimationFrame(() => {
       this.due = false;
-      for (const plot of this.plots) plot.draw();
+      this.draw();
     });
+  }
+
+  draw() {
+    for (const plot of this.plots) plot.draw();
   }
 }

@@ -13,7 +13,7 @@ export class Orbit {
   constructor(camera, element, changed) {
     this.camera = camera;
     this.changed = changed;
-    this.wanted = { target: new Vector3(), angle: new Spherical(9, 0.95, -0.8) }; // radius, polar, azimuth
+    this.wanted = { target: new Vector3(), angle: new Spherical(9, 0.98, -2.05) }; // radius, polar, azimuth
     this.shown = { target: new Vector3(), angle: this.wanted.angle.clone() };
     this.touched = false; // by the user: the view no longer follows the map's size
     this.pointers = new Map();

@@ -98,7 +98,7 @@ export class View {
     const box = this.voxels.box();
     if (box.isEmpty()) return;
     const radius = box.getSize(new Vector3()).length() / 2;
-    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.86 / Math.min(1, this.camera.aspect);
+    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.68 / Math.min(1, this.camera.aspect);
     this.orbit.lookAt(this.world(box.getCenter(new Vector3())), Math.max(distance, 1));
   }
 

@@ -65,6 +65,7 @@ export class Voxels {
     this.chunks = new Map(); // by key
     this.labels = new DataTexture(new Uint8Array(LABELS * 4).fill(160), 64, 64, RGBAFormat, UnsignedByteType);
     this.labels.minFilter = this.labels.magFilter = NearestFilter;
+    this.labels.needsUpdate = true;
     this.shared = { eye: { value: new Vector3() }, up: { value: new Vector3(0, -1, 0) }, heights: { value: [0, 1] }, side: { value: 0.05 }, mode: { value: 0 }, dimmed: { value: -1 }, labels: { value: this.labels } };
     this.corner = new BufferAttribute(CORNER, 3);
     this.generation = null;

@@ -40,6 +40,7 @@ TEST(SceneFrames, BoxesHaveIdsLabelsAndVelocities) {
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[1]["id"], 9);
   EXPECT_EQ(told[0]["label"], "person");
+  EXPECT_EQ(told[0]["movable"], true);
   EXPECT_EQ(told[0]["velocity"], json({0.5, 0.0, 0.0}));
   EXPECT_EQ(told[1]["image"], json({5.0, 6.0, 7.0, 8.0}));
 }

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# setup.sh [--ros | --no-zenoh]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
+# setup.sh [--ros] [--viewer] [--no-zenoh]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
 # (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
 #
 # --no-zenoh  without the compiler and sources of Zenoh (100 MB), so --bus zenoh is left out of the build.
 # --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs, and readers of
 #             ROS 2's recordings in .venv-records, and other people's Zenoh in .venv-zenoh.
+# --viewer    also Chromium, Node.js and, in tests/viewer/node_modules, npm packages, for the tests of the viewer's page.
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -81,6 +82,26 @@ set_up_zenoh() {
   long_step cargo-fetch quiet "$cargo" fetch --locked --manifest-path "$root/common/bus/zenoh/crate/Cargo.toml"
 }
 
+# Programs that are there already, of Debian or not, are left alone.
+set_up_viewer() {
+  local -a missing=()
+  command -v chromium >/dev/null || missing+=(chromium)
+  command -v npm >/dev/null || missing+=(nodejs npm)
+  if [ ${#missing[@]} != 0 ]; then
+    say "the page's tests: installing ${missing[*]}"
+    install_packages "${missing[@]}"
+  fi
+  local folder=$root/tests/viewer wanted
+  wanted=$(sha256sum <"$folder/package-lock.json")
+  if [ "$(cat "$folder/node_modules/lock.sha256" 2>/dev/null)" = "$wanted" ]; then
+    say "the page's tests: all there"
+    return
+  fi
+  say "the page's tests: installing into tests/viewer/node_modules"
+  long_step npm quiet npm --prefix "$folder" ci --no-audit --no-fund
+  echo "$wanted" >"$folder/node_modules/lock.sha256"
+}
+
 set_up_network() {
   local shared=${RDS_SHARED:+$RDS_SHARED/models/mobilenetv2_ssdlite_voc.onnx}
   if [ -n "$shared" ] && [ -f "$shared" ]; then
@@ -94,10 +115,21 @@ set_up_network() {
   fi
 }
 
-case ${1:-} in "" | --ros | --no-zenoh) ;; *) fail "$1: expected --ros, --no-zenoh or nothing" ;; esac
+with_ros=false
+with_viewer=false
+with_zenoh=true
+for option in "$@"; do
+  case $option in
+    --ros) with_ros=true ;;
+    --viewer) with_viewer=true ;;
+    --no-zenoh) with_zenoh=false ;;
+    *) fail "$option: expected --ros, --viewer, --no-zenoh or nothing" ;;
+  esac
+done
 check_system
 set_up_packages
 set_up_venv .venv "[2/4] PyPI packages" "$root/tools/requirements.txt" "$root/tools/networks/requirements.txt"
 set_up_network
-[ "${1:-}" = --no-zenoh ] || set_up_zenoh
-[ "${1:-}" != --ros ] || set_up_ros
+! $with_zenoh || set_up_zenoh
+! $with_ros || set_up_ros
+! $with_viewer || set_up_viewer

@@ -104,19 +104,24 @@ int start(const std::string& name, const Options& options,
           const std::function<ServiceFactory(config::ConfigReader&)>& read) {
   auto reader = config::from_file_with(options.config_path, options.parameters, "ROS parameters");
   const ServiceFactory factory = read(reader);
-  auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
-                                               .domain = options.domain,
-                                               .node_name = options.node_name,
-                                               .loopback_only = options.loopback_only,
-                                               .peers = bus::peer_addresses(options.peers),
-                                               .credentials = credentials(name, options),
-                                               .node_namespace = options.node_namespace,
-                                               .remappings = options.remappings,
-                                               .ros_distro = bus::ros_distro_from_name(options.ros_distro)});
+  const bus::ParticipantOptions joining{.vendor = bus::vendor_from_name(options.vendor),
+                                        .domain = options.domain,
+                                        .node_name = options.node_name,
+                                        .loopback_only = options.loopback_only,
+                                        .peers = bus::peer_addresses(options.peers),
+                                        .credentials = credentials(name, options),
+                                        .node_namespace = options.node_namespace,
+                                        .remappings = options.remappings,
+                                        .ros_distro = bus::ros_distro_from_name(options.ros_distro)};
+  auto participant = bus::Participant::create(joining);
   Diagnostics diagnostics;
-  ServiceContext context{name, *participant, diagnostics, options.domain};
-  context.node_namespace = bus::normal_namespace(options.node_namespace);
-  context.frame_prefix = options.frame_prefix;
+  ServiceContext context{.name = name,
+                         .bus = *participant,
+                         .diagnostics = diagnostics,
+                         .domain = options.domain,
+                         .participant = joining,
+                         .node_namespace = bus::normal_namespace(options.node_namespace),
+                         .frame_prefix = options.frame_prefix};
   ServiceProcess process(context, factory, options.exit_when_hung_s);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
@@ -131,7 +136,8 @@ void give_way(int nice) {
 }
 
 int run_service(const std::string& name, int argc, char** argv,
-                const std::function<ServiceFactory(config::ConfigReader&)>& read) {
+                const std::function<ServiceFactory(config::ConfigReader&)>& read,
+                const std::function<void(CLI::App&)>& add_own_options) {
   const sigset_t signals =
       stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -141,6 +147,7 @@ int run_service(const std::string& name, int argc, char** argv,
   options.node_name = name;
   std::ranges::replace(options.node_name, '-', '_');  // ROS 2 knows no hyphens
   add_options(app, options);
+  if (add_own_options) add_own_options(app);
   try {
     CommandLine line = split_command_line({argv + 1, argv + argc});
     std::ranges::reverse(line.own);  // as CLI11 takes them

@@ -20,6 +20,10 @@
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace rds::service {
 
 /// What a service is given by its process.
@@ -28,9 +32,10 @@ struct ServiceContext {
   bus::Participant& bus;
   Diagnostics& diagnostics;
   int domain = 0;
-  std::uint64_t instance = random_id();  // of this process, in all that it publishes
-  std::string node_namespace = "/";      // of the robot
-  std::string frame_prefix = {};         // of the robot's frames
+  std::uint64_t instance = random_id();      // of this process, in all that it publishes
+  bus::ParticipantOptions participant = {};  // how it joined the bus
+  std::string node_namespace = "/";          // of the robot
+  std::string frame_prefix = {};             // of the robot's frames
 
   /// The robot's frame of this name: "robot1/map".
   [[nodiscard]] std::string frame(const std::string& id) const { return frame_prefix + id; }
@@ -140,9 +145,11 @@ using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&)>;
 
 /// The whole main() of a service: command line, configuration, log, signals, commands, diagnostics, worker.
 /// @param read  reads the configuration. @throws config::ConfigError naming all that is wrong in it.
+/// @param add_options  adds options of the service's own to the command line, before it is read.
 /// @return 0 after a clean stop, 1 after a fault, 2 for bad usage or configuration.
 int run_service(const std::string& name, int argc, char** argv,
-                const std::function<ServiceFactory(config::ConfigReader&)>& read);
+                const std::function<ServiceFactory(config::ConfigReader&)>& read,
+                const std::function<void(CLI::App&)>& add_options = {});
 
 /// Lowers the priority of the process, and lets its threads share freed memory if that is above 0; says so
 /// where the priority is not allowed. Call before there are threads.

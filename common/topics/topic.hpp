@@ -11,17 +11,18 @@
 namespace rds::topics {
 
 /// A process of this project, or a set of them.
-enum class Process : std::uint8_t {
+enum class Process : std::uint16_t {
   kNone = 0,
   kTracker = 1,
   kDetector = 2,
   kTransformer = 4,
   kMapper = 8,
   kLoopCloser = 16,
-  kServices = 31,
-  kPlayer = 32,   // rds run, rds play
-  kTool = 64,     // the other subcommands of rds
-  kFarRun = 128,  // rds run on a machine without the camera
+  kServices = 31,  // these five
+  kPlayer = 32,    // rds run, rds play
+  kTool = 64,      // the other subcommands of rds
+  kFarRun = 128,   // rds run on a machine without the camera
+  kViewer = 256,
 };
 using enum Process;
 

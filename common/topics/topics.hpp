@@ -54,9 +54,13 @@ namespace rds::topics {
 
 // The camera. Names where the settings say no others (tracker: camera, transformer: camera_info_topic).
 inline constexpr Topic<sensor_msgs::msg::Image> kColor{
-    "camera/color/image_raw", {{kPlayer, bus::kSensor}}, {{kTracker, bus::kSensor}}};
+    "camera/color/image_raw",
+    {{kPlayer, bus::kSensor}},
+    {{kTracker, bus::kSensor}, {kViewer, bus::kSensorBestEffort}}};
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kCameraInfo{
-    "camera/color/camera_info", {{kPlayer, bus::kSensor}}, {{kTracker | kTransformer, bus::kSensor}}};
+    "camera/color/camera_info",
+    {{kPlayer, bus::kSensor}},
+    {{kTracker | kTransformer, bus::kSensor}, {kViewer, bus::kSensorBestEffort}}};
 inline constexpr Topic<sensor_msgs::msg::Image> kDepth{
     "camera/aligned_depth_to_color/image_raw", {{kPlayer, bus::kSensor}}, {{kTracker, bus::kSensor}}};
 
@@ -75,11 +79,11 @@ inline constexpr Topic<tf2_msgs::msg::TFMessage> kTransforms{
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kStaticTransforms{
     "tf_static", {}, {{kTracker, bus::kLatchedEvery}}, true};
 inline constexpr Topic<rds_msgs::msg::TrackingState> kTrackingState{
-    "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+    "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 inline constexpr Topic<rds_msgs::msg::PredictedBoxes> kPredictedBoxes{
-    "rds/predicted_boxes", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+    "rds/predicted_boxes", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 inline constexpr Topic<rds_msgs::msg::FrameFeatures> kFeatures{
-    "rds/features", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
+    "rds/features", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 
 // Each keyframe.
 inline constexpr Topic<rds_msgs::msg::KeyFrameImages> kKeyframeImages{
@@ -89,7 +93,7 @@ inline constexpr Topic<rds_msgs::msg::KeyFrameFeatures> kKeyframeFeatures{
 inline constexpr Topic<rds_msgs::msg::KeyFramePoses> kKeyframePoses{
     "rds/keyframe/poses",
     {{kTracker, bus::kPoses}, {kLoopCloser, bus::kLatched}},
-    {{kTracker | kTransformer | kMapper | kPlayer, bus::kLatchedEvery}}};
+    {{kTracker | kTransformer | kMapper | kPlayer | kViewer, bus::kLatchedEvery}}};
 inline constexpr Topic<vision_msgs::msg::Detection2DArray> kDetections{
     "rds/detections", {{kDetector, bus::kStream}}, {{kTransformer | kPlayer, bus::kStream}}};
 inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
@@ -99,20 +103,23 @@ inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
 
 // The map.
 inline constexpr Topic<rds_msgs::msg::OctreeDelta> kMapDelta{
-    "rds/map/delta", {{kMapper, bus::kDelta}}, {{kTool, bus::kDelta}}};
+    "rds/map/delta", {{kMapper, bus::kDelta}}, {{kTool | kViewer, bus::kDelta}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapFull{
-    "rds/map/full", {{kMapper, bus::kLatchedLarge}}, {{kTool, bus::kLatched}}};
+    "rds/map/full", {{kMapper, bus::kLatchedLarge}}, {{kTool | kViewer, bus::kLatched}}};
 inline constexpr Topic<octomap_msgs::msg::Octomap> kMapBinary{
     "rds/map/binary", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<sensor_msgs::msg::PointCloud2> kMapPoints{
     "rds/map/points", {{kMapper, bus::kLatchedLarge}}, {}};
 inline constexpr Topic<rds_msgs::msg::MapInfo> kMapInfo{
-    "rds/map/info", {{kMapper, bus::kLatchedEvery}}, {{kPlayer, bus::kLatched}, {kTool, bus::kLatchedEvery}}};
+    "rds/map/info",
+    {{kMapper, bus::kLatchedEvery}},
+    {{kPlayer, bus::kLatched}, {kTool | kViewer, bus::kLatchedEvery}}};
 inline constexpr Topic<vision_msgs::msg::Detection3DArray> kMapObjects{
-    "rds/map/objects", {{kMapper, bus::kLatched}}, {}};
+    "rds/map/objects", {{kMapper, bus::kLatched}}, {{kViewer, bus::kLatched}}};
 inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
     "rds/map/markers", {{kMapper, bus::kLatched}}, {}};
-inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{"rds/map/grid", {{kMapper, bus::kLatched}}, {}};
+inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{
+    "rds/map/grid", {{kMapper, bus::kLatched}}, {{kViewer, bus::kLatched}}};
 
 // To readers on other machines, in place of the topics of keyframes (common/transfer).
 inline constexpr const char* kTransferPrefix = "rds/transfer/";
@@ -129,12 +136,12 @@ inline constexpr Topic<rds_msgs::msg::TransferChunk> kTransferToLoopCloser{
     "rds/transfer/loop_closer", {{kTracker, bus::kDatagrams}}, {{kLoopCloser, bus::kDatagrams}}};
 // To readers of the map on other machines, in place of rds/map/full, rds/map/info and rds/map/delta.
 inline constexpr Topic<rds_msgs::msg::TransferOffer> kMapOffers{
-    "rds/map/offers", {{kMapper, bus::kLatched}}, {{kTool, bus::kLatched}}};
+    "rds/map/offers", {{kMapper, bus::kLatched}}, {{kTool | kViewer, bus::kLatched}}};
 inline constexpr Topic<rds_msgs::msg::TransferRequest> kMapRequests{
-    "rds/map/requests", {{kTool, bus::kDatagrams}}, {{kMapper, bus::kDatagrams}}};
+    "rds/map/requests", {{kTool | kViewer, bus::kDatagrams}}, {{kMapper, bus::kDatagrams}}};
 /// Each reader has one of its own: this name, a slash and the reader's instance.
 inline constexpr Topic<rds_msgs::msg::TransferChunk> kMapChunks{
-    "rds/map/chunks", {{kMapper, bus::kDatagrams}}, {{kTool, bus::kDatagrams}}};
+    "rds/map/chunks", {{kMapper, bus::kDatagrams}}, {{kTool | kViewer, bus::kDatagrams}}};
 /// The one that a reader hears alone, so that none has to take what another one asks for.
 inline const Topic<rds_msgs::msg::TransferChunk>& transfer_to(Process reader) {
   return reader == kTool       ? kMapChunks
@@ -151,15 +158,18 @@ inline constexpr Topic<rds_msgs::msg::CommandResult> kRunReply{
 
 // Every service.
 inline constexpr Topic<rds_msgs::msg::Command> kCommand{
-    "rds/command", {{kPlayer | kTool, bus::kCommand}}, {{kServices, bus::kCommand}}};
+    "rds/command", {{kPlayer | kTool | kViewer, bus::kCommand}}, {{kServices | kViewer, bus::kCommand}}};
 inline constexpr Topic<rds_msgs::msg::CommandResult> kCommandResult{
-    "rds/command_result", {{kServices, bus::kCommand}}, {{kPlayer | kTool, bus::kCommand}}};
+    "rds/command_result",
+    {{kServices | kViewer, bus::kCommand}},
+    {{kPlayer | kTool | kViewer, bus::kCommand}}};
 inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
     "rds/services",
-    {{kServices, bus::kLatched}},
-    {{kServices | kPlayer, bus::kLatchedOfEach}, {kTool, bus::kStream}}};  // rds status: what is said now
+    {{kServices | kViewer, bus::kLatched}},
+    {{kServices | kPlayer | kViewer, bus::kLatchedOfEach},
+     {kTool, bus::kStream}}};  // rds status: what is said now
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
-    "diagnostics", {{kServices, bus::kStream}}, {}, true};
+    "diagnostics", {{kServices | kViewer, bus::kStream}}, {{kViewer, bus::kStream}}, true};
 
 inline constexpr std::tuple kAllTopics{kColor,
                                        kCameraInfo,

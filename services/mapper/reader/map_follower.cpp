@@ -6,8 +6,9 @@
 
 namespace rds::mapper {
 
-MapFollower::MapFollower(service::ServiceContext& context, std::uint64_t host)
+MapFollower::MapFollower(service::ServiceContext& context, std::uint64_t host, MapListener listener)
     : context_(context),
+      replica_(std::move(listener)),
       far_(context, topics::kTool, transfer::kMaps, transfer::Stream::kMapUpdates, transfer::Order::kNumber,
            {.item = [this](std::uint64_t map_id, const transfer::Item& item) { take(map_id, item); },
             .where = [this](Where where) { change_over(where); },

@@ -20,7 +20,9 @@ class MapFollower {
   using Where = transfer::ItemClient::Where;
 
   /// @param context  of this process; its diagnostics count what was refused. @param host  for tests.
-  explicit MapFollower(service::ServiceContext& context, std::uint64_t host = transfer::this_host());
+  /// @param listener  called with each change, on threads of this follower.
+  explicit MapFollower(service::ServiceContext& context, std::uint64_t host = transfer::this_host(),
+                       MapListener listener = {});
 
   [[nodiscard]] const LiveReplica& map() const { return replica_; }
   /// Where the mapper is (any thread).

@@ -68,6 +68,7 @@ void TopicUpdates::take(Full full) {
 /// Another mapper may give the stamp of an earlier one's map again: what is told of that one is over.
 void TopicUpdates::take(Info info) {
   std::erase_if(infos_, [&](const auto& told) { return told.second->map_id() != info->map_id(); });
+  replica_.tell_labels(info->map_id(), info->labels());
   if (!info->describes_full()) return;
   infos_[messages::to_nanoseconds(info->header().stamp())] = std::move(info);
   bound(infos_);

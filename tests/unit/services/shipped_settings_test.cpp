@@ -7,6 +7,7 @@
 #include "services/mapper/mapper_service_config.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "services/transformer/transformer_service_config.hpp"
+#include "services/viewer/viewer_service_config.hpp"
 
 namespace rds {
 namespace {
@@ -36,6 +37,10 @@ TEST(ShippedSettings, Tracker) {
 }
 TEST(ShippedSettings, Transformer) {
   expect_every_default<transformer::TransformerServiceConfig>("transformer/transformer.yaml");
+}
+
+TEST(ShippedSettings, Viewer) {
+  expect_every_default<viewer::ViewerServiceConfig>("viewer/viewer.yaml");
 }
 
 }  // namespace

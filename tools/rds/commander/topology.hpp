@@ -17,6 +17,7 @@ inline const std::string kDetector = "rds-detector";
 inline const std::string kTransformer = "rds-transformer";
 inline const std::string kMapper = "rds-mapper";
 inline const std::string kLoopCloser = "rds-loop-closer";
+inline const std::string kViewer = "rds-viewer";  // reads, and nobody waits for it
 
 /// "rds-loop-closer" of "loop_closer", "loop-closer" or "rds-loop-closer"; empty if there is no such service.
 std::string service_of(const std::string& name);

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "common/map_file/atomic_file.hpp"
-#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/segmentation/gravity.hpp"
+#include "services/mapper/io/map_files.hpp"
 
 namespace rds::tools {
 namespace {
@@ -35,13 +35,20 @@ double voxels_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf
   return side * side * side;
 }
 
+/// Sum of x + y + z over the keys of the voxels inside a leaf.
+std::uint64_t key_sum_of(const ColorOcTree& tree, const ColorOcTree::leaf_iterator& leaf) {
+  const std::uint64_t side = std::uint64_t{1} << (tree.getTreeDepth() - leaf.getDepth());
+  const octomap::OcTreeKey first = leaf.getIndexKey();
+  return side * side * side * (first[0] + first[1] + first[2]) + 3 * side * side * side * (side - 1) / 2;
+}
+
 std::vector<ColoredPoint> occupied_points(const ColorOcTree& tree) {
   std::vector<ColoredPoint> points;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     if (!is_occupied(*leaf)) continue;
     const auto color = leaf->getColor();
-    points.push_back({Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>(),
-                      {color.r, color.g, color.b}});
+    points.push_back(
+        {Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ()).cast<float>(), {color.r, color.g, color.b}});
   }
   return points;
 }
@@ -111,7 +118,8 @@ Result export_map(const ColorOcTree& tree, const std::string& format, const std:
                   const std::string& up) {
   if (format == "ot") return mapper::write_tree(file, tree);
   if (format == "bt") return map_file::write_atomically(file, to_bt(tree));
-  if (format == "ply") return map_file::write_atomically(
+  if (format == "ply")
+    return map_file::write_atomically(
         file, to_ply(occupied_points(tree), fmt::format("occupied voxels of {} m", tree.getResolution())));
   if (format == "pcd") return map_file::write_atomically(file, to_pcd(occupied_points(tree)));
   if (format == "pgm") return write_pgm(tree, file, up);
@@ -123,12 +131,14 @@ nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
   double occupied = 0;
   double free = 0;
   std::size_t leaves = 0;
+  std::uint64_t key_sum = 0;
   Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     ++leaves;
     (is_occupied(*leaf) ? occupied : free) += voxels_of(tree, leaf);
     if (!is_occupied(*leaf)) continue;
+    key_sum += key_sum_of(tree, leaf);
     const Eigen::Array3d center(leaf.getX(), leaf.getY(), leaf.getZ());
     low = low.min(center - leaf.getSize() / 2);
     high = high.max(center + leaf.getSize() / 2);
@@ -140,6 +150,7 @@ nlohmann::ordered_json describe_map(const ColorOcTree& tree) {
                               {"leaves", leaves},
                               {"occupied_voxels", static_cast<std::uint64_t>(occupied)},
                               {"free_voxels", static_cast<std::uint64_t>(free)},
+                              {"occupied_key_sum", key_sum},
                               {"occupied_m3", occupied * voxel_m * voxel_m * voxel_m}};
   if (occupied > 0) {
     json["bounds_min"] = {low.x(), low.y(), low.z()};

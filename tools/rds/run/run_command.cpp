@@ -9,6 +9,7 @@
 #include "common/config/config_reader.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/io/map_files.hpp"
+#include "services/viewer/listen_address.hpp"
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
@@ -24,6 +25,7 @@ namespace rds::run {
 namespace {
 
 constexpr int kBadUsage = 2;
+constexpr const char* kViewPort = "8080";
 const std::set<std::string> kProcesses{kPlayer, kTracker, kDetector, kTransformer, kMapper, kLoopCloser};
 
 /// "fastdds", or "tracker=cyclonedds,mapper=fastdds" for single processes.
@@ -57,6 +59,12 @@ void check_vendors(const RunOptions& options) {
   const auto count = std::ranges::count_if(kProcesses, on_zenoh);
   if (count != 0 && count != std::ssize(kProcesses))
     throw std::runtime_error("--bus: expected zenoh for all processes or for none, it does not meet DDS");
+}
+
+void check_view(const RunOptions& options) {
+  if (options.view.empty()) return;
+  if (const auto listen = viewer::parse_listen_address(options.view); !listen)
+    throw std::runtime_error(fmt::format("--view={}: expected {}", options.view, listen.error()));
 }
 
 void check_files(const RunOptions& options) {
@@ -134,6 +142,7 @@ int run(RunOptions& options, const std::string& vendors, const HostsOptions& whe
     check_vendors(options);
     check_secured(options);
     check_files(options);
+    check_view(options);
     check_map(options);
     const auto elsewhere = place(options, where);
     Interrupt interrupt;
@@ -198,10 +207,16 @@ void add_run_command(CLI::App& rds) {
   command
       ->add_option("--secure", options->secure.folder, "run on a secured domain: folder of rds secure init")
       ->envname("RDS_SECURE");
+  command->add_flag(
+      "--view{8080}", options->view,
+      "serve a page that shows the run: --view=PORT or --view=ADDRESS:PORT (default: 127.0.0.1:8080)");
+  command->add_flag("--view-keep", options->view_keep,
+                    "as --view, and the page stays after the results, until Ctrl-C");
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, no_dynamics] {
     options->dynamics = !*no_dynamics;
+    if (options->view_keep && options->view.empty()) options->view = kViewPort;
     const int status = run(*options, *vendors, *where);
     if (status != 0) throw CLI::RuntimeError(status);
   });

@@ -26,12 +26,13 @@ class RunServices {
  public:
   /// Starts those that run here. @param folder  of the run.
   /// @throws std::runtime_error, config::ConfigError with one sentence.
-  RunServices(const RunOptions& options, int domain, const std::filesystem::path& folder, bus::Participant& bus,
-              const std::optional<Elsewhere>& elsewhere);
+  RunServices(const RunOptions& options, int domain, const std::filesystem::path& folder,
+              bus::Participant& bus, const std::optional<Elsewhere>& elsewhere);
 
   /// Starts the others. @throws std::runtime_error with one sentence, as FarMachines::begin().
   void begin_elsewhere(const std::stop_token& stop);
-  /// Restarts those here that died. @throws Fleet::StartupFailure, std::runtime_error as FarMachines::watch().
+  /// Restarts those here that died. @throws Fleet::StartupFailure, std::runtime_error as
+  /// FarMachines::watch().
   void watch();
 
   [[nodiscard]] std::set<std::string> names() const;
@@ -41,13 +42,18 @@ class RunServices {
 
   /// Brings what services on other machines have below `folder` of the run here.
   void fetch(const std::string& folder, const std::stop_token& stop);
-  /// Stops all, and brings the others' logs and settings here. @return what each used.
+  /// Stops all but a viewer that is kept, and brings the others' logs and settings here. @return what each
+  /// used.
   std::map<std::string, ServiceUsage> stop(const std::stop_token& stop);
+  /// Keeps the viewer's page until stop is requested, or the viewer is given up.
+  void keep_viewer(const std::stop_token& stop);
 
  private:
   std::filesystem::path folder_;
   std::unique_ptr<FarMachines> far_;  // nullptr: all are here
   Fleet fleet_;
+  std::unique_ptr<Fleet> viewer_;  // nullptr: none; it is no part of the results
+  bool keeps_viewer_;
 };
 
 }  // namespace rds::run

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "services/viewer/listen_address.hpp"
 #include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/results/results.hpp"
 #include "tools/rds/run/services/join_bus.hpp"
@@ -49,6 +50,8 @@ Session::Session(const RunOptions& options, const image::Recording& dataset,
 int Session::run(const std::stop_token& stop) {
   services_.begin_elsewhere(stop);
   wait_until_connected(stop);
+  if (!options_.view.empty())
+    fmt::print(stderr, "the page: {}\n", viewer::parse_listen_address(options_.view).value().url());
   progress_.start();
   play::PlayerReport report;
   Answers answers;
@@ -63,6 +66,10 @@ int Session::run(const std::stop_token& stop) {
     return 1;
   }
   write_results(std::move(recording), report, answers, usage);
+  if (options_.view_keep) {
+    fmt::print(stderr, "the results are written; the page stays until Ctrl-C\n");
+    services_.keep_viewer(stop);
+  }
   const auto failed = [](const auto& entry) { return !entry.second.failures.empty(); };
   return complete_ && std::ranges::none_of(usage, failed) ? 0 : 1;
 }
@@ -130,6 +137,7 @@ Session::Answers Session::drain(const std::stop_token& stop) {
   answers.map_description = ask(kMapper, "finish", final_poses, stop);
   save_map(stop);
   answers.status = commander_.ask_status(services_.names().size(), stop, seconds(2));
+  answers.status.erase(kViewer);  // who looks on is no part of the results
   return answers;
 }
 

@@ -51,6 +51,7 @@ std::vector<Role> roles(const Topics& camera_topics) {
       service("transformer", topics::kTransformer, camera_topics),
       service("mapper", topics::kMapper),
       service("loop-closer", topics::kLoopCloser),
+      service("viewer", topics::kViewer, Topics{topics::kTransforms.name, "tf_static"} + camera_topics),
       {"operator",
        Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name,
               topics::kMapRequests.name} +

@@ -21,11 +21,9 @@ struct Service {
   Process process;
   std::string folder;
 };
-const std::vector<Service> kFolders{{kTracker, "tracker"},
-                                    {kDetector, "detector"},
-                                    {kTransformer, "transformer"},
-                                    {kMapper, "mapper"},
-                                    {kLoopCloser, "loop_closer"}};
+const std::vector<Service> kFolders{{kTracker, "tracker"},         {kDetector, "detector"},
+                                    {kTransformer, "transformer"}, {kMapper, "mapper"},
+                                    {kLoopCloser, "loop_closer"},  {kViewer, "viewer"}};
 
 std::vector<std::string> lines_of(const std::string& file) {
   std::ifstream in(std::string(RDS_SOURCE_DIR) + "/" + file);

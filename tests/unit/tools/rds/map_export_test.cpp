@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
-#include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
+#include "services/mapper/io/map_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::tools {
@@ -38,6 +38,12 @@ TEST_F(MapExportTest, DescribesWhatIsThere) {
   EXPECT_EQ(json.at("occupied_voxels"), 3);
   EXPECT_EQ(json.at("free_voxels"), 1);
   EXPECT_EQ(json.at("leaves"), 4);
+  std::uint64_t key_sum = 0;  // of all voxels, whichever leaves stand for them
+  octomap::ColorOcTree whole(tree);
+  whole.expand();
+  for (auto leaf = whole.begin_leafs(); leaf != whole.end_leafs(); ++leaf)
+    if (leaf->getLogOdds() > 0) key_sum += leaf.getKey()[0] + leaf.getKey()[1] + leaf.getKey()[2];
+  EXPECT_EQ(json.at("occupied_key_sum"), key_sum);
   EXPECT_NEAR(json.at("bounds_min")[0], 1.0, 1e-6);
   EXPECT_NEAR(json.at("bounds_max")[0], 1.3, 1e-6);
   EXPECT_NEAR(json.at("occupied_m3"), 0.003, 1e-9);

@@ -42,6 +42,8 @@ struct RunOptions {
   std::string node_namespace;  // of the services' topics
   std::optional<Placement> here;  // empty: all services, on this machine
   SecureOptions secure{.identities = {"operator"}};
+  std::string view;        // where rds-viewer serves its page, ADDRESS:PORT or PORT; empty: nowhere
+  bool view_keep = false;  // after the results, until the user stops it
   bool video = false;
   bool force = false;
 

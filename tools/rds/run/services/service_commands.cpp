@@ -12,6 +12,7 @@
 #include "services/mapper/mapper_service_config.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "services/transformer/transformer_service_config.hpp"
+#include "services/viewer/viewer_service_config.hpp"
 #include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/output/result_file.hpp"
 
@@ -49,6 +50,7 @@ YAML::Node read_user_config(const fs::path& file) {
   check<transformer::TransformerServiceConfig>(reader, "transformer");
   check<mapper::MapperServiceConfig>(reader, "mapper");
   check<loop_closer::LoopCloserServiceConfig>(reader, "loop_closer");
+  check<viewer::ViewerServiceConfig>(reader, "viewer");
   reader.finish();
   return YAML::LoadFile(file);
 }
@@ -73,9 +75,35 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
   if (!options.detections.empty()) node["detections_file"] = fs::absolute(options.detections).string();
 }
 
+YAML::Node section_of(const YAML::Node& user, const std::string& key) {
+  return user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
+}
+
 fs::path write_config(const YAML::Node& node, const fs::path& file) {
   write_result(file, YAML::Dump(node) + '\n');
   return file;
+}
+
+/// The command that starts a process of the run with these settings.
+ServiceCommand command_of(const std::string& process, const YAML::Node& settings, const RunOptions& options,
+                          int domain, const fs::path& folder) {
+  const fs::path executables = fs::read_symlink("/proc/self/exe").parent_path();
+  fs::create_directories(folder / "config");
+  fs::create_directories(folder / "log");
+  const fs::path config = write_config(settings, folder / "config" / (process + ".yaml"));
+  std::vector<std::string> line{(executables / process).string(),
+                                "--bus",
+                                bus::name_of(options.vendor_of(process)),
+                                "--domain",
+                                std::to_string(domain),
+                                "--config",
+                                config.string()};
+  if (!options.network) line.emplace_back("--loopback");
+  if (options.here) line.insert(line.end(), {"--peers", options.here->peers});
+  if (!options.node_namespace.empty()) line.insert(line.end(), {"--namespace", options.node_namespace});
+  if (!options.secure.folder.empty())
+    line.insert(line.end(), {"--secure", fs::absolute(options.secure.folder).string()});
+  return {process, std::move(line), folder / "log" / (process + ".log")};
 }
 
 }  // namespace
@@ -88,32 +116,22 @@ std::set<std::string> services_of(const RunOptions& options) {
 }
 
 std::vector<ServiceCommand> service_commands(const RunOptions& options, int domain, const fs::path& folder) {
-  const fs::path executables = fs::read_symlink("/proc/self/exe").parent_path();
   const YAML::Node user = read_user_config(options.config);
-  fs::create_directories(folder / "config");
-  fs::create_directories(folder / "log");
   const std::set<std::string> services = options.here ? options.here->services : services_of(options);
   std::vector<ServiceCommand> commands;
   for (const auto& [process, key] : sections()) {
     if (!services.contains(process)) continue;
-    YAML::Node node = user[key] ? YAML::Clone(user[key]) : YAML::Node(YAML::NodeType::Map);
+    YAML::Node node = section_of(user, key);
     complete(node, process, options, folder);
-    const fs::path config = write_config(node, folder / "config" / (process + ".yaml"));
-    std::vector<std::string> line{(executables / process).string(),
-                                  "--bus",
-                                  bus::name_of(options.vendor_of(process)),
-                                  "--domain",
-                                  std::to_string(domain),
-                                  "--config",
-                                  config.string()};
-    if (!options.network) line.emplace_back("--loopback");
-    if (options.here) line.insert(line.end(), {"--peers", options.here->peers});
-    if (!options.node_namespace.empty()) line.insert(line.end(), {"--namespace", options.node_namespace});
-    if (!options.secure.folder.empty())
-      line.insert(line.end(), {"--secure", fs::absolute(options.secure.folder).string()});
-    commands.push_back({process, std::move(line), folder / "log" / (process + ".log")});
+    commands.push_back(command_of(process, node, options, domain, folder));
   }
   return commands;
+}
+
+ServiceCommand viewer_command(const RunOptions& options, int domain, const fs::path& folder) {
+  YAML::Node node = section_of(read_user_config(options.config), "viewer");
+  node["listen"] = options.view;
+  return command_of(kViewer, node, options, domain, folder);
 }
 
 }  // namespace rds::run

@@ -24,4 +24,7 @@ std::set<std::string> services_of(const RunOptions& options);
 std::vector<ServiceCommand> service_commands(const RunOptions& options, int domain,
                                              const std::filesystem::path& folder);
 
+/// How to start the viewer of the run. @pre options.view is given. @throws as service_commands().
+ServiceCommand viewer_command(const RunOptions& options, int domain, const std::filesystem::path& folder);
+
 }  // namespace rds::run

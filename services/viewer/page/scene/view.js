@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Color, GridHelper, Group, Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer } from "../vendor/three/three.module.js";
+import { Labels } from "./labels.js";
+import { Layers } from "./layers.js";
+import { Orbit } from "./orbit.js";
+import { Voxels } from "./voxels.js";
+
+const MOST_PIXELS = 2; // per CSS pixel
+const BACKGROUND = { dark: "#0f151d", light: "#eef1f4" };
+const FLOOR = { dark: ["#33404e", "#212b36"], light: ["#c2ccd5", "#dce2e8"] };
+// Until the grid tells which way is up: the map's frame is that of the first camera, whose y points down.
+const UP_OF_CAMERA = new Quaternion().setFromRotationMatrix(new Matrix4().set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1));
+
+/// The picture: draws when something has changed.
+export class View {
+  constructor(canvas, names) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS));
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(50, 1, 0.05, 200);
+    this.camera.up.set(0, 0, 1);
+    this.root = new Group(); // the map's frame, turned so that z is up
+    this.root.quaternion.copy(UP_OF_CAMERA);
+    this.voxels = new Voxels();
+    this.layers = new Layers();
+    this.root.add(this.voxels.group, this.layers.group);
+    this.scene.add(this.root);
+    this.labels = new Labels(names);
+    this.follows = false;
+    this.pictures = 0;
+    this.inset = 0;
+    this.orbit = new Orbit(this.camera, canvas, () => this.changed());
+    this.hidden = new Set();
+    this.setTheme("dark");
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  setTheme(theme) {
+    this.scene.background = new Color(BACKGROUND[theme]);
+    this.layers.setTheme(theme);
+    if (this.floor) this.scene.remove(this.floor);
+    this.floor = new GridHelper(60, 60, ...FLOOR[theme]);
+    this.floor.rotation.x = Math.PI / 2;
+    this.floor.position.z = this.floorZ ?? -1.2;
+    this.floor.visible = !this.hidden.has("floor");
+    this.scene.add(this.floor);
+    this.changed();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, this.inset / 2, 0, width, height);
+    this.changed();
+  }
+
+  /// So much at the right is covered [px]: the middle of the picture is that of the rest.
+  setInset(inset) {
+    this.inset = inset;
+    this.resize();
+  }
+
+  /// The grid lies level at the floor's height: from it follow up and the floor.
+  setGrid(grid) {
+    const q = new Quaternion(...grid.pose.slice(3));
+    this.root.quaternion.copy(q.invert());
+    this.floorZ = new Vector3(...grid.pose.slice(0, 3)).applyQuaternion(this.root.quaternion).z;
+    this.floor.position.z = this.floorZ - 0.02;
+    this.layers.setGrid(grid);
+    this.changed();
+  }
+
+  setLayer(name, shown) {
+    const objects = { voxels: [this.voxels.group], path: [this.layers.path], keyframes: [this.layers.keyframes, this.layers.loops], camera: [this.layers.frustum], moving: [this.layers.moving], objects: [this.layers.objectBoxes], grid: [this.layers.grid], floor: [this.floor], names: [] }[name];
+    for (const object of objects) object.visible = shown;
+    if (shown) this.hidden.delete(name);
+    else this.hidden.add(name);
+    this.changed();
+  }
+
+  world(pointInMap) {
+    return new Vector3().copy(pointInMap).applyQuaternion(this.root.quaternion);
+  }
+
+  setPose(pose) {
+    this.layers.setPose(pose);
+    if (this.follows) this.orbit.lookAt(this.world(new Vector3(...pose.slice(0, 3))));
+    this.changed();
+  }
+
+  /// Shows the whole map. @param onlyIfUntouched  the user has not chosen a view.
+  fit(onlyIfUntouched = false) {
+    if (onlyIfUntouched && (this.orbit.touched || this.follows)) return;
+    const box = this.voxels.box();
+    if (box.isEmpty()) return;
+    const radius = box.getSize(new Vector3()).length() / 2;
+    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.68 / Math.min(1, this.camera.aspect);
+    this.orbit.lookAt(this.world(box.getCenter(new Vector3())), Math.max(distance, 1));
+  }
+
+  heights() {
+    const box = this.voxels.box();
+    if (box.isEmpty()) return;
+    const up = this.up();
+    const along = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => up.dot(new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z)));
+    this.voxels.setHeights(this.floorZ ?? Math.min(...along), Math.max(...along));
+  }
+
+  /// In the map.
+  up() {
+    return new Vector3(0, 0, 1).applyQuaternion(this.root.quaternion.clone().invert());
+  }
+
+  changed() {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame((now) => this.draw(now));
+  }
+
+  draw(now) {
+    this.due = false;
+    const seconds = Math.min((now - (this.last ?? now)) / 1000, 0.1) || 0.016;
+    this.last = now;
+    const still = !this.orbit.advance(seconds, matchMedia("(prefers-reduced-motion: reduce)").matches);
+    this.camera.updateMatrixWorld();
+    this.root.updateMatrixWorld();
+    this.voxels.prepare(this.camera.position.clone().applyQuaternion(this.root.quaternion.clone().invert()), this.up());
+    this.renderer.render(this.scene, this.camera);
+    this.drawNames();
+    ++this.pictures;
+    if (!still) this.changed();
+  }
+
+  drawNames() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const names = this.hidden.has("names") ? [] : this.layers.names().filter(({ layer }) => !this.hidden.has(layer));
+    this.labels.draw(names, (pointInMap) => {
+      const p = this.world(pointInMap).project(this.camera);
+      return p.z < 1 && Math.abs(p.x) < 1.05 && Math.abs(p.y) < 1.05 ? [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height] : null;
+    });
+  }
+}

@@ -13,9 +13,12 @@ constexpr int kScoutingPort = 7000;  // plus the domain; below RTPS' ports and a
 /// when it is made, and what it hears before it could ask would stand for all.
 constexpr int kFindingMs = 250;
 constexpr int kLeaseMs = 10'000;           // of a silent link: as with DDS
-constexpr int kWaitBeforeDropUs = 20'000;  // of a sending thread for a reader that does not keep up
+constexpr int kWaitBeforeDropUs = 10'000;  // of a sending thread for a reader that does not keep up
 /// Of what must not be dropped, as declarations; then the link goes.
 constexpr int kWaitBeforeCloseUs = 10'000'000;
+/// Parts of 64 kB that may wait on a link in the class of pictures, for a reader that is not scheduled for a
+/// while.
+constexpr int kPictureBatches = 16;
 constexpr int kLargestMessage = 256 << 20;  // bytes
 
 /// A name or address is that machine's router, or whoever listens in its place.
@@ -51,14 +54,14 @@ scouting: {{delay: {}, multicast: {{enabled: true, address: "224.0.0.224:{}", in
 timestamping: {{enabled: true}},
 transport: {{
   link: {{
-    tx: {{lease: {}, queue: {{congestion_control: {{drop: {{wait_before_drop: {}}}, block: {{wait_before_close: {}}}}}}}}},
+    tx: {{lease: {}, queue: {{size: {{data_low: {}}}, congestion_control: {{drop: {{wait_before_drop: {}}}, block: {{wait_before_close: {}}}}}}}}},
     rx: {{max_message_size: {}}},
   }},
   shared_memory: {{enabled: false}},
 }}}})",
       nlohmann::json(connected(options)).dump(), elsewhere ? -1 : 0, nlohmann::json(listened(options)).dump(),
-      kFindingMs, kScoutingPort + options.domain, kLeaseMs, kWaitBeforeDropUs, kWaitBeforeCloseUs,
-      kLargestMessage);
+      kFindingMs, kScoutingPort + options.domain, kLeaseMs, kPictureBatches, kWaitBeforeDropUs,
+      kWaitBeforeCloseUs, kLargestMessage);
 }
 
 }  // namespace rds::bus::detail

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/bus/bus_test_support.hpp"
-
 namespace rds::doctor {
 namespace {
 
@@ -25,9 +23,9 @@ TEST(HostCheck, DescribesThisMachine) {
   EXPECT_THAT(check_receive_buffer().sentence, testing::HasSubstr("bytes"));
 }
 
-TEST(HostCheck, AllVendorsJoin) {
-  for (const bus::Vendor vendor : bus::kAllVendors)
-    EXPECT_EQ(check_vendor(vendor).verdict, Verdict::kGood) << bus::name_of(vendor);
+TEST(HostCheck, BothVendorsJoin) {
+  EXPECT_EQ(check_vendor(bus::Vendor::kFastDds).verdict, Verdict::kGood);
+  EXPECT_EQ(check_vendor(bus::Vendor::kCycloneDds).verdict, Verdict::kGood);
 }
 
 }  // namespace

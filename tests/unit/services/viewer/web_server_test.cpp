@@ -193,13 +193,16 @@ TEST_F(WebServerTest, ClosesOneConnectionForABadFrame) {
        {std::string("\x81\x05hello"), std::string("\xff\x80\0\0\0\0", 6), std::string("\x83\x80\0\0\0\0", 6),
         client_frame(std::string(2000, 'x')),
         std::string("\x82\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14), client_frame("\xff\xfe\xfd")}) {
-    WebPeer peer(server_.port());
-    open(peer);
-    peer.send(bad);
-    EXPECT_TRUE(serve_until([&] {
-      peer.receive();
-      return peer.closed();
-    }));
+    {
+      WebPeer peer(server_.port());
+      open(peer);
+      peer.send(bad);
+      EXPECT_TRUE(serve_until([&] {
+        peer.receive();
+        return peer.closed();
+      }));
+    }
+    EXPECT_TRUE(serve_until([&] { return open_.size() == 1; }));
     EXPECT_EQ(server_.counts().malformed, ++malformed);
   }
   EXPECT_TRUE(serve_until([&] { return open_.size() == 1; }));

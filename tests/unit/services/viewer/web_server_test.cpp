@@ -149,6 +149,10 @@ TEST_F(WebServerTest, ProtocolsThatItDoesNotSpeakAreRefused) {
   EXPECT_EQ(server_.counts().clients, 0U);
 }
 
+TEST_F(WebServerTest, AClientThatDoesNotWaitForTheAnswerIsRefused) {
+  EXPECT_THAT(answer(upgrade_request("test") + client_frame("hello")), StartsWith("HTTP/1.1 400"));
+}
+
 TEST_F(WebServerTest, SaysWhatThereIsToEachClientAndHearsIt) {
   WebPeer peer(server_.port());
   Endless* conversation = open(peer);

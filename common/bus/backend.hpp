@@ -11,8 +11,7 @@
 #include "common/bus/guid.hpp"
 #include "common/bus/participant.hpp"
 
-/// What a DDS vendor has to provide. Everything else (threads, statistics, node announcement) is written
-/// once, in participant_*.hpp. Topic names are DDS names here ("rt/rds/odometry").
+/// What a bus has to provide. Everything else (threads, statistics) is written once, in participant_*.hpp.
 namespace rds::bus::detail {
 
 /// Where a back end puts a received message: it hands the bytes to decode() while it holds them, unless the
@@ -55,7 +54,7 @@ class BackendReader {
   [[nodiscard]] virtual Guid guid() const = 0;
 };
 
-/// One participant of a vendor; outlives its readers and writers. Every creation throws BusError.
+/// One participant on a bus; outlives its readers and writers. Every creation throws BusError.
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -68,8 +67,12 @@ class Backend {
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;
 };
 
+// Plain DDS: topic names are DDS names ("rt/rds/odometry").
 std::unique_ptr<Backend> make_fastdds_backend(const ParticipantOptions& options);
 std::unique_ptr<Backend> make_cyclonedds_backend(const ParticipantOptions& options);
+
+/// A participant of DDS as a node of ROS 2: topics of ROS, and the node and its endpoints announced.
+std::unique_ptr<Backend> as_ros_node(std::unique_ptr<Backend> participant, const ParticipantOptions& options);
 
 /// Content of the USER_DATA policies, as ROS 2 writes them.
 inline std::string endpoint_user_data(const TypeOps& type) {

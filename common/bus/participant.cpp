@@ -12,13 +12,12 @@ namespace rds::bus {
 namespace {
 
 using detail::Endpoint;
-using detail::kRosPrefix;
 
 constexpr int kHighestDomain = 232;  // RTPS port numbers end there
 
-class DdsParticipant final : public Participant {
+class BusParticipant final : public Participant {
  public:
-  explicit DdsParticipant(const ParticipantOptions& options)
+  explicit BusParticipant(const ParticipantOptions& options)
       : state_(std::make_shared<detail::ParticipantState>(options)) {}
 
   std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
@@ -73,16 +72,7 @@ class DdsParticipant final : public Participant {
     for (const Endpoint* endpoint : state_->endpoints) result.push_back(endpoint->description());
     return result;
   }
-  /// The ROS topics of other participants.
-  [[nodiscard]] std::vector<DiscoveredEndpoint> others() const {
-    std::vector<DiscoveredEndpoint> result;
-    for (DiscoveredEndpoint& endpoint : state_->backend->discovered()) {
-      if (!endpoint.topic.starts_with(kRosPrefix)) continue;
-      endpoint.topic.erase(0, kRosPrefix.size());
-      result.push_back(std::move(endpoint));
-    }
-    return result;
-  }
+  [[nodiscard]] std::vector<DiscoveredEndpoint> others() const { return state_->backend->discovered(); }
 
   std::shared_ptr<detail::ParticipantState> state_;
 };
@@ -117,7 +107,7 @@ std::unique_ptr<Participant> Participant::create(const ParticipantOptions& optio
     throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
                    std::to_string(kHighestSecuredDomain) + " for a secured one");
   keep_freed_memory();
-  return std::make_unique<DdsParticipant>(options);
+  return std::make_unique<BusParticipant>(options);
 }
 
 }  // namespace rds::bus

@@ -14,14 +14,10 @@ class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
   WriterEndpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type,
                  const Qos& qos)
       : Endpoint(std::move(state), std::move(topic), type, qos, true),
-        writer_(state_->backend->make_writer(kRosPrefix + topic_, type, qos)) {
-    state_->announcer.add_writer(guid());
+        writer_(state_->backend->make_writer(topic_, type, qos)) {
     enter();
   }
-  ~WriterEndpoint() override {
-    leave();
-    state_->announcer.remove(guid());
-  }
+  ~WriterEndpoint() override { leave(); }
 
   bool write(const void* message) override {
     const bool written = writer_->write(message);
@@ -50,9 +46,8 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
       : Endpoint(std::move(state), std::move(topic), type, qos, false),
         callback_(std::move(callback)),
         pool_(type),
-        reader_(state_->backend->make_reader(kRosPrefix + topic_, type, qos)),
+        reader_(state_->backend->make_reader(topic_, type, qos)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
-    state_->announcer.add_reader(guid());
     enter();
   }
   ~ReaderEndpoint() override {
@@ -60,7 +55,6 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
     thread_.request_stop();
     reader_->wake();
     thread_.join();
-    state_->announcer.remove(guid());
   }
 
   [[nodiscard]] int matched() const override { return reader_->matched(); }

@@ -10,19 +10,21 @@
 #include <vector>
 
 #include "common/bus/backend.hpp"
-#include "common/bus/node_announcer.hpp"
 
 namespace rds::bus::detail {
 
 class Endpoint;
 
+inline std::unique_ptr<Backend> make_backend(const ParticipantOptions& options) {
+  return as_ros_node(
+      options.vendor == Vendor::kFastDds ? make_fastdds_backend(options) : make_cyclonedds_backend(options),
+      options);
+}
+
 /// What a participant and its endpoints share; whoever of them lives longest closes it.
 struct ParticipantState {
   explicit ParticipantState(const ParticipantOptions& options)
-      : backend(options.vendor == Vendor::kFastDds ? make_fastdds_backend(options)
-                                                   : make_cyclonedds_backend(options)),
-        identity(options.credentials ? options.credentials->identity : ""),
-        announcer(*backend, options.node_name) {}
+      : backend(make_backend(options)), identity(options.credentials ? options.credentials->identity : "") {}
 
   /// A participant carries one type per topic: both vendors would refuse a second one, each in its own way.
   void check_type(const std::string& topic, const TypeOps& type) {
@@ -45,13 +47,10 @@ struct ParticipantState {
 
   std::unique_ptr<Backend> backend;
   std::string identity;  // empty on an open bus
-  NodeAnnouncer announcer;
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;      // of what follows
   std::set<const Endpoint*> endpoints;
   std::map<std::string, std::string> types;  // by topic
 };
-
-inline const std::string kRosPrefix = "rt/";
 
 /// What writers and readers have in common: what they are on the bus, and what has passed them.
 class Endpoint {

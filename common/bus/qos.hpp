@@ -11,8 +11,8 @@ struct Qos {
   bool transient_local = false;
   int depth = 10;
   int max_samples = 5000;
-  /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces the
-  /// ones before: what was replaced before it was sent is no loss.
+  /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces
+  /// the ones before: what was replaced before it was sent is no loss.
   bool counts_lost = true;
   /// Whether a writer may take half a second before it sends again what readers lack. For what is large and
   /// soon replaced: readers behind a slow link ask for the same again and again while it is on its way.
@@ -28,8 +28,9 @@ inline constexpr Qos kPoses{.reliable = true, .transient_local = true, .depth = 
 inline constexpr Qos kCommand{.reliable = true, .depth = 100};
 inline constexpr Qos kKeyframeImages{.reliable = true, .transient_local = true, .depth = 20};
 inline constexpr Qos kKeyframeFeatures{.reliable = true, .transient_local = true, .depth = 0};
-/// As many keyframes' boxes as a mapper may still wait for, so that one which starts again gets them.
-inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 100};
+/// The boxes of as many keyframes as are made in some minutes, so that a mapper which starts again, or was
+/// out of reach, gets them: 2 MB.
+inline constexpr Qos kBoxes{.reliable = true, .transient_local = true, .depth = 1000};
 /// What the reader itself asks for again.
 inline constexpr Qos kDatagrams{.reliable = false, .depth = 256};
 inline constexpr Qos kDelta{.reliable = true, .depth = 64, .repairs_slowly = true};

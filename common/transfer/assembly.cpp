@@ -7,7 +7,7 @@ namespace rds::transfer {
 
 std::optional<std::uint32_t> Assembly::next() const {
   if (!again_.empty()) return *again_.begin();
-  const std::uint32_t end = size_ > 0 ? chunks_in(size_) : kFirstChunks;
+  const std::uint32_t end = size_ > 0 ? chunks_in(size_) : first_chunks_;
   return next_ < end ? std::optional(next_) : std::nullopt;
 }
 

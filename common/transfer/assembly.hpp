@@ -13,6 +13,11 @@ namespace rds::transfer {
 /// An item as its chunks come in, in any order. Memory grows with what has come, up to the declared size.
 class Assembly {
  public:
+  static constexpr std::uint32_t kFirstChunks = 16;
+
+  /// @param first_chunks  to ask for before the size is known.
+  explicit Assembly(std::uint32_t first_chunks = kFirstChunks) : first_chunks_(first_chunks) {}
+
   /// The next chunk to ask for; those that were lost come first. @return nothing while all are asked for
   [[nodiscard]] std::optional<std::uint32_t> next() const;
   /// Takes note that it is asked for. @return true if not for the first time
@@ -29,9 +34,7 @@ class Assembly {
   [[nodiscard]] std::vector<std::uint8_t>& bytes() { return bytes_; }
 
  private:
-  /// Chunks that are asked for before the size is known.
-  static constexpr std::uint32_t kFirstChunks = 16;
-
+  std::uint32_t first_chunks_;
   std::uint32_t size_ = 0;  // bytes
   std::uint32_t next_ = 0;  // chunk that was never asked for
   std::uint32_t arrived_ = 0;

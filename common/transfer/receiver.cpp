@@ -25,6 +25,7 @@ std::optional<Item> Receiver::take(const Chunk& chunk, Time now) {
   Assembly& assembly = begun->second.assembly;
   add(chunk, assembly);
   if (!assembly.complete()) return std::nullopt;
+  latest_chunks_ = chunks_in(assembly.size());
   Item item{chunk.number, std::move(assembly.bytes())};
   finish(chunk.number);
   return item;
@@ -126,9 +127,14 @@ std::optional<Receiver::ChunkId> Receiver::next_chunk(bool may_begin) {
   if (earliest == begun_.end()) {
     const auto next = may_begin ? next_item() : std::nullopt;
     if (!next) return std::nullopt;
-    earliest = begun_.emplace(*next, Begun{++turn_, {}}).first;
+    earliest = begun_.emplace(*next, Begun{++turn_, Assembly(first_chunks())}).first;
   }
   return ChunkId(earliest->first, *earliest->second.assembly.next());
+}
+
+/// Most of what the item before had: a round trip is saved, and little is asked for that does not exist.
+std::uint32_t Receiver::first_chunks() const {
+  return std::max(Assembly::kFirstChunks, latest_chunks_ / 4 * 3);
 }
 
 /// In the order of numbers one at a time, as a later one could be whole before.

@@ -78,8 +78,10 @@ class Receiver {
   void forget_asked(std::uint64_t number, std::uint32_t first_chunk);
   [[nodiscard]] std::optional<ChunkId> next_chunk(bool may_begin);
   [[nodiscard]] std::optional<std::uint64_t> next_item() const;
+  [[nodiscard]] std::uint32_t first_chunks() const;
 
   Order order_;
+  std::uint32_t latest_chunks_ = 0;  // of the item that was whole last
   Wanted wanted_;
   std::map<std::uint64_t, Begun> begun_;
   Orders in_flight_;

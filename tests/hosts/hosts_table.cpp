@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds};
 constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kLongS = 55;     // 5 before an absence of 20, 30 after it
-constexpr double kLongestS = 95;  // and of 60
+constexpr double kLongS = 55;           // 5 before an absence of 20, 30 after it
+constexpr double kLongestS = 95;        // and of 60
 constexpr double kAfterAbsence = 0.01;  // of recall and residue, 30 s later
 
 /// Of one vendor, and without name of it.
@@ -77,7 +77,8 @@ std::vector<Row> one_machine_rows() {
 
 std::vector<Row> short_rows() {
   std::vector<Row> rows;
-  std::ranges::copy_if(all_rows(), std::back_inserter(rows), is_short);
+  std::ranges::copy_if(kinds(), std::back_inserter(rows), is_short);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].vendor = kVendors[i % kVendors.size()];
   return rows;
 }
 

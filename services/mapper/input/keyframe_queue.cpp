@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "common/bus/qos.hpp"
 #include "common/messages/conversions.hpp"
 
 namespace rds::mapper {
 namespace {
 
-constexpr std::size_t kMaxBoxes = 100;  // messages whose keyframe has not come
+constexpr std::size_t kMaxBoxes = bus::kBoxes.depth;  // messages whose keyframe has not come
 
 std::int64_t stamp_of(const auto& message) {
   return messages::to_nanoseconds(message->header().stamp());
@@ -20,7 +21,8 @@ void KeyframeQueue::add(const Images& images, Clock::time_point now) {
   const std::int64_t stamp_ns = stamp_of(images);
   const auto integrated = integrated_.find(stamp_ns);
   if (integrated != integrated_.end() && integrated->second.id >= images->keyframe_id()) return;
-  keyframes_.try_emplace(images->keyframe_id(), images, clock_.go_to(stamp_ns).time_ns, now);
+  keyframes_.try_emplace(images->keyframe_id(), images);
+  if (!newest_ || images->keyframe_id() > newest_->id) newest_ = Newest{images->keyframe_id(), stamp_ns, now};
   if (keyframes_.size() > capacity_) {
     keyframes_.erase(keyframes_.begin());
     ++dropped_;
@@ -31,7 +33,7 @@ void KeyframeQueue::add(const Images& images, Clock::time_point now) {
 const IntegratedKeyframe* KeyframeQueue::add(const Boxes& boxes) {
   const std::int64_t stamp_ns = stamp_of(boxes);
   const auto integrated = integrated_.find(stamp_ns);
-  const auto is_of_boxes = [&](const auto& entry) { return stamp_of(entry.second.images) == stamp_ns; };
+  const auto is_of_boxes = [&](const auto& entry) { return stamp_of(entry.second) == stamp_ns; };
   if (integrated != integrated_.end() && !integrated->second.has_boxes &&
       std::ranges::none_of(keyframes_, is_of_boxes)) {
     integrated->second.has_boxes = true;
@@ -45,20 +47,19 @@ const IntegratedKeyframe* KeyframeQueue::add(const Boxes& boxes) {
 
 bool KeyframeQueue::is_ready(Clock::time_point now) const {
   if (keyframes_.empty()) return false;
-  const Waiting& oldest = keyframes_.begin()->second;
-  const std::int64_t stamp_ns = stamp_of(oldest.images);
+  const std::int64_t stamp_ns = stamp_of(keyframes_.begin()->second);
   const auto is_there = [&](const StampedBoxes& boxes) { return boxes.first == stamp_ns; };
   if (!wait_.expected || std::ranges::any_of(boxes_, is_there)) return true;
   const auto is_later = [&](const StampedBoxes& boxes) { return boxes.first > stamp_ns; };
   if (wait_.lockstep)
     return std::ranges::any_of(boxes_, is_later);  // its own were lost with a mapper that was killed
-  const Waiting& newest = keyframes_.rbegin()->second;
-  return now - newest.came > kLongestWait ||
-         static_cast<double>(newest.time_ns - oldest.time_ns) * 1e-9 > wait_.timeout_s;
+  const double newer_by_s = static_cast<double>(newest_->stamp_ns - stamp_ns) * 1e-9;
+  return newer_by_s > wait_.timeout_s || newer_by_s < 0 ||  // below 0: a recording that is played again
+         now - newest_->came > kLongestWait;
 }
 
 KeyframeQueue::Entry KeyframeQueue::take_oldest() {
-  const Images images = std::move(keyframes_.begin()->second.images);
+  const Images images = std::move(keyframes_.begin()->second);
   keyframes_.erase(keyframes_.begin());
   size_ = keyframes_.size();
   return {images, take_boxes(stamp_of(images))};
@@ -75,7 +76,7 @@ KeyframeQueue::Boxes KeyframeQueue::take_boxes(std::int64_t stamp_ns) {
 void KeyframeQueue::forget_keyframes() {
   keyframes_.clear();
   integrated_.clear();
-  clock_ = {};
+  newest_.reset();
   size_ = 0;
 }
 

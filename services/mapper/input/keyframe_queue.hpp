@@ -7,11 +7,11 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/pose.hpp"
-#include "common/time/continuous_time.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
 #include "vision_msgs/msg/Detection3DArray.h"
 
@@ -30,7 +30,8 @@ struct IntegratedKeyframe {
 struct BoxesWait {
   bool expected = true;   // false: not at all
   bool lockstep = false;  // until they have come, or later ones: boxes come in the order of the keyframes
-  double timeout_s = 1;   // otherwise until a keyframe newer by this has come, or none for kLongestWait
+  double timeout_s =
+      1;  // otherwise until a keyframe newer by this has come, or no newer one for kLongestWait
 };
 
 /// Brings keyframes together with their boxes, by their stamps: keyframes wait in the order of their ids,
@@ -78,9 +79,9 @@ class KeyframeQueue {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
-  struct Waiting {
-    Images images;
-    std::int64_t time_ns;  // goes on where stamps go back
+  struct Newest {
+    std::uint64_t id;
+    std::int64_t stamp_ns;
     Clock::time_point came;
   };
   using StampedBoxes = std::pair<std::int64_t, Boxes>;
@@ -89,8 +90,8 @@ class KeyframeQueue {
 
   std::size_t capacity_;
   BoxesWait wait_;
-  time::ContinuousTime clock_;
-  std::map<std::uint64_t, Waiting> keyframes_;             // by id
+  std::map<std::uint64_t, Images> keyframes_;              // by id
+  std::optional<Newest> newest_;                           // that has come, also if it waits no more
   std::deque<StampedBoxes> boxes_;                         // in the order in which they came
   std::map<std::int64_t, IntegratedKeyframe> integrated_;  // by stamp
   std::atomic<std::size_t> size_ = 0;

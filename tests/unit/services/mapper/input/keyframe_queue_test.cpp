@@ -54,6 +54,17 @@ TEST(KeyframeQueue, WithoutBoxesItGoesOnWhenANewerKeyframeHasCome) {
   EXPECT_EQ(queue.take_oldest().boxes, nullptr);
 }
 
+TEST(KeyframeQueue, WhatWasMissedWaitsForNothingInWhateverOrderItComes) {
+  KeyframeQueue queue(20, {.timeout_s = 1});
+  queue.add(keyframe(50, 50 * kSecond));
+  for (std::uint64_t id = 40; id > 20; --id) {
+    queue.add(keyframe(id, static_cast<std::int64_t>(id) * kSecond / 5));
+    ASSERT_TRUE(queue.is_ready()) << id;
+    EXPECT_EQ(queue.take_oldest().images->keyframe_id(), id);
+  }
+  EXPECT_FALSE(queue.is_ready()) << "the newest's own boxes may come";
+}
+
 TEST(KeyframeQueue, WhereNoKeyframeFollowsItGoesOnAfterAWhile) {
   const auto now = KeyframeQueue::Clock::now();
   KeyframeQueue queue(5, {});

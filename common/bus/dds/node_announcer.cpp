@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/node_announcer.hpp"
+#include "common/bus/dds/node_announcer.hpp"
 
 #include <algorithm>
 #include <utility>

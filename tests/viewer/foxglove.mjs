@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // foxglove.mjs URL PROTOCOL: a client of Foxglove's protocol, by its own library: subscribes to all channels, decodes what comes by their
 // schemas, and prints at the end of standard input what each channel had: {topic: {messages, bytes, newest}}.
-import { FoxgloveClient } from "@foxglove/ws-protocol";
-import { parse } from "@foxglove/rosmsg";
-import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { createHash } from "node:crypto";
-import WebSocket from "ws";
+import { createRequire } from "node:module";
+
+const require = createRequire(import.meta.url); // these packages are CommonJS
+const { FoxgloveClient } = require("@foxglove/ws-protocol");
+const { parse } = require("@foxglove/rosmsg");
+const { MessageReader } = require("@foxglove/rosmsg2-serialization");
+const WebSocket = require("ws");
 
 const [url, protocol] = process.argv.slice(2);
 const client = new FoxgloveClient({ ws: new WebSocket(url, [protocol]) });
@@ -35,7 +38,6 @@ client.on("message", ({ subscriptionId, data }) => {
   }
 });
 process.stdin.on("end", () => {
-  console.log(JSON.stringify(heard));
-  process.exit(0);
+  process.stdout.write(`${JSON.stringify(heard)}\n`, () => process.exit(0));
 });
 process.stdin.resume();

@@ -161,7 +161,7 @@ class Viewer(unittest.TestCase):
         frames = [figures["kinds"].get("3", 0) for figures in told]
         print(f"frames of the camera that each client had, of {FRAMES}: {frames}", flush=True)
         mean = [sum(part) / len(part) for part in (frames[:STOPPED], frames[STOPPED:])]
-        self.assertGT(mean[1], mean[0], "who is stopped skips, and the others do not wait")
+        self.assertGreater(mean[1], mean[0], "who is stopped skips, and the others do not wait")
         peak = self.resident_mb(self.viewer_pid(run))
         print(f"the viewer's peak: {peak:.0f} MB", flush=True)
         self.assertLess(peak, MOST_MB)
@@ -201,10 +201,10 @@ class Viewer(unittest.TestCase):
         self.assertTrue(stats["complete"])
         self.assertEqual(stats["objects"], len(json.loads((out / "objects.json").read_text())))
         for what in ("labelled", "labels", "objects", "path", "services"):
-            self.assertGT(stats[what], 0, what)
-        self.assertGT(boxes, 0, "nobody passed")
+            self.assertGreater(stats[what], 0, what)
+        self.assertGreater(boxes, 0, "nobody passed")
         self.assertTrue(pictures)
-        self.assertEqual(int(stats["keyframes"]), len((out / "keyframes.txt").read_text().splitlines()))
+        self.assertEqual(int(stats["keyframes"]), sum(not line.startswith("#") for line in (out / "keyframes.txt").read_text().splitlines()))
         page.ask("shot page 1440 900")
         page.ask("shot phone 390 780 color=label&layers=voxels,path,camera,objects,names")
         self.assertEqual(page.ask("stats")["errors"], [])
@@ -229,13 +229,13 @@ class Viewer(unittest.TestCase):
                 self.assertEqual((of["encoding"], of["schemaEncoding"]), ("cdr", "ros2msg"))
             for name in RECORDED:
                 topic = "/" + name
-                self.assertGT(heard[topic]["messages"], 0, f"{topic} by {protocol}")
+                self.assertGreater(heard[topic]["messages"], 0, f"{topic} by {protocol}")
                 self.assertLessEqual(set(heard[topic]["sha256"]), on_the_bus[topic], f"{topic}: other bytes than on the bus")
-            self.assertGT(heard["/camera/color/image_raw"]["messages"], 0)
+            self.assertGreater(heard["/camera/color/image_raw"]["messages"], 0)
             newest = heard["/rds/map/points"]["newest"]
-            self.assertGT(newest["width"], 0)
+            self.assertGreater(newest["width"], 0)
             self.assertEqual(newest["data"]["length"], newest["width"] * newest["point_step"])
-            self.assertGT(heard["/rds/map/grid"]["newest"]["data"]["length"], 0)
+            self.assertGreater(heard["/rds/map/grid"]["newest"]["data"]["length"], 0)
 
     # ---- who may connect
 

@@ -28,11 +28,12 @@ class WebSocket:
         while b"\r\n\r\n" not in answer:
             part = self.socket.recv(4096)
             if not part:
-                raise Refused(answer.decode(errors="replace"))
+                break
             answer += part
-        head, self.buffered = answer.split(b"\r\n\r\n", 1)
+        head, _, self.buffered = answer.partition(b"\r\n\r\n")
         if b" 101 " not in head.split(b"\r\n")[0]:
-            raise Refused(head.split(b"\r\n")[0].decode())
+            self.socket.close()
+            raise Refused(head.split(b"\r\n")[0].decode(errors="replace"))
 
     def _read(self, count):
         while len(self.buffered) < count:

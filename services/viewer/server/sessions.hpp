@@ -32,6 +32,14 @@ struct ServerState {
   std::set<WebSocketSession*> clients{};
 };
 
+/// True for what a client does that leaves, or is silent, in whatever way; all else is malformed.
+inline bool is_departure(const beast::error_code& error) {
+  namespace net = boost::asio::error;
+  return error == websocket::error::closed || error == http::error::end_of_stream ||
+         error == beast::error::timeout || error == net::eof || error == net::connection_reset ||
+         error == net::broken_pipe || error == net::not_connected || error == net::operation_aborted;
+}
+
 /// Counts a connection as long as it is open.
 class OpenConnection {
  public:

@@ -54,10 +54,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
  private:
   void take(const beast::error_code& error) {
-    const bool left = error == http::error::end_of_stream || error == beast::error::timeout ||
-                      error == boost::asio::error::connection_reset ||
-                      error == boost::asio::error::operation_aborted;
-    if (error && !left) ++state_.counts.malformed;
+    if (error && !is_departure(error)) ++state_.counts.malformed;
     if (error) return;
     const Upgrade message = parser_->release();
     if (websocket::is_upgrade(message)) return open(message);
@@ -67,6 +64,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   void open(const Upgrade& message) {
+    if (received_.size() > 0)  // RFC 6455, 4.1: a client waits for the answer before it says more
+      return answer(message, {.status = 400, .text = "bytes before the answer\n"});
     if (state_.clients.size() >= state_.limits.clients)
       return answer(message, {.status = 503, .text = "too many clients\n"});
     Opening opening = state_.app.open(request_of(message));

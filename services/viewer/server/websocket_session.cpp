@@ -88,11 +88,7 @@ void WebSocketSession::pump() {
 
 /// The other operation under way fails with the closed socket, and with the last one the session goes.
 void WebSocketSession::end(const beast::error_code& error) {
-  const bool left = error == websocket::error::closed || error == boost::asio::error::eof ||
-                    error == boost::asio::error::connection_reset ||
-                    error == boost::asio::error::broken_pipe ||
-                    error == boost::asio::error::operation_aborted || error == beast::error::timeout;
-  if (!left && is_open_) ++state_.counts.malformed;
+  if (!is_departure(error) && is_open_) ++state_.counts.malformed;
   is_open_ = false;
   beast::get_lowest_layer(socket_).close();
 }

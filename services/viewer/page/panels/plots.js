@@ -47,7 +47,7 @@ class Plot {
 export class Plots {
   constructor(element) {
     const whole = (v) => v.toFixed(0);
-    this.total = new Plot(element, "frame time", "ms", (v) => v.toFixed(1));
+    this.total = new Plot(element, "frame time", "ms", (v) => v.toFixed(v < 100 ? 1 : 0));
     this.inliers = new Plot(element, "inliers", "", whole);
     this.dynamic = new Plot(element, "dynamic", "", whole);
     this.dropped = new Plot(element, "dropped", "", whole);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 const GONE_S = 5; // five reports are missing
+const SHORTEST_S = 0.7; // reports come once a second
 
 /// A row for each service that was heard: health, processor, memory, its slowest stage, messages lost.
 export class Services {
@@ -13,10 +14,13 @@ export class Services {
     this.body.replaceChildren(...Object.entries(services).flatMap(([name, s]) => this.rows(name, s, now)));
   }
 
+  /// Between two reports; a service that began anew has none yet.
   cpu(name, cpu_s, at) {
     const before = this.before.get(name);
-    if (!before || cpu_s > before.cpu_s || at - before.at > 3) this.before.set(name, { cpu_s, at, share: before && cpu_s >= before.cpu_s ? (100 * (cpu_s - before.cpu_s)) / (at - before.at) : null });
-    return this.before.get(name).share;
+    if (before && at - before.at < SHORTEST_S) return before.share;
+    const share = before && cpu_s >= before.cpu_s ? (100 * (cpu_s - before.cpu_s)) / (at - before.at) : null;
+    this.before.set(name, { cpu_s, at, share });
+    return share;
   }
 
   rows(name, s, now) {

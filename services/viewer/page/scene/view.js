@@ -97,6 +97,7 @@ export class View {
     if (onlyIfUntouched && (this.orbit.touched || this.follows)) return;
     const box = this.voxels.box();
     if (box.isEmpty()) return;
+    if (this.layers.pose) box.expandByPoint(new Vector3(...this.layers.pose.slice(0, 3)));
     const radius = box.getSize(new Vector3()).length() / 2;
     const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.68 / Math.min(1, this.camera.aspect);
     this.orbit.lookAt(this.world(box.getCenter(new Vector3())), Math.max(distance, 1));

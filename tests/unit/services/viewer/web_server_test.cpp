@@ -149,6 +149,10 @@ TEST_F(WebServerTest, ProtocolsThatItDoesNotSpeakAreRefused) {
   EXPECT_EQ(server_.counts().clients, 0U);
 }
 
+TEST_F(WebServerTest, AClientThatDoesNotWaitForTheAnswerIsRefused) {
+  EXPECT_THAT(answer(upgrade_request("test") + client_frame("hello")), StartsWith("HTTP/1.1 400"));
+}
+
 TEST_F(WebServerTest, SaysWhatThereIsToEachClientAndHearsIt) {
   WebPeer peer(server_.port());
   Endless* conversation = open(peer);
@@ -193,13 +197,16 @@ TEST_F(WebServerTest, ClosesOneConnectionForABadFrame) {
        {std::string("\x81\x05hello"), std::string("\xff\x80\0\0\0\0", 6), std::string("\x83\x80\0\0\0\0", 6),
         client_frame(std::string(2000, 'x')),
         std::string("\x82\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14), client_frame("\xff\xfe\xfd")}) {
-    WebPeer peer(server_.port());
-    open(peer);
-    peer.send(bad);
-    EXPECT_TRUE(serve_until([&] {
-      peer.receive();
-      return peer.closed();
-    }));
+    {
+      WebPeer peer(server_.port());
+      open(peer);
+      peer.send(bad);
+      EXPECT_TRUE(serve_until([&] {
+        peer.receive();
+        return peer.closed();
+      }));
+    }
+    EXPECT_TRUE(serve_until([&] { return open_.size() == 1; }));
     EXPECT_EQ(server_.counts().malformed, ++malformed);
   }
   EXPECT_TRUE(serve_until([&] { return open_.size() == 1; }));

@@ -10,7 +10,7 @@ import time
 
 import rclpy
 
-UNKNOWN = "_NODE_NAME_UNKNOWN_"
+UNKNOWN = ("_NODE_NAME_UNKNOWN_", "_CREATED_BY_BARE_DDS_APP_")
 
 
 def endpoint(info):
@@ -31,7 +31,7 @@ def graph_of(node):
 
 def is_settled(graph, nodes):
     endpoints = [e for topic in graph["topics"].values() for ends in topic.values() for e in ends]
-    return len(graph["nodes"]) >= nodes and not any(UNKNOWN in e["node"] for e in endpoints)
+    return len(graph["nodes"]) >= nodes and not any(unknown in e["node"] for e in endpoints for unknown in UNKNOWN)
 
 
 def main():

@@ -23,7 +23,7 @@ using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 
-constexpr std::size_t kFrames = 60;
+constexpr std::size_t kFrames = 40;
 
 /// Bends less than a centre crop of the picture shows, and no coefficient is zero.
 geometry::Lens bent(const geometry::CameraModel& camera, const std::string& distortion) {

@@ -111,13 +111,16 @@ TEST_P(Frames, OfARobotWithItsOwnTreeHangTheBaseBelowOdom) {
   }
 }
 
-TEST_P(Frames, OfACameraAloneHangItBelowOdomByThePicturesFrame) {
+/// What does not depend on the vendor.
+class FramesBesideFastDds : public Frames {};
+
+TEST_P(FramesBesideFastDds, OfACameraAloneHangItBelowOdomByThePicturesFrame) {
   start({.frame = "zed_left_optical_frame", .depth_frame = "zed_left_optical_frame"});
   track();
   EXPECT_THAT(seen(), UnorderedElementsAre(Pair("map", "odom"), Pair("odom", "zed_left_optical_frame")));
 }
 
-TEST_P(Frames, LeaveOdomToWheelOdometry) {
+TEST_P(FramesBesideFastDds, LeaveOdomToWheelOdometry) {
   start({});
   publish_robot();
   const Pose odom_from_base = geometry::make_pose({3, 1, 0}, Eigen::Quaterniond::Identity());
@@ -133,7 +136,7 @@ TEST_P(Frames, LeaveOdomToWheelOdometry) {
   EXPECT_TRUE(map_from_odom_.isApprox(expected, 1e-6));
 }
 
-TEST_P(Frames, AreNotToldWhereASettingSaysSo) {
+TEST_P(FramesBesideFastDds, AreNotToldWhereASettingSaysSo) {
   start({}, "{frames: {publish_tf: false}}");
   track();
   EXPECT_TRUE(seen().empty());
@@ -142,6 +145,8 @@ TEST_P(Frames, AreNotToldWhereASettingSaysSo) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Frames, ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
                          [](const auto& vendor) { return name_of(vendor.param); });
+
+INSTANTIATE_TEST_SUITE_P(Of, FramesBesideFastDds, ::testing::Values(bus::Vendor::kFastDds));
 
 }  // namespace
 }  // namespace rds::test

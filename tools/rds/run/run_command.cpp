@@ -10,6 +10,7 @@
 #include "common/map_file/saved_map.hpp"
 #include "services/mapper/io/map_files.hpp"
 #include "services/viewer/listen_address.hpp"
+#include "tools/rds/cli/bus_options.hpp"
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"

@@ -77,7 +77,6 @@ function(rds_test name)
   add_executable(${name} ${A_SOURCES})
   target_link_libraries(${name} PRIVATE rds_options ${A_PRIVATE} GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # compiles in four fifths of the time of -O2
   target_compile_definitions(${name} PRIVATE RDS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" RDS_BIN_DIR="${CMAKE_BINARY_DIR}/bin")
   set(properties LABELS ${A_LABEL} TIMEOUT ${A_TIMEOUT})
   if(A_SERIAL)

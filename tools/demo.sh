@@ -10,7 +10,7 @@ rds=$root/build/release/bin/rds
 room=(--path xyz --seconds 20 --seed 1)
 
 "$root/tools/setup.sh" --no-zenoh
-build release rds rds-tracker rds-detector rds-transformer rds-mapper rds-loop-closer
+build release rds rds-tracker rds-detector rds-transformer rds-mapper rds-loop-closer rds-viewer
 
 # render NAME OPTION...: a sequence below build/demo, unless it is there already.
 render() {

@@ -76,7 +76,7 @@ std::unique_ptr<Backend> as_ros_node(std::unique_ptr<Backend> participant, const
 
 /// Content of the USER_DATA policies, as ROS 2 writes them.
 inline std::string endpoint_user_data(const TypeOps& type) {
-  return "typehash=" + type.type_hash + ";";
+  return type.type_hash.empty() ? "" : "typehash=" + type.type_hash + ";";
 }
 inline constexpr const char* kParticipantUserData = "enclave=/;";
 

@@ -22,7 +22,7 @@ class BusParticipant final : public Participant {
 
   std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic, const TypeOps& type,
                                                             const Qos& qos) override {
-    state_->check_type(topic, type);
+    state_->check_type(full_name(topic), type);
     return state_->explain_refusal(
         [&] { return std::make_unique<detail::WriterEndpoint>(state_, topic, type, qos); });
   }
@@ -30,10 +30,16 @@ class BusParticipant final : public Participant {
   std::unique_ptr<detail::SubscriptionEndpoint> make_subscription(
       const std::string& topic, const TypeOps& type, const Qos& qos,
       std::function<void(std::shared_ptr<const void>, const ParticipantId&)> callback) override {
-    state_->check_type(topic, type);
+    state_->check_type(full_name(topic), type);
     return state_->explain_refusal([&] {
       return std::make_unique<detail::ReaderEndpoint>(state_, topic, type, qos, std::move(callback));
     });
+  }
+
+  [[nodiscard]] ParticipantId id() const override { return detail::participant_of(state_->backend->guid()); }
+
+  [[nodiscard]] std::string full_name(const std::string& topic) const override {
+    return state_->names.full_name(topic);
   }
 
   [[nodiscard]] std::vector<EndpointStatistics> statistics() const override {
@@ -98,6 +104,11 @@ std::string name_of(Vendor vendor) {
   return vendor == Vendor::kFastDds ? "fastdds" : "cyclonedds";
 }
 
+RosDistro ros_distro_from_name(const std::string& name) {
+  const bool is_old = name == "foxy" || name == "galactic" || name == "humble";
+  return is_old ? RosDistro::kHumble : RosDistro::kJazzy;
+}
+
 std::unique_ptr<Participant> Participant::create(const ParticipantOptions& options) {
   if (options.domain < 0 || options.domain > kHighestDomain) {
     throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
@@ -107,7 +118,11 @@ std::unique_ptr<Participant> Participant::create(const ParticipantOptions& optio
     throw BusError("DDS domain " + std::to_string(options.domain) + ", expected 0 to " +
                    std::to_string(kHighestSecuredDomain) + " for a secured one");
   keep_freed_memory();
-  return std::make_unique<BusParticipant>(options);
+  try {
+    return std::make_unique<BusParticipant>(options);
+  } catch (const std::invalid_argument& e) {  // of a name
+    throw BusError(e.what());
+  }
 }
 
 }  // namespace rds::bus

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/bus/names/topic_names.hpp"
 #include "common/bus/qos.hpp"
 #include "common/bus/security.hpp"
 #include "common/bus/type_ops.hpp"
@@ -25,9 +26,15 @@ class BusError : public std::runtime_error {
 
 enum class Vendor { kFastDds, kCycloneDds };
 
+/// In whose form nodes are announced: ROS 2 up to Humble names endpoints by 24 bytes, since Iron by 16.
+enum class RosDistro { kHumble, kJazzy };
+
 /// "fastdds" or "cyclonedds"; @throws std::invalid_argument otherwise, naming both.
 Vendor vendor_from_name(const std::string& name);
 std::string name_of(Vendor vendor);
+
+/// "foxy", "galactic" and "humble" are kHumble; any other name is one of today or later.
+RosDistro ros_distro_from_name(const std::string& name);
 
 struct ParticipantOptions {
   Vendor vendor = Vendor::kFastDds;
@@ -36,6 +43,9 @@ struct ParticipantOptions {
   bool loopback_only = false;                   // this machine only: no multicast, nobody else is disturbed
   std::vector<std::string> peers = {};          // IPv4 addresses of other machines, found without multicast
   std::optional<Credentials> credentials = {};  // of a secured domain; without them the bus is open
+  std::string node_namespace = "/";             // of the node, and of topics
+  std::vector<Remapping> remappings = {};       // of topics; the first that fits holds
+  RosDistro ros_distro = RosDistro::kJazzy;     // that nodes are announced to
 };
 
 /// Which participant wrote a message: the same for all that one process writes, on every topic; nobody else
@@ -44,7 +54,7 @@ using ParticipantId = std::array<std::uint8_t, 12>;
 
 /// Traffic of one endpoint since its creation.
 struct EndpointStatistics {
-  std::string topic;  // without "rt/"
+  std::string topic;  // as it was asked for, without a leading slash
   bool publisher = false;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
@@ -55,7 +65,7 @@ struct EndpointStatistics {
 
 /// An endpoint somebody announced on the bus.
 struct DiscoveredEndpoint {
-  std::string topic;  // without "rt/"
+  std::string topic;  // full name, without "rt/"
   std::string type;   // DDS type name, e.g. "nav_msgs::msg::dds_::Odometry_"
   bool publisher = false;
   std::string type_hash =
@@ -122,13 +132,13 @@ class Participant {
   static std::unique_ptr<Participant> create(const ParticipantOptions& options);
   virtual ~Participant() = default;
 
-  /// @param topic  without "rt/". @throws BusError
+  /// @param topic  see full_name(). @throws BusError
   template <class T>
   Publisher<T> advertise(const std::string& topic, const Qos& qos) {
     return Publisher<T>(make_publisher(topic, type_ops<T>(), qos));
   }
 
-  /// @param topic  without "rt/". @throws BusError
+  /// @param topic  see full_name(). @throws BusError
   template <class T>
   Subscription subscribe(const std::string& topic, const Qos& qos,
                          std::function<void(std::shared_ptr<const T>)> callback) {
@@ -152,6 +162,12 @@ class Participant {
       std::function<void(std::shared_ptr<const void>, const ParticipantId&)> callback) = 0;
   virtual std::unique_ptr<detail::PublisherEndpoint> make_publisher(const std::string& topic,
                                                                     const TypeOps& type, const Qos& qos) = 0;
+
+  /// As readers see it that ask who wrote a message.
+  [[nodiscard]] virtual ParticipantId id() const = 0;
+
+  /// A topic's name on the bus; see TopicNames::full_name().
+  [[nodiscard]] virtual std::string full_name(const std::string& topic) const = 0;
 
   [[nodiscard]] virtual std::vector<EndpointStatistics> statistics() const = 0;
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;

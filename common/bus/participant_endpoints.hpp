@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <thread>
+#include <type_traits>
 
 #include "common/bus/message_pool.hpp"
 #include "common/bus/participant_state.hpp"
@@ -11,10 +12,10 @@ namespace rds::bus::detail {
 
 class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
  public:
-  WriterEndpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type,
+  WriterEndpoint(std::shared_ptr<ParticipantState> state, const std::string& topic, const TypeOps& type,
                  const Qos& qos)
-      : Endpoint(std::move(state), std::move(topic), type, qos, true),
-        writer_(state_->backend->make_writer(topic_, type, qos)) {
+      : Endpoint(std::move(state), topic, type, qos, true),
+        writer_(state_->backend->make_writer(full_name_, type, qos)) {
     enter();
   }
   ~WriterEndpoint() override { leave(); }
@@ -37,37 +38,58 @@ class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
 };
 
 /// Waits, decodes and calls back on a thread of its own.
+///
+/// Where its QoS follows the publishers and hears nothing, as all of them offer best effort only, another
+/// reader that asks for no more takes the first one's place.
 class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
  public:
   using Callback = std::function<void(std::shared_ptr<const void>, const ParticipantId&)>;
 
-  ReaderEndpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type,
+  ReaderEndpoint(std::shared_ptr<ParticipantState> state, const std::string& topic, const TypeOps& type,
                  const Qos& qos, Callback callback)
-      : Endpoint(std::move(state), std::move(topic), type, qos, false),
+      : Endpoint(std::move(state), topic, type, qos, false),
         callback_(std::move(callback)),
         pool_(type),
-        reader_(state_->backend->make_reader(topic_, type, qos)),
+        reader_(state_->backend->make_reader(full_name_, type, qos)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
     enter();
   }
   ~ReaderEndpoint() override {
     leave();
     thread_.request_stop();
-    reader_->wake();
+    with_reader([](BackendReader& reader) { reader.wake(); });
     thread_.join();
   }
 
-  [[nodiscard]] int matched() const override { return reader_->matched(); }
+  [[nodiscard]] int matched() const override {
+    return with_reader([](const BackendReader& reader) { return reader.matched(); });
+  }
 
  private:
-  [[nodiscard]] Guid guid() const override { return reader_->guid(); }
-  [[nodiscard]] std::uint64_t lost() const override { return qos_.counts_lost ? reader_->lost() : 0; }
+  [[nodiscard]] Guid guid() const override {
+    return with_reader([](const BackendReader& reader) { return reader.guid(); });
+  }
+  [[nodiscard]] std::uint64_t lost() const override {
+    if (!qos_.counts_lost) return 0;
+    return with_reader([](const BackendReader& reader) { return reader.lost(); });
+  }
+  /// For other threads than its own, which alone exchanges the reader.
+  template <class Ask>
+  std::invoke_result_t<Ask, BackendReader&> with_reader(Ask ask) const {
+    const std::lock_guard lock(reader_mutex_);
+    return ask(*reader_);
+  }
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      if (!reader_->wait_for(kIdleAfter)) {
+      if (!reader_->wait_for(qos_.follows_publishers ? kFollowAfter : kIdleAfter)) {
         pool_.clear();
-        reader_->wait();
+        if (!qos_.follows_publishers) {
+          reader_->wait();
+        } else if (reliable_ && best_effort_is_all_that_is_offered()) {
+          ask_for_best_effort();
+          continue;
+        }
       }
       while (!stop.stop_requested() && take_one()) {
       }
@@ -97,10 +119,33 @@ class ReaderEndpoint final : public SubscriptionEndpoint, public Endpoint {
     }
   }
 
+  [[nodiscard]] bool best_effort_is_all_that_is_offered() const {
+    bool is_offered = false;
+    for (const DiscoveredEndpoint& endpoint : state_->backend->discovered()) {
+      if (!endpoint.publisher || endpoint.topic != full_name_ || endpoint.type != type_.dds_name) continue;
+      if (endpoint.reliable) return false;
+      is_offered = true;
+    }
+    return is_offered;
+  }
+
+  void ask_for_best_effort() {
+    Qos less = qos_;
+    less.reliable = false;
+    std::unique_ptr<BackendReader> reader = state_->backend->make_reader(full_name_, type_, less);
+    {
+      const std::lock_guard lock(reader_mutex_);
+      reader_.swap(reader);
+    }
+    reliable_ = false;
+  }
+
   static constexpr std::chrono::seconds kIdleAfter{2};  // then no memory is kept for the next message
+  static constexpr std::chrono::seconds kFollowAfter{1};
 
   Callback callback_;
   MessagePool pool_;
+  mutable std::mutex reader_mutex_;  // of which reader it is
   std::unique_ptr<BackendReader> reader_;
   std::jthread thread_;  // last: it uses the others
 };

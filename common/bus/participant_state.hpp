@@ -24,7 +24,9 @@ inline std::unique_ptr<Backend> make_backend(const ParticipantOptions& options) 
 /// What a participant and its endpoints share; whoever of them lives longest closes it.
 struct ParticipantState {
   explicit ParticipantState(const ParticipantOptions& options)
-      : backend(make_backend(options)), identity(options.credentials ? options.credentials->identity : "") {}
+      : names(options.node_namespace, options.node_name, options.remappings),
+        backend(make_backend(options)),
+        identity(options.credentials ? options.credentials->identity : "") {}
 
   /// A participant carries one type per topic: both vendors would refuse a second one, each in its own way.
   void check_type(const std::string& topic, const TypeOps& type) {
@@ -45,6 +47,7 @@ struct ParticipantState {
     }
   }
 
+  TopicNames names;
   std::unique_ptr<Backend> backend;
   std::string identity;  // empty on an open bus
   std::mutex mutex;      // of what follows
@@ -55,9 +58,15 @@ struct ParticipantState {
 /// What writers and readers have in common: what they are on the bus, and what has passed them.
 class Endpoint {
  public:
-  Endpoint(std::shared_ptr<ParticipantState> state, std::string topic, const TypeOps& type, const Qos& qos,
-           bool publisher)
-      : state_(std::move(state)), topic_(std::move(topic)), type_(type), qos_(qos), publisher_(publisher) {}
+  Endpoint(std::shared_ptr<ParticipantState> state, const std::string& topic, const TypeOps& type,
+           const Qos& qos, bool publisher)
+      : state_(std::move(state)),
+        topic_(topic.starts_with('/') ? topic.substr(1) : topic),
+        full_name_(state_->names.full_name(topic)),
+        type_(type),
+        qos_(qos),
+        reliable_(qos.reliable),
+        publisher_(publisher) {}
   Endpoint(const Endpoint&) = delete;
   Endpoint& operator=(const Endpoint&) = delete;
 
@@ -65,8 +74,8 @@ class Endpoint {
     return {topic_, publisher_, messages_, bytes_, dropped_ + lost(), matched(), another_version_};
   }
   [[nodiscard]] DiscoveredEndpoint description() const {
-    return {topic_,          type_.dds_name, publisher_,          type_.type_hash,
-            text_of(guid()), qos_.reliable,  qos_.transient_local};
+    return {full_name_,      type_.dds_name, publisher_,          type_.type_hash,
+            text_of(guid()), reliable_,      qos_.transient_local};
   }
 
  protected:
@@ -90,9 +99,11 @@ class Endpoint {
   }
 
   std::shared_ptr<ParticipantState> state_;
-  std::string topic_;
+  std::string topic_;      // as it was asked for
+  std::string full_name_;  // on the bus, without "rt/"
   const TypeOps& type_;
   Qos qos_;
+  std::atomic<bool> reliable_;  // a reader may have to ask for less than its QoS says
   bool publisher_;
   std::atomic<std::uint64_t> messages_ = 0;
   std::atomic<std::uint64_t> bytes_ = 0;

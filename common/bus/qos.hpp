@@ -17,10 +17,12 @@ struct Qos {
   /// Whether a writer may take half a second before it sends again what readers lack. For what is large and
   /// soon replaced: readers behind a slow link ask for the same again and again while it is on its way.
   bool repairs_slowly = false;
+  /// Whether a reader that asks for reliability is content without, where that is all that is offered.
+  bool follows_publishers = false;
 };
 
 // The profiles of the topic table (see common/bus/README.md).
-inline constexpr Qos kSensor{.reliable = true, .depth = 5};
+inline constexpr Qos kSensor{.reliable = true, .depth = 5, .follows_publishers = true};
 inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};
 inline constexpr Qos kTransform{.reliable = true, .depth = 100};

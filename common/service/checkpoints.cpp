@@ -13,11 +13,12 @@ void report(const std::string& failure) {
     spdlog::warn("the map cannot be kept on the disk, is tried again: {}", failure);
 }
 
-tl::expected<store::Checkpoint, std::string> open(const store::MapsConfig& config, int domain,
-                                                  const std::string& service) {
+tl::expected<store::Checkpoint, std::string> open(const store::MapsConfig& config,
+                                                  const ServiceContext& context, const std::string& service) {
   const auto maps = store::maps_folder(config);
   if (!maps) return tl::unexpected(maps.error());
-  return store::open_checkpoint(store::checkpoint_file(*maps, domain, service));
+  return store::open_checkpoint(
+      store::checkpoint_file(*maps, context.domain, context.node_namespace, service));
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ std::unique_ptr<store::CheckpointWriter> open_checkpoints(ServiceContext& contex
                                                           const store::MapsConfig& config,
                                                           const std::string& service) {
   if (!config.checkpoint) return nullptr;
-  auto checkpoint = open(config, context.domain, service);
+  auto checkpoint = open(config, context, service);
   if (!checkpoint) {
     ++context.diagnostics.counter("checkpoints failed");
     spdlog::warn("goes on without checkpoints: {}", checkpoint.error());
@@ -38,8 +39,10 @@ std::unique_ptr<store::CheckpointWriter> open_checkpoints(ServiceContext& contex
   store::CheckpointWriter::Limits limits;
   limits.backup = std::chrono::duration_cast<std::chrono::milliseconds>(backup);
   auto writer = std::make_unique<store::CheckpointWriter>(std::move(*checkpoint), limits, report);
-  context.diagnostics.gauge("checkpoints written", [writer = writer.get()] { return writer->log().written(); });
-  context.diagnostics.gauge("checkpoint writes failed", [writer = writer.get()] { return writer->log().failed(); });
+  context.diagnostics.gauge("checkpoints written",
+                            [writer = writer.get()] { return writer->log().written(); });
+  context.diagnostics.gauge("checkpoint writes failed",
+                            [writer = writer.get()] { return writer->log().failed(); });
   return writer;
 }
 

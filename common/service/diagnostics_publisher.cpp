@@ -112,7 +112,8 @@ void DiagnosticsPublisher::publish() {
   const Health health_now = health(worker, mismatches.size());
   presence_.tell(health_now, worker.silent_s);
   diagnostic_msgs::msg::DiagnosticStatus status;
-  status.name(context_.name);
+  status.name((context_.node_namespace == "/" ? "" : context_.node_namespace.substr(1) + "/") +
+              context_.name);
   status.hardware_id("rds-slam");
   status.level(health_now.level);
   status.message(health_now.message);
@@ -129,6 +130,7 @@ void DiagnosticsPublisher::publish() {
   for (const auto& endpoint : context_.bus.statistics())
     if (endpoint.dropped > 0)
       values.push_back(key_value("dropped " + endpoint.topic, fmt::format("{}", endpoint.dropped)));
+  for (const auto& [name, text] : warnings_) values.push_back(key_value("warning", text));
   for (const bus::Mismatch& mismatch : mismatches)
     values.push_back(key_value("another version", describe(mismatch)));
   diagnostic_msgs::msg::DiagnosticArray report;

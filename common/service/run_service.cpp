@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <csignal>
 #include <optional>
 #include <stdexcept>
@@ -7,11 +8,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "common/bus/names/topic_names.hpp"
 #include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
 #include "common/concurrency/priority.hpp"
+#include "common/config/overrides.hpp"
 #include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
+#include "common/service/ros/ros_arguments.hpp"
 #include "common/service/service_process.hpp"
 
 namespace rds::service {
@@ -25,6 +29,12 @@ struct Options {
   std::string secure;
   std::string config_path;
   std::string log_level = "info";
+  std::string node_name;
+  std::string node_namespace;
+  std::string ros_distro;
+  std::string frame_prefix;
+  std::vector<bus::Remapping> remappings;
+  YAML::Node parameters;
   double exit_when_hung_s = 0;
 };
 
@@ -49,6 +59,12 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--secure", options.secure, "folder of rds secure init, for a secured domain")
       ->envname("RDS_SECURE");
   app.add_option("--config", options.config_path, "YAML file");
+  app.add_option("--namespace", options.node_namespace, "Of the node and its topics, one for each robot")
+      ->envname("ROS_NAMESPACE");
+  app.add_option("--frame-prefix", options.frame_prefix, "Before the names of the robot's frames: robot1/");
+  app.add_option("--ros-distro", options.ros_distro,
+                 "ROS 2 that nodes are announced to (default: as since Iron)")
+      ->envname("ROS_DISTRO");
   app.add_option("--exit-when-hung", options.exit_when_hung_s,
                  "End when the worker has been silent for so long [s], for containers (default: 0, never)")
       ->envname("RDS_EXIT_WHEN_HUNG")
@@ -65,19 +81,41 @@ std::optional<bus::Credentials> credentials(const std::string& name, const Optio
   return std::move(*read);
 }
 
+/// Takes what stands behind --ros-args, and what a setting of every service says.
+/// @throws CLI::ValidationError
+void take_ros_arguments(RosArguments&& arguments, Options& options) {
+  if (arguments.node_name) options.node_name = *arguments.node_name;
+  if (arguments.node_namespace) options.node_namespace = *arguments.node_namespace;
+  if (arguments.log_level) options.log_level = *arguments.log_level;
+  options.remappings = std::move(arguments.remappings);
+  options.parameters = std::move(arguments.parameters);
+  for (const auto& [name, target] :
+       {std::pair("frame_prefix", &options.frame_prefix), std::pair("ros_distro", &options.ros_distro)}) {
+    if (!options.parameters[name]) continue;
+    if (!options.parameters[name].IsScalar())
+      throw CLI::ValidationError("--ros-args", std::string(name) + ": expected a text");
+    *target = options.parameters[name].as<std::string>();
+    options.parameters.remove(name);
+  }
+}
+
 int start(const std::string& name, const Options& options,
           const std::function<ServiceFactory(config::ConfigReader&)>& read) {
-  auto reader = options.config_path.empty() ? config::ConfigReader()
-                                            : config::ConfigReader::from_file(options.config_path);
+  auto reader = config::from_file_with(options.config_path, options.parameters, "ROS parameters");
   const ServiceFactory factory = read(reader);
   auto participant = bus::Participant::create({.vendor = bus::vendor_from_name(options.vendor),
                                                .domain = options.domain,
-                                               .node_name = name,
+                                               .node_name = options.node_name,
                                                .loopback_only = options.loopback_only,
                                                .peers = bus::peer_addresses(options.peers),
-                                               .credentials = credentials(name, options)});
+                                               .credentials = credentials(name, options),
+                                               .node_namespace = options.node_namespace,
+                                               .remappings = options.remappings,
+                                               .ros_distro = bus::ros_distro_from_name(options.ros_distro)});
   Diagnostics diagnostics;
   ServiceContext context{name, *participant, diagnostics, options.domain};
+  context.node_namespace = bus::normal_namespace(options.node_namespace);
+  context.frame_prefix = options.frame_prefix;
   ServiceProcess process(context, factory, options.exit_when_hung_s);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
@@ -97,11 +135,18 @@ int run_service(const std::string& name, int argc, char** argv,
       stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  CLI::App app{name + ", a service of RDS-SLAM"};
+  CLI::App app{name + ", a service of RDS-SLAM", name};
   Options options;
+  options.node_name = name;
+  std::ranges::replace(options.node_name, '-', '_');  // ROS 2 knows no hyphens
   add_options(app, options);
   try {
-    app.parse(argc, argv);
+    CommandLine line = split_command_line({argv + 1, argv + argc});
+    std::ranges::reverse(line.own);  // as CLI11 takes them
+    app.parse(std::move(line.own));
+    auto ros = read_ros_arguments(line.ros, options.node_name, options.node_namespace);
+    if (!ros) throw CLI::ValidationError("--ros-args", ros.error());
+    take_ros_arguments(std::move(*ros), options);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }

@@ -29,6 +29,11 @@ struct ServiceContext {
   Diagnostics& diagnostics;
   int domain = 0;
   std::uint64_t instance = random_id();  // of this process, in all that it publishes
+  std::string node_namespace = "/";      // of the robot
+  std::string frame_prefix = {};         // of the robot's frames
+
+  /// The robot's frame of this name: "robot1/map".
+  [[nodiscard]] std::string frame(const std::string& id) const { return frame_prefix + id; }
 };
 
 struct CommandOutcome {

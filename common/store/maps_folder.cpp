@@ -53,8 +53,10 @@ tl::expected<void, std::string> make_private_folder(const fs::path& folder) {
       fmt::format("{}: cannot be made a folder: {}", folder.string(), std::strerror(errno)));
 }
 
-fs::path checkpoint_file(const fs::path& maps, int domain, const std::string& service) {
-  return maps / "checkpoints" / fmt::format("domain-{}", domain) / (service + ".db");
+fs::path checkpoint_file(const fs::path& maps, int domain, const std::string& node_namespace,
+                         const std::string& service) {
+  const fs::path below = fs::path(node_namespace).relative_path();
+  return maps / "checkpoints" / fmt::format("domain-{}", domain) / below / (service + ".db");
 }
 
 }  // namespace rds::store

@@ -32,8 +32,10 @@ tl::expected<std::filesystem::path, std::string> maps_folder(const MapsConfig& c
 /// @return or one sentence naming the folder that is none, or cannot be made.
 tl::expected<void, std::string> make_private_folder(const std::filesystem::path& folder);
 
-/// checkpoints/domain-N/SERVICE.db below the folder of maps: the checkpoint of a service in a DDS domain.
+/// checkpoints/domain-N/SERVICE.db below the folder of maps: the checkpoint of a service in a DDS domain. Of a
+/// robot with a namespace checkpoints/domain-N/robot1/SERVICE.db.
+/// @param node_namespace  "/robot1"; "/" for none.
 std::filesystem::path checkpoint_file(const std::filesystem::path& maps, int domain,
-                                      const std::string& service);
+                                      const std::string& node_namespace, const std::string& service);
 
 }  // namespace rds::store

@@ -11,7 +11,7 @@ namespace rds::topics {
 /// Writes a topic as this process does. @throws bus::BusError; std::logic_error if it is no writer of it.
 template <class Message>
 bus::Publisher<Message> advertise(bus::Participant& bus, const Topic<Message>& topic, Process process) {
-  return bus.advertise<Message>(topic.name, qos_of(process, topic.writers, topic.name));
+  return bus.advertise<Message>(topic.address(), qos_of(process, topic.writers, topic.name));
 }
 
 /// Reads a topic as this process does; the callback as for bus::Participant::subscribe().
@@ -19,7 +19,8 @@ bus::Publisher<Message> advertise(bus::Participant& bus, const Topic<Message>& t
 template <class Message, class Callback>
 bus::Subscription subscribe(bus::Participant& bus, const Topic<Message>& topic, Process process,
                             Callback callback) {
-  return bus.subscribe<Message>(topic.name, qos_of(process, topic.readers, topic.name), std::move(callback));
+  return bus.subscribe<Message>(topic.address(), qos_of(process, topic.readers, topic.name),
+                                std::move(callback));
 }
 
 }  // namespace rds::topics

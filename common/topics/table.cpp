@@ -11,7 +11,7 @@ namespace {
 
 template <class Message>
 Row row(const Topic<Message>& topic) {
-  return {topic.name, bus::type_ops<Message>().ros_name, topic.writers, topic.readers};
+  return {topic.name, bus::type_ops<Message>().ros_name, topic.writers, topic.readers, topic.is_global};
 }
 
 bool names(std::initializer_list<Endpoint> endpoints, Process process) {

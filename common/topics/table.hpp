@@ -15,6 +15,10 @@ struct Row {
   std::string type;  // "nav_msgs/msg/Odometry"
   std::initializer_list<Endpoint> writers;
   std::initializer_list<Endpoint> readers;
+  bool is_global = false;
+
+  /// As bus::Participant takes it.
+  [[nodiscard]] std::string address() const { return is_global ? "/" + name : name; }
 
   [[nodiscard]] bool is_written_by(Process process) const;
   [[nodiscard]] bool is_read_by(Process process) const;

@@ -19,8 +19,8 @@ enum class Process : std::uint8_t {
   kMapper = 8,
   kLoopCloser = 16,
   kServices = 31,
-  kPlayer = 32,  // rds run, rds play
-  kTool = 64,    // the other subcommands of rds
+  kPlayer = 32,   // rds run, rds play
+  kTool = 64,     // the other subcommands of rds
   kFarRun = 128,  // rds run on a machine without the camera
 };
 using enum Process;
@@ -41,12 +41,19 @@ struct Endpoint {
 /// A topic's name, type, QoS, writers and readers.
 template <class Message>
 struct Topic {
-  const char* name;  // without "rt/"
+  const char* name;  // without a leading slash
   std::initializer_list<Endpoint> writers;
   std::initializer_list<Endpoint> readers;
+  /// Whether all robots share it, as everybody else in ROS 2 has it: not below a namespace, unless remapped.
+  bool is_global = false;
+
+  /// As bus::Participant takes it.
+  [[nodiscard]] std::string address() const { return is_global ? std::string("/") + name : name; }
 
   /// The same under another name, which the caller keeps alive.
-  [[nodiscard]] Topic named(const std::string& other) const { return {other.c_str(), writers, readers}; }
+  [[nodiscard]] Topic named(const std::string& other) const {
+    return {other.c_str(), writers, readers, is_global};
+  }
 };
 
 /// @throws std::logic_error if the table does not name the process.

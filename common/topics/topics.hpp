@@ -33,6 +33,7 @@ class TransferRequest;
 }  // namespace rds_msgs::msg
 namespace sensor_msgs::msg {
 class CameraInfo;
+class CompressedImage;
 class Image;
 class PointCloud2;
 }  // namespace sensor_msgs::msg
@@ -59,9 +60,20 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kCameraInfo{
 inline constexpr Topic<sensor_msgs::msg::Image> kDepth{
     "camera/aligned_depth_to_color/image_raw", {{kPlayer, bus::kSensor}}, {{kTracker, bus::kSensor}}};
 
+// What a driver may offer beside them, or in their place: beside another name stand others.
+inline constexpr Topic<sensor_msgs::msg::CompressedImage> kColorCompressed{
+    "camera/color/image_raw/compressed", {}, {{kTracker, bus::kSensor}}};
+inline constexpr Topic<sensor_msgs::msg::CompressedImage> kDepthCompressed{
+    "camera/aligned_depth_to_color/image_raw/compressedDepth", {}, {{kTracker, bus::kSensor}}};
+inline constexpr Topic<sensor_msgs::msg::CameraInfo> kDepthInfo{
+    "camera/aligned_depth_to_color/camera_info", {}, {{kTracker, bus::kSensor}}};
+
 // Each frame.
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometry{"rds/odometry", {{kTracker, bus::kStream}}, {}};
-inline constexpr Topic<tf2_msgs::msg::TFMessage> kTransforms{"tf", {{kTracker, bus::kTransform}}, {}};
+inline constexpr Topic<tf2_msgs::msg::TFMessage> kTransforms{
+    "tf", {{kTracker, bus::kTransform}}, {{kTracker, bus::kTransform}}, true};
+inline constexpr Topic<tf2_msgs::msg::TFMessage> kStaticTransforms{
+    "tf_static", {}, {{kTracker, bus::kLatchedEvery}}, true};
 inline constexpr Topic<rds_msgs::msg::TrackingState> kTrackingState{
     "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer, bus::kStream}}};
 inline constexpr Topic<rds_msgs::msg::PredictedBoxes> kPredictedBoxes{
@@ -147,13 +159,17 @@ inline constexpr Topic<rds_msgs::msg::ServiceStatus> kServiceStatus{
     {{kServices, bus::kLatched}},
     {{kServices | kPlayer, bus::kLatchedOfEach}, {kTool, bus::kStream}}};  // rds status: what is said now
 inline constexpr Topic<diagnostic_msgs::msg::DiagnosticArray> kDiagnostics{
-    "diagnostics", {{kServices, bus::kStream}}, {}};
+    "diagnostics", {{kServices, bus::kStream}}, {}, true};
 
 inline constexpr std::tuple kAllTopics{kColor,
                                        kCameraInfo,
                                        kDepth,
+                                       kColorCompressed,
+                                       kDepthCompressed,
+                                       kDepthInfo,
                                        kOdometry,
                                        kTransforms,
+                                       kStaticTransforms,
                                        kTrackingState,
                                        kPredictedBoxes,
                                        kFeatures,

@@ -26,7 +26,7 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
           config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "loop_closer"),
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
-      answers_(context.bus, context.instance),
+      answers_(context),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting) {
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();

@@ -10,8 +10,10 @@ namespace {
 constexpr int kRepeats = 32;
 }  // namespace
 
-PoseAnswers::PoseAnswers(bus::Participant& bus, std::uint64_t instance)
-    : instance_(instance), poses_(topics::advertise(bus, topics::kKeyframePoses, topics::kLoopCloser)) {}
+PoseAnswers::PoseAnswers(service::ServiceContext& context)
+    : instance_(context.instance),
+      map_frame_(context.frame("map")),
+      poses_(topics::advertise(context.bus, topics::kKeyframePoses, topics::kLoopCloser)) {}
 
 void PoseAnswers::begin(std::uint64_t map_epoch) {
   corrected_ = {};
@@ -51,7 +53,7 @@ void PoseAnswers::answer(const Features& features, const LoopAnswer& found) {
 rds_msgs::msg::KeyFramePoses PoseAnswers::answer_to(const Features& features) const {
   rds_msgs::msg::KeyFramePoses message;
   message.header(features->header());
-  message.header().frame_id("map");
+  message.header().frame_id(map_frame_);
   message.instance(instance_);
   message.loop_instance(instance_);
   message.map_epoch(features->map_epoch());

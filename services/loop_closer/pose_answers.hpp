@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
-#include "common/bus/participant.hpp"
+#include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/loop_closer/core/loop_types.hpp"
@@ -12,12 +13,13 @@
 namespace rds::loop_closer {
 
 /// Answers every keyframe on rds/keyframe/poses: in lockstep the tracker waits for that. A correction is
-/// repeated in the answers to the next keyframes, in case one is missed; then answers carry its revision alone.
+/// repeated in the answers to the next keyframes, in case one is missed; then answers carry its revision
+/// alone.
 class PoseAnswers {
  public:
   using Features = std::shared_ptr<const rds_msgs::msg::KeyFrameFeatures>;
 
-  PoseAnswers(bus::Participant& bus, std::uint64_t instance);
+  explicit PoseAnswers(service::ServiceContext& context);
 
   /// Of the last answer.
   [[nodiscard]] std::uint64_t map_epoch() const { return corrected_.map_epoch(); }
@@ -33,6 +35,7 @@ class PoseAnswers {
   [[nodiscard]] rds_msgs::msg::KeyFramePoses answer_to(const Features& features) const;
 
   std::uint64_t instance_;
+  std::string map_frame_;
   rds_msgs::msg::KeyFramePoses corrected_;  // of the last loop
   int repeats_ = 0;                         // answers that still carry its poses
   bus::Publisher<rds_msgs::msg::KeyFramePoses> poses_;

@@ -17,12 +17,29 @@ std::array<double, 3> to_array(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+void prefix(std_msgs::msg::Header& header, const std::string& frame_prefix) {
+  header.frame_id(frame_prefix + header.frame_id());
+}
+
+/// The message in the frame of this robot, where it has a frame prefix.
+template <class Message>
+Message of_robot(Message message, const std::string& frame_prefix) {
+  if (frame_prefix.empty()) return message;
+  if constexpr (requires { message.markers(); })
+    for (auto& marker : message.markers()) prefix(marker.header(), frame_prefix);
+  if constexpr (requires { message.detections(); })
+    for (auto& detection : message.detections()) prefix(detection.header(), frame_prefix);
+  if constexpr (requires { message.header(); }) prefix(message.header(), frame_prefix);
+  return message;
+}
+
 }  // namespace
 
 MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid, int full_map_every)
     : grid_config_(grid),
       full_map_every_(full_map_every),
       instance_(context.instance),
+      frame_prefix_(context.frame_prefix),
       map_id_(service::random_id()),
       topics_{topics::advertise(context.bus, topics::kMapDelta, topics::kMapper),
               topics::advertise(context.bus, topics::kMapFull, topics::kMapper),
@@ -129,14 +146,16 @@ void MapOutputs::write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& 
   info.describes_full(true);
   info.label_keys(std::move(hidden.keys));
   info.label_values(std::move(hidden.values));
-  topics_.full.write(full_message(snapshot, stamp_ns));
+  topics_.full.write(of_robot(full_message(snapshot, stamp_ns), frame_prefix_));
   topics_.info.write(info);
-  topics_.objects.write(objects_message(snapshot.objects, stamp_ns));
-  topics_.markers.write(markers_message(snapshot.objects, stamp_ns));
-  topics_.grid.write(grid_message(make_grid(*tree, snapshot.up, grid_config_), stamp_ns));
-  if (topics_.binary.matched() > 0) topics_.binary.write(binary_message(*tree, stamp_ns));
+  topics_.objects.write(of_robot(objects_message(snapshot.objects, stamp_ns), frame_prefix_));
+  topics_.markers.write(of_robot(markers_message(snapshot.objects, stamp_ns), frame_prefix_));
+  topics_.grid.write(
+      of_robot(grid_message(make_grid(*tree, snapshot.up, grid_config_), stamp_ns), frame_prefix_));
+  if (topics_.binary.matched() > 0)
+    topics_.binary.write(of_robot(binary_message(*tree, stamp_ns), frame_prefix_));
   if (topics_.points.matched() > 0)
-    topics_.points.write(points_message(points_of(*tree, snapshot), stamp_ns));
+    topics_.points.write(of_robot(points_message(points_of(*tree, snapshot), stamp_ns), frame_prefix_));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
   full_map_latency_.add_ms(took.count());
 }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/MapInfo.h"
@@ -70,6 +71,7 @@ class MapOutputs {
   GridConfig grid_config_;
   int full_map_every_;
   std::uint64_t instance_;
+  std::string frame_prefix_;
   std::uint64_t map_id_;
   Newest keyframe_;
   std::int64_t full_stamp_ns_ = 0;  // of the newest full map

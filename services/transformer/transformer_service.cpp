@@ -109,7 +109,8 @@ void TransformerService::lift(const Detections& detections, const geometry::Pose
     else
       ++context_.diagnostics.counter("boxes without a place in the map");
   }
-  const auto header = messages::make_header(messages::to_nanoseconds(detections->header().stamp()), "map");
+  const auto header =
+      messages::make_header(messages::to_nanoseconds(detections->header().stamp()), context_.frame("map"));
   boxes_.write(messages::to_detection_message(boxes, header));
 }
 

@@ -55,7 +55,9 @@ class AnnouncedReader final : public BackendReader {
 class DdsNode final : public Backend {
  public:
   DdsNode(std::unique_ptr<Backend> participant, const ParticipantOptions& options)
-      : participant_(std::move(participant)), announcer_(*participant_, options.node_name) {}
+      : participant_(std::move(participant)),
+        announcer_(*participant_, {normal_namespace(options.node_namespace), options.node_name},
+                   options.ros_distro) {}
 
   std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {

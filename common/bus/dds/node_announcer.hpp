@@ -10,11 +10,17 @@
 
 namespace rds::bus::detail {
 
+struct NodeName {
+  std::string node_namespace;  // "/robot1"
+  std::string name;
+};
+
 /// Tells ROS 2 tools (`ros2 node list`, `ros2 node info`) on topic ros_discovery_info which node this
-/// participant is and which endpoints belong to it. Safe to call from any thread.
+/// participant is and which endpoints belong to it, in the form of one distribution. Safe to call from any
+/// thread.
 class NodeAnnouncer {
  public:
-  NodeAnnouncer(Backend& backend, std::string node_name);
+  NodeAnnouncer(Backend& backend, NodeName node, RosDistro distro);
 
   void add_writer(const Guid& guid);
   void add_reader(const Guid& guid);
@@ -22,10 +28,13 @@ class NodeAnnouncer {
 
  private:
   void publish() const;
+  template <class Info>
+  void publish_as() const;
 
   std::mutex mutex_;
   Guid participant_;
-  std::string node_name_;
+  NodeName node_;
+  RosDistro distro_;
   std::unique_ptr<BackendWriter> writer_;
   std::vector<Guid> writers_;
   std::vector<Guid> readers_;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/bus/names/topic_names.hpp"
 #include "common/bus/peer_addresses.hpp"
 
 namespace rds {
@@ -20,6 +21,21 @@ std::vector<std::string> addresses_of(const std::string& names) {
 
 }  // namespace
 
+void add_namespace_option(CLI::App& command, std::string& node_namespace) {
+  command
+      .add_option_function<std::string>(
+          "--namespace",
+          [&node_namespace](const std::string& name) {
+            try {
+              node_namespace = bus::normal_namespace(name);
+            } catch (const std::invalid_argument& e) {
+              throw CLI::ValidationError("--namespace", e.what());
+            }
+          },
+          "Of the robot, where several share the domain")
+      ->envname("ROS_NAMESPACE");
+}
+
 void add_bus_options(CLI::App& command, BusOptions& options) {
   command.add_option("--bus", options.vendor, "fastdds or cyclonedds")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}))
@@ -33,6 +49,7 @@ void add_bus_options(CLI::App& command, BusOptions& options) {
           "--peers", [&options](const std::string& names) { options.peers = addresses_of(names); },
           "Other machines, names or addresses: robot,nas.local,10.0.0.7")
       ->envname("RDS_PEERS");
+  add_namespace_option(command, options.node_namespace);
   add_secure_options(command, options.secure);
 }
 

@@ -17,6 +17,7 @@ struct BusOptions {
   int domain = 0;
   bool loopback_only = false;
   std::vector<std::string> peers;  // addresses
+  std::string node_namespace;      // of the robot
   SecureOptions secure;
 
   /// @throws std::runtime_error with one sentence if there is something wrong with the credentials.
@@ -26,11 +27,16 @@ struct BusOptions {
             .node_name = node_name,
             .loopback_only = loopback_only,
             .peers = peers,
-            .credentials = secure.credentials()};
+            .credentials = secure.credentials(),
+            .node_namespace = node_namespace};
   }
 };
 
-/// Adds --bus, --domain (default: ROS_DOMAIN_ID or 0), --loopback, --peers, --secure and --identity.
+/// Adds --bus, --domain (default: ROS_DOMAIN_ID or 0), --loopback, --peers, --namespace (default:
+/// ROS_NAMESPACE), --secure and --identity.
 void add_bus_options(CLI::App& command, BusOptions& options);
+
+/// Adds --namespace alone.
+void add_namespace_option(CLI::App& command, std::string& node_namespace);
 
 }  // namespace rds

@@ -10,8 +10,6 @@
 namespace rds::record {
 namespace {
 
-constexpr const char* kStaticTransforms = "tf_static";  // of the robot
-
 /// What services tell each other: keyframes' pictures, which the camera's topics have, and transfers of large
 /// data.
 const std::array<std::string, 9> kInternal{
@@ -26,15 +24,16 @@ bool is_internal(const std::string& topic) {
 }  // namespace
 
 TopicChoice TopicChoice::camera() {
-  return named({topics::kColor.name, topics::kCameraInfo.name, topics::kDepth.name, kStaticTransforms});
+  return named({topics::kColor.name, topics::kCameraInfo.name, topics::kDepth.name,
+                topics::kStaticTransforms.address()});
 }
 
 TopicChoice TopicChoice::camera_and_outputs() {
   TopicChoice choice = camera();
   for (const auto service :
        {topics::kTracker, topics::kDetector, topics::kTransformer, topics::kMapper, topics::kLoopCloser})
-    for (const std::string& topic : topics::written_by(service))
-      if (!is_internal(topic)) choice.topics_.insert(topic);
+    for (const topics::Row& row : topics::table())
+      if (row.is_written_by(service) && !is_internal(row.name)) choice.topics_.insert(row.address());
   return choice;
 }
 
@@ -46,12 +45,20 @@ TopicChoice TopicChoice::all() {
 
 TopicChoice TopicChoice::named(const std::vector<std::string>& topics) {
   TopicChoice choice;
-  for (const std::string& topic : topics) choice.topics_.insert(topic.substr(topic.starts_with('/') ? 1 : 0));
+  choice.topics_.insert(topics.begin(), topics.end());
+  return choice;
+}
+
+TopicChoice TopicChoice::by_full_names(
+    const std::function<std::string(const std::string&)>& full_name) const {
+  TopicChoice choice;
+  choice.all_ = all_;
+  for (const std::string& topic : topics_) choice.topics_.insert(full_name(topic));
   return choice;
 }
 
 bool TopicChoice::contains(const std::string& topic) const {
-  return all_ || topics_.contains(topic);
+  return all_ || topics_.contains(topic) || topics_.contains("/" + topic);
 }
 
 }  // namespace rds::record

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,8 +16,12 @@ class TopicChoice {
   /// The camera's and what the services say to others: not what they only tell each other.
   static TopicChoice camera_and_outputs();
   static TopicChoice all();
-  /// @param topics  names, with or without a leading slash.
+  /// @param topics  names; without a leading slash they are below the namespace, if there is one.
   static TopicChoice named(const std::vector<std::string>& topics);
+
+  /// The same topics by their full names. @param full_name  bus::Participant::full_name()
+  [[nodiscard]] TopicChoice by_full_names(
+      const std::function<std::string(const std::string&)>& full_name) const;
 
   /// @param topic  without a leading slash.
   [[nodiscard]] bool contains(const std::string& topic) const;

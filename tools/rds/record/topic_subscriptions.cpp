@@ -34,9 +34,11 @@ std::string offered_profiles(const std::vector<bus::DiscoveredEndpoint>& publish
 
 }  // namespace
 
-TopicSubscriptions::TopicSubscriptions(const bus::ParticipantOptions& options, TopicChoice choice,
+TopicSubscriptions::TopicSubscriptions(const bus::ParticipantOptions& options, const TopicChoice& choice,
                                        BagThread& bag)
-    : choice_(std::move(choice)), bag_(bag), bus_(bus::Participant::create(options)) {}
+    : bag_(bag),
+      bus_(bus::Participant::create(options)),
+      choice_(choice.by_full_names([this](const std::string& topic) { return bus_->full_name(topic); })) {}
 
 void TopicSubscriptions::look() {
   std::map<std::string, Publishers> publishers;
@@ -72,7 +74,7 @@ void TopicSubscriptions::subscribe(const std::string& topic, const Publishers& p
   subscribed.qos = wanted_qos(publishers);
   subscribed.subscription.reset();
   subscribed.subscription = bus_->make_subscription(
-      topic, *type, subscribed.qos,
+      "/" + topic, *type, subscribed.qos,
       [this, number = subscribed.number](std::shared_ptr<const void> message, const bus::ParticipantId&) {
         bag_.push({number, now_ns(),
                    std::static_pointer_cast<const messages::SerializedMessage>(std::move(message))});

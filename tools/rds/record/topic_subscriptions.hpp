@@ -17,7 +17,7 @@ namespace rds::record {
 /// wire.
 class TopicSubscriptions {
  public:
-  TopicSubscriptions(const bus::ParticipantOptions& options, TopicChoice choice, BagThread& bag);
+  TopicSubscriptions(const bus::ParticipantOptions& options, const TopicChoice& choice, BagThread& bag);
 
   /// Subscribes to what has come up since, with the strongest QoS that all publishers of a topic offer;
   /// again, where a publisher came that offers less.
@@ -37,10 +37,10 @@ class TopicSubscriptions {
   void subscribe(const std::string& topic, const Publishers& publishers);
   const bus::TypeOps* serialized_type(const std::string& dds_name);
 
-  TopicChoice choice_;
   BagThread& bag_;
   std::map<std::string, bus::TypeOps> types_;  // by DDS name; before the participant, which uses them
   std::unique_ptr<bus::Participant> bus_;
+  TopicChoice choice_;  // full names
   std::map<std::string, Subscribed> topics_;
   std::set<std::string> unknown_;
 };

@@ -181,6 +181,7 @@ void add_run_command(CLI::App& rds) {
   command->add_option("--hosts", where->file, "which service runs on which machine; run this on each of them")
       ->check(CLI::ExistingFile);
   command->add_option("--machine", where->machine, "which of them this is (default: the computer's name)");
+  add_namespace_option(*command, options->node_namespace);
   command->add_flag("--network", options->network,
                     "join the bus as other programs do, ROS 2 tools for example, not on the loopback alone");
   command

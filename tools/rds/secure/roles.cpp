@@ -29,19 +29,31 @@ Role service(const std::string& name, topics::Process process, const Topics& rea
   return {name, written, Topics{"rds/*", topics::kDiagnostics.name} + reads_besides};
 }
 
+/// What a driver may offer beside the topics that are named: compressed pictures, the depth camera's model.
+Topics besides(const Topics& camera_topics) {
+  Topics all = camera_topics;
+  for (const std::string& topic : camera_topics) {
+    all.push_back(topic + "/*");
+    all.push_back(topic.substr(0, topic.find_last_of('/')) + "/camera_info");
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Role> roles(const Topics& camera_topics) {
   const Topics diagnostics{topics::kDiagnostics.name};
+  const Topics transforms{topics::kTransforms.name, topics::kStaticTransforms.name};
   const Topics poses{topics::kOdometry.name, topics::kTransforms.name, topics::kTrackingState.name};
   return {
-      service("tracker", topics::kTracker, camera_topics),
+      service("tracker", topics::kTracker, besides(camera_topics) + transforms),
       service("detector", topics::kDetector),
       service("transformer", topics::kTransformer, camera_topics),
       service("mapper", topics::kMapper),
       service("loop-closer", topics::kLoopCloser),
       {"operator",
-       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name, topics::kMapRequests.name} +
+       Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name,
+              topics::kMapRequests.name} +
            camera_topics,
        Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
       {"reader",

@@ -37,7 +37,7 @@ tl::expected<std::unique_ptr<TopicReader>, std::string> TopicReader::open(bus::P
                                                                           const std::stop_token& stop) {
   std::optional<std::string> type_name;
   const bool found = wait_until(deadline, stop, [&] {
-    type_name = published_type(participant, topic);
+    type_name = published_type(participant, participant.full_name(topic));
     return type_name.has_value();
   });
   if (!found)

@@ -194,6 +194,22 @@ TEST_P(Exchange, EachKnowsWhatTheOtherOffersAndAsksFor) {
   EXPECT_TRUE(offered("plain", false, false));
 }
 
+TEST_P(Exchange, AReaderThatFollowsItsPublishersHearsBestEffortOnes) {
+  auto publisher = writer_side->advertise<Header>("camera", kSensorBestEffort);
+  Inbox<Header> inbox;
+  auto subscription = reader_side->subscribe<Header>("camera", kSensor, inbox.callback());
+  Inbox<Header> strict;
+  auto demanding = reader_side->subscribe<Header>("camera", kStream, strict.callback());
+  EXPECT_TRUE(eventually([&] {
+    publisher.write(numbered(1));
+    return inbox.size() > 0;
+  }));
+  EXPECT_EQ(strict.size(), 0U);
+  EXPECT_TRUE(std::ranges::any_of(reader_side->discovered(), [](const DiscoveredEndpoint& e) {
+    return e.topic == "camera" && !e.publisher && !e.reliable;
+  })) << "and says what it asks for now";
+}
+
 TEST_P(Exchange, ATypeMayBeCarriedAsItsBytes) {
   static const TypeOps kSerialized = messages::serialized(type_ops<Header>());
   std::mutex mutex;

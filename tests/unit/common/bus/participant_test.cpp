@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/bus/participant.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include <gtest/gtest.h>
 
 #include "common/bus/backend.hpp"
+#include "common/messages/serialized.hpp"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
@@ -78,7 +80,7 @@ TEST_P(OneVendor, MessagesOutliveTheirSubscription) {
 
 std::size_t count_nonzero(const std::vector<rmw_dds_common::msg::Gid>& gids) {
   return static_cast<std::size_t>(std::count_if(gids.begin(), gids.end(), [](const auto& gid) {
-    return std::any_of(gid.data().begin(), gid.data().end(), [](char c) { return c != 0; });
+    return std::any_of(gid.data().begin(), gid.data().end(), [](std::uint8_t byte) { return byte != 0; });
   }));
 }
 
@@ -103,6 +105,85 @@ TEST_P(OneVendor, AnnouncesItsNodeWithItsEndpoints) {
              count_nonzero(nodes[0].writer_gid_seq()) == 1 && count_nonzero(nodes[0].reader_gid_seq()) == 1;
     })) << name_of(listener);
   }
+}
+
+/// What a backend of `listener` hears on ros_discovery_info, as bytes, until `is_right`.
+template <class Check>
+bool hears_of_nodes(Vendor listener, Check is_right) {
+  const ParticipantOptions options{
+      .vendor = listener, .domain = test_domain(), .node_name = "l", .loopback_only = true};
+  auto backend = listener == Vendor::kFastDds ? detail::make_fastdds_backend(options)
+                                              : detail::make_cyclonedds_backend(options);
+  static const TypeOps kBytes = [] {
+    TypeOps type = messages::serialized(type_ops<ParticipantEntitiesInfo>());
+    type.type_hash.clear();  // of whatever distribution
+    return type;
+  }();
+  auto reader = backend->make_reader("ros_discovery_info", kBytes, kLatched);
+  messages::SerializedMessage message;
+  return eventually([&] {
+    detail::Sample sample{.type = &kBytes, .message = &message};
+    return reader->take(sample) && sample.decoded && is_right(message.bytes);
+  });
+}
+
+/// The announcement of /robot1/node as ROS 2 writes it, with identifiers of `gid_size` bytes, which are zero
+/// here.
+std::vector<std::uint8_t> announcement_of_an_empty_node(std::size_t gid_size) {
+  std::vector<std::uint8_t> bytes{0, 1, 0, 0};
+  bytes.insert(bytes.end(), gid_size, 0);
+  const std::vector<std::uint8_t> rest{1,   0,   0,   0, 8, 0, 0, 0, '/', 'r', 'o', 'b',
+                                       'o', 't', '1', 0, 5, 0, 0, 0, 'n', 'o', 'd', 'e',
+                                       0,   0,   0,   0, 0, 0, 0, 0, 0,   0,   0,   0};
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return bytes;
+}
+
+TEST_P(OneVendor, AnnouncesItsNodeInTheFormOfTheDistribution) {
+  for (const auto& [distro, gid_size] : {std::pair("humble", 24), std::pair("jazzy", 16)}) {
+    const auto participant = Participant::create({.vendor = GetParam(),
+                                                  .domain = test_domain(),
+                                                  .node_name = "node",
+                                                  .loopback_only = true,
+                                                  .node_namespace = "robot1",
+                                                  .ros_distro = ros_distro_from_name(distro)});
+    const auto golden = announcement_of_an_empty_node(static_cast<std::size_t>(gid_size));
+    EXPECT_TRUE(hears_of_nodes(Vendor::kCycloneDds, [&](std::vector<std::uint8_t> bytes) {
+      if (bytes.size() < golden.size()) return false;
+      const bool says_a_participant =
+          std::any_of(bytes.begin() + 4, bytes.begin() + 20, [](auto b) { return b != 0; });
+      std::fill_n(bytes.begin() + 4, 16, std::uint8_t{0});
+      return says_a_participant && std::equal(golden.begin(), golden.end(), bytes.begin());
+    })) << distro;
+  }
+}
+
+TEST_P(OneVendor, TopicsStandBelowTheNamespaceAndAreRemapped) {
+  const auto robot = Participant::create({.vendor = GetParam(),
+                                          .domain = test_domain(),
+                                          .node_name = "node",
+                                          .loopback_only = true,
+                                          .node_namespace = "robot1",
+                                          .remappings = {{"in", "/out"}}});
+  auto below = robot->advertise<Header>("a", kLatched);
+  auto global = robot->advertise<Header>("/b", kLatched);
+  auto remapped = robot->advertise<Header>("in", kLatched);
+  for (auto* publisher : {&below, &global, &remapped}) publisher->write(Header());
+  const auto other = join(GetParam(), "other");
+  Inbox<Header> inbox;
+  std::vector<Subscription> subscriptions;
+  for (const char* topic : {"robot1/a", "b", "out"})
+    subscriptions.push_back(other->subscribe<Header>(topic, kLatched, inbox.callback()));
+  EXPECT_TRUE(eventually([&] { return inbox.size() == 3; }));
+  EXPECT_EQ(robot->full_name("a"), "robot1/a");
+  for (const EndpointStatistics& endpoint : robot->statistics())
+    EXPECT_TRUE(endpoint.topic == "a" || endpoint.topic == "b" || endpoint.topic == "in") << endpoint.topic;
+}
+
+TEST_P(OneVendor, RefusesANamespaceThatRosWouldRefuse) {
+  EXPECT_THROW(
+      Participant::create({.vendor = GetParam(), .domain = test_domain(), .node_namespace = "robot-1"}),
+      BusError);
 }
 
 TEST_P(OneVendor, CountsWhatItCannotDecode) {

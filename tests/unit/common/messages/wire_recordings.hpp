@@ -32,8 +32,10 @@ inline std::vector<WireRecording> wire_recordings() {
     if (entry.path().extension() != ".cdr") continue;
     const std::string name = entry.path().stem().string();
     const auto separator = name.find("__");
-    const std::string dds_name =
-        name.substr(0, separator) + "::msg::dds_::" + name.substr(separator + 2) + "_";
+    const std::string package = name.substr(0, separator);
+    std::string type = name.substr(separator + 2);
+    if (package == "rmw_dds_common") type = "Humble" + type;  // in whose form it was recorded
+    const std::string dds_name = package + "::msg::dds_::" + type + "_";
     std::ifstream bytes(entry.path(), std::ios::binary);
     std::ifstream values(std::filesystem::path(entry.path()).replace_extension(".json"));
     recordings.push_back({find_message_type(dds_name), name,

@@ -55,7 +55,8 @@ TEST(MakePrivateFolder, NamesWhatIsInTheWay) {
 }
 
 TEST(CheckpointFile, IsOnePerServiceAndDomain) {
-  EXPECT_EQ(checkpoint_file("/maps", 7, "mapper"), "/maps/checkpoints/domain-7/mapper.db");
+  EXPECT_EQ(checkpoint_file("/maps", 7, "/", "mapper"), "/maps/checkpoints/domain-7/mapper.db");
+  EXPECT_EQ(checkpoint_file("/maps", 7, "/a/robot1", "mapper"), "/maps/checkpoints/domain-7/a/robot1/mapper.db");
 }
 
 }  // namespace

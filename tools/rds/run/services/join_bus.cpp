@@ -12,7 +12,8 @@ std::unique_ptr<bus::Participant> join_bus(const RunOptions& options, int domain
                                    .node_name = "rds_run",
                                    .loopback_only = !options.network,
                                    .peers = bus::peer_addresses(options.here ? options.here->peers : ""),
-                                   .credentials = options.secure.credentials()});
+                                   .credentials = options.secure.credentials(),
+                                   .node_namespace = options.node_namespace});
 }
 
 }  // namespace rds::run

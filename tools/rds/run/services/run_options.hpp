@@ -39,6 +39,7 @@ struct RunOptions {
   bool localize_only = false;
   std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
   bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
+  std::string node_namespace;  // of the services' topics
   std::optional<Placement> here;  // empty: all services, on this machine
   SecureOptions secure{.identities = {"operator"}};
   bool video = false;

@@ -108,6 +108,7 @@ std::vector<ServiceCommand> service_commands(const RunOptions& options, int doma
                                   config.string()};
     if (!options.network) line.emplace_back("--loopback");
     if (options.here) line.insert(line.end(), {"--peers", options.here->peers});
+    if (!options.node_namespace.empty()) line.insert(line.end(), {"--namespace", options.node_namespace});
     if (!options.secure.folder.empty())
       line.insert(line.end(), {"--secure", fs::absolute(options.secure.folder).string()});
     commands.push_back({process, std::move(line), folder / "log" / (process + ".log")});

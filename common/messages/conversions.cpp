@@ -2,7 +2,10 @@
 #include "common/messages/conversions.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace rds::messages {
@@ -32,6 +35,35 @@ geometry_msgs::msg::Quaternion quaternion_message(const geometry::Pose& pose) {
   message.z(rotation.z());
   message.w(rotation.w());
   return message;
+}
+
+struct Distortion {
+  std::string_view name;
+  geometry::LensModel model;
+  std::size_t coefficients;
+};
+
+// Tried in this order: what a simpler model says is said by it.
+constexpr std::array<Distortion, 5> kDistortions{{{"plumb_bob", geometry::LensModel::kPlumbBob, 5},
+                                                  {"rational_polynomial", geometry::LensModel::kPlumbBob, 5},
+                                                  {"rational_polynomial", geometry::LensModel::kRationalPolynomial, 8},
+                                                  {"equidistant", geometry::LensModel::kEquidistant, 4},
+                                                  {"fisheye", geometry::LensModel::kEquidistant, 4}}};
+
+/// nullptr if none of them has these coefficients; those beyond a model's own must be zero. A camera that says none at
+/// all has no distortion, whatever model it names.
+const Distortion* find_distortion(const sensor_msgs::msg::CameraInfo& message) {
+  const auto& d = message.d();
+  if (d.empty()) return kDistortions.data();
+  const auto is_zero_from = [&d](std::size_t first) {
+    return std::all_of(d.begin() + static_cast<std::ptrdiff_t>(std::min(first, d.size())), d.end(),
+                       [](double c) { return c == 0; });
+  };
+  const auto* found = std::ranges::find_if(kDistortions, [&](const Distortion& distortion) {
+    return distortion.name == message.distortion_model() && is_zero_from(distortion.coefficients);
+  });
+  if (found != kDistortions.end()) return &*found;
+  return is_zero_from(0) ? kDistortions.data() : nullptr;
 }
 
 template <class Message>
@@ -94,34 +126,37 @@ geometry_msgs::msg::Transform to_transform_message(const geometry::Pose& pose) {
   return message;
 }
 
-Expected<geometry::CameraModel> to_camera_model(const sensor_msgs::msg::CameraInfo& message) {
+Expected<geometry::Lens> to_lens(const sensor_msgs::msg::CameraInfo& message) {
   constexpr std::uint32_t kLargestSide = 16384;
   if (message.width() > kLargestSide || message.height() > kLargestSide) {
     return tl::make_unexpected("camera info: width and height must be at most 16384 px");
   }
-  const auto& d = message.d();
-  const std::string& model = message.distortion_model();
-  geometry::CameraModel camera;
-  const auto first_unused =
-      d.begin() + static_cast<std::ptrdiff_t>(std::min(d.size(), camera.distortion.size()));
-  const bool none = std::all_of(d.begin(), d.end(), [](double k) { return k == 0; });
-  const bool beyond_k3 = std::any_of(first_unused, d.end(), [](double k) { return k != 0; });
-  if (!none && ((model != "plumb_bob" && model != "rational_polynomial") || beyond_k3)) {
-    return tl::make_unexpected("camera info: distortion '" + model + "' with " + std::to_string(d.size()) +
-                               " coefficients is not supported, expected plumb_bob with k1 k2 p1 p2 k3");
+  const auto distortion = find_distortion(message);
+  if (distortion == nullptr) {
+    return tl::make_unexpected("camera info: distortion '" + message.distortion_model() + "' with " +
+                               std::to_string(message.d().size()) +
+                               " coefficients, expected plumb_bob with at most 5, rational_polynomial with 8 or "
+                               "equidistant with 4");
   }
-  camera.width = static_cast<int>(message.width());
-  camera.height = static_cast<int>(message.height());
   const auto& k = message.k();
-  camera.fx = k[0];
-  camera.cx = k[2];
-  camera.fy = k[4];
-  camera.cy = k[5];
-  std::copy(d.begin(), first_unused, camera.distortion.begin());
-  if (!camera.is_valid()) {
+  geometry::Lens lens{.width = static_cast<int>(message.width()),
+                      .height = static_cast<int>(message.height()),
+                      .fx = k[0],
+                      .fy = k[4],
+                      .cx = k[2],
+                      .cy = k[5],
+                      .model = distortion->model};
+  const auto& d = message.d();
+  std::copy_n(d.begin(), std::min(d.size(), distortion->coefficients), lens.coefficients.begin());
+  const bool finite = std::ranges::all_of(lens.coefficients, [](double c) { return std::isfinite(c); });
+  if (!finite || !lens.camera().is_valid()) {
     return tl::make_unexpected("camera info: expected positive size and focal lengths and finite values");
   }
-  return camera;
+  return lens;
+}
+
+Expected<geometry::CameraModel> to_camera_model(const sensor_msgs::msg::CameraInfo& message) {
+  return to_lens(message).map([](const geometry::Lens& lens) { return lens.camera(); });
 }
 
 sensor_msgs::msg::CameraInfo to_camera_info(const geometry::CameraModel& camera,

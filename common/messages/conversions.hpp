@@ -8,6 +8,7 @@
 
 #include "builtin_interfaces/msg/Time.h"
 #include "common/geometry/camera_model.hpp"
+#include "common/geometry/lens.hpp"
 #include "common/geometry/pose.hpp"
 #include "geometry_msgs/msg/Pose.h"
 #include "geometry_msgs/msg/Transform.h"
@@ -34,9 +35,12 @@ Expected<geometry::Pose> to_pose(const geometry_msgs::msg::Transform& message);
 geometry_msgs::msg::Pose to_pose_message(const geometry::Pose& pose);
 geometry_msgs::msg::Transform to_transform_message(const geometry::Pose& pose);
 
-/// @return an error unless the camera is a valid pinhole camera without distortion or with "plumb_bob" (k1 k2
-/// p1 p2
-///         k3) or "rational_polynomial" distortion whose coefficients beyond k3 are zero.
+/// A lens without distortion or of "plumb_bob", "rational_polynomial" or "equidistant" (also "fisheye") distortion; a
+/// rational one without k4 to k6 is a plumb bob.
+/// @return or an error: sizes, focal lengths, values that are not finite, more coefficients than the model has.
+Expected<geometry::Lens> to_lens(const sensor_msgs::msg::CameraInfo& message);
+
+/// Lens::camera() of to_lens(): the camera of its pictures, resampled where the lens is not plain.
 Expected<geometry::CameraModel> to_camera_model(const sensor_msgs::msg::CameraInfo& message);
 
 /// With K, P = [K 0], R = identity and "plumb_bob" distortion.

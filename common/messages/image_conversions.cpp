@@ -17,29 +17,6 @@ constexpr std::uint32_t kLargestSide = 16384;
 constexpr float kMillimetre = 0.001F;
 constexpr float kMetre = 1.0F;
 
-/// The pixels as a matrix of `type` over the message's memory. OpenCV has no matrix over const memory; ours
-/// is read.
-Expected<cv::Mat> pixels_of(const Image& message, int type) {
-  const std::uint32_t width = message.width();
-  const std::uint32_t height = message.height();
-  if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide) {
-    return tl::make_unexpected("image of " + std::to_string(width) + " x " + std::to_string(height) +
-                               " px, expected 1 to 16384 a side");
-  }
-  const std::size_t row_size = width * CV_ELEM_SIZE(type);
-  if (message.step() < row_size || message.step() % CV_ELEM_SIZE1(type) != 0) {
-    return tl::make_unexpected("image row of " + std::to_string(message.step()) +
-                               " bytes, expected at least " + std::to_string(row_size));
-  }
-  const std::size_t size = std::size_t{message.step()} * (height - 1) + row_size;
-  if (message.data().size() < size) {
-    return tl::make_unexpected("image data of " + std::to_string(message.data().size()) +
-                               " bytes, expected at least " + std::to_string(size));
-  }
-  auto* data = const_cast<std::uint8_t*>(message.data().data());
-  return cv::Mat(static_cast<int>(height), static_cast<int>(width), type, data, message.step());
-}
-
 Image message_of(const cv::Mat& pixels, const char* encoding, std_msgs::msg::Header header) {
   Image message;
   message.header(std::move(header));
@@ -60,6 +37,27 @@ Image message_of(const cv::Mat& pixels, const char* encoding, std_msgs::msg::Hea
 }
 
 }  // namespace
+
+Expected<cv::Mat> pixels_of(const Image& message, int type) {
+  const std::uint32_t width = message.width();
+  const std::uint32_t height = message.height();
+  if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide) {
+    return tl::make_unexpected("image of " + std::to_string(width) + " x " + std::to_string(height) +
+                               " px, expected 1 to 16384 a side");
+  }
+  const std::size_t row_size = width * CV_ELEM_SIZE(type);
+  if (message.step() < row_size || message.step() % CV_ELEM_SIZE1(type) != 0) {
+    return tl::make_unexpected("image row of " + std::to_string(message.step()) +
+                               " bytes, expected at least " + std::to_string(row_size));
+  }
+  const std::size_t size = std::size_t{message.step()} * (height - 1) + row_size;
+  if (message.data().size() < size) {
+    return tl::make_unexpected("image data of " + std::to_string(message.data().size()) +
+                               " bytes, expected at least " + std::to_string(size));
+  }
+  auto* data = const_cast<std::uint8_t*>(message.data().data());
+  return cv::Mat(static_cast<int>(height), static_cast<int>(width), type, data, message.step());
+}
 
 Expected<image::ColorImage> to_color_image(std::shared_ptr<const Image> message) {
   const std::string& encoding = message->encoding();

@@ -11,6 +11,11 @@
 
 namespace rds::messages {
 
+/// The pixels as a matrix of this type of OpenCV over the message's memory. OpenCV has no matrix over const
+/// memory; it is to be read only.
+/// @return an error naming what is wrong with size (at most 16384 px a side), step or data.
+Expected<cv::Mat> pixels_of(const sensor_msgs::msg::Image& message, int type);
+
 /// The picture of an rgb8 or bgr8 message, without a copy: the pixels lie in the message, which lives as long
 /// as the picture does. To read a picture inside a larger message pass std::shared_ptr<const Image>(whole,
 /// &whole->color()).

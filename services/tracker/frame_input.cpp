@@ -1,65 +1,231 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/frame_input.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "common/messages/conversions.hpp"
-#include "common/messages/image_conversions.hpp"
+#include <spdlog/spdlog.h>
+
+#include "common/messages/camera_conversions.hpp"
+#include "sensor_msgs/msg/CameraInfo.h"
+#include "sensor_msgs/msg/CompressedImage.h"
+#include "sensor_msgs/msg/Image.h"
 
 namespace rds::tracker {
 namespace {
 
+using bus::DiscoveredEndpoint;
 using messages::to_nanoseconds;
 using sensor_msgs::msg::CameraInfo;
+using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
 
 constexpr std::size_t kLiveFrames = 5;  // that wait, as the topic keeps; older ones are dropped
+constexpr std::chrono::milliseconds kLookPeriod{250};
+
+const std::string& type_of_pictures() {
+  return bus::type_ops<Image>().dds_name;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  if (then == std::chrono::steady_clock::time_point()) return StreamSight::kNever;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+bool is_published(const std::vector<DiscoveredEndpoint>& endpoints, const std::string& full_name) {
+  return std::ranges::any_of(
+      endpoints, [&](const DiscoveredEndpoint& e) { return e.publisher && e.topic == full_name; });
+}
+
+/// "camera/depth/camera_info" of "camera/depth/image_raw".
+std::string info_beside(const std::string& topic) {
+  const std::size_t slash = topic.find_last_of('/');
+  return (slash == std::string::npos ? "" : topic.substr(0, slash + 1)) + "camera_info";
+}
 
 }  // namespace
 
 FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox,
                        const CameraTopics& topics, bool lockstep)
     : context_(context),
+      topics_(topics),
       pairer_(std::llround(topics.pairing_tolerance_s * 1e9)),
       frames_(mailbox, lockstep ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
-      stamps_(!lockstep) {
-  const bus::Qos qos = topics.best_effort ? bus::kSensorBestEffort : bus::kSensor;
-  subscribe<CameraInfo>(
-      topics.camera_info, qos, [](const auto& m) { return messages::to_camera_model(*m); },
-      [this](const auto&, auto camera) { return pairer_.set_camera(camera); });
-  subscribe<Image>(
-      topics.color, qos, [](const auto& m) { return messages::to_color_image(m); },
-      [this](const auto& m, auto color) {
-        return pairer_.add_color(to_nanoseconds(m->header().stamp()), std::move(color));
+      stamps_(!lockstep),
+      info_{.topic = topics.camera_info},
+      depth_info_{.topic = topics.depth_info.empty() ? info_beside(topics.depth) : topics.depth_info},
+      color_{.topic = topics.color},
+      depth_{.topic = topics.depth} {
+  const auto lens = [](const auto& m) { return messages::to_lens(*m); };
+  info_.raw =
+      read<CameraInfo>(info_, info_.topic, lens, [this](const auto&, const auto& l) { return take_info(l); });
+  depth_info_.raw =
+      read<CameraInfo>(depth_info_, depth_info_.topic, lens, [this](const auto&, const auto& l) {
+        registration_.set_depth_lens(l);
+        return Taken();
       });
-  subscribe<Image>(
-      topics.depth, qos, [](const auto& m) { return messages::to_depth_image(m); },
-      [this](const auto& m, auto depth) {
-        return pairer_.add_depth(to_nanoseconds(m->header().stamp()), std::move(depth));
-      });
-  context.diagnostics.gauge("frames waiting", [this] { return frames_.size(); });
-  context.diagnostics.gauge("frames dropped", [this] { return frames_.dropped(); });
-  context.diagnostics.gauge("pictures without partner", [this] {
-    const std::lock_guard lock(pairer_mutex_);
+  if (topics.transport != "compressed") {
+    color_.raw = read<Image>(
+        color_, color_.topic, [](const auto& m) { return messages::camera_color(m); },
+        [this](const auto& m, auto picture) { return take_color(m->header(), std::move(picture)); });
+    depth_.raw = read<Image>(
+        depth_, depth_.topic, [](const auto& m) { return messages::camera_depth(m); },
+        [this](const auto& m, auto picture) { return take_depth(m->header(), std::move(picture)); });
+  }
+  tell_figures();
+}
+
+void FrameInput::tell_figures() {
+  service::Diagnostics& diagnostics = context_.diagnostics;
+  diagnostics.gauge("frames waiting", [this] { return frames_.size(); });
+  diagnostics.gauge("frames dropped", [this] { return frames_.dropped(); });
+  diagnostics.gauge("pictures without partner", [this] {
+    const std::lock_guard lock(mutex_);
     return pairer_.unpaired();
   });
-  context.diagnostics.gauge("frames without depth", [this] {
-    const std::lock_guard lock(pairer_mutex_);
+  diagnostics.gauge("frames without depth", [this] {
+    const std::lock_guard lock(mutex_);
     return pairer_.without_depth();
+  });
+  for (const std::string& name : kCameraFaults)
+    diagnostics.warning(name, [this, name]() -> std::optional<std::string> {
+      const std::lock_guard lock(mutex_);
+      const auto fault = faults_.find(name);
+      return fault == faults_.end() ? std::nullopt : std::optional(fault->second);
+    });
+}
+
+template <class Message, class Convert, class Take>
+bus::Subscription FrameInput::read(Stream& stream, const std::string& topic, Convert convert, Take take) {
+  const bus::Qos qos = topics_.best_effort ? bus::kSensorBestEffort : bus::kSensor;
+  return context_.bus.subscribe<Message>(
+      topic, qos, [this, &stream, topic, convert, take](const std::shared_ptr<const Message>& message) {
+        auto converted = convert(message);
+        std::string refusal;
+        {
+          const std::lock_guard lock(mutex_);
+          Taken taken = converted ? take(message, std::move(*converted)) : tl::unexpected(converted.error());
+          (taken ? stream.used : stream.refused) = Clock::now();
+          if (taken) return pass_on(std::move(*taken));
+          stream.refusal = refusal = std::move(taken.error());
+        }
+        context_.diagnostics.reject(topic, service::Rejection::kInvalid, refusal);
+      });
+}
+
+FrameInput::Taken FrameInput::take_info(const geometry::Lens& lens) {
+  registration_.set_color_lens(lens);
+  return pairer_.set_camera(lens.camera());
+}
+
+FrameInput::Taken FrameInput::take_color(const std_msgs::msg::Header& header, image::ColorImage picture) {
+  return registration_.color(std::move(picture), header.frame_id()).map([&](image::ColorImage color) {
+    return pairer_.add_color(to_nanoseconds(header.stamp()), std::move(color));
   });
 }
 
-template <class Message, class Convert, class Add>
-void FrameInput::subscribe(const std::string& topic, const bus::Qos& qos, Convert convert, Add add) {
-  subscriptions_.push_back(context_.bus.subscribe<Message>(
-      topic, qos, [this, topic, convert, add](const std::shared_ptr<const Message>& message) {
-        auto converted = convert(message);
-        if (!converted)
-          return context_.diagnostics.reject(topic, service::Rejection::kInvalid, converted.error());
-        const std::lock_guard lock(pairer_mutex_);
-        for (image::RgbdFrame& frame : add(message, std::move(*converted))) frames_.push(std::move(frame));
-      }));
+FrameInput::Taken FrameInput::take_depth(const std_msgs::msg::Header& header, image::DepthImage picture) {
+  return registration_.depth(std::move(picture), header.frame_id()).map([&](image::DepthImage depth) {
+    return pairer_.add_depth(to_nanoseconds(header.stamp()), std::move(depth));
+  });
+}
+
+void FrameInput::pass_on(FramePairer::Frames frames) {
+  if (pairer_.last_has_depth() && !frames.empty()) framed_ = Clock::now();
+  for (image::RgbdFrame& frame : frames) frames_.push(std::move(frame));
+}
+
+std::string FrameInput::camera_frame() const {
+  const std::lock_guard lock(mutex_);
+  return registration_.color_frame();
+}
+
+void FrameInput::look() {
+  const auto now = Clock::now();
+  if (now - looked_ < kLookPeriod) return;
+  looked_ = now;
+  const auto endpoints = context_.bus.discovered();
+  choose_packing(color_, {color_.topic + "/compressed"}, endpoints);
+  choose_packing(depth_, {depth_.topic + "/compressedDepth", depth_.topic + "/compressed"}, endpoints);
+  const std::lock_guard lock(mutex_);
+  faults_ = filter_.lasting(camera_faults(sight(endpoints)), now);
+}
+
+/// Reads compressed pictures where a setting says so, or where nobody publishes others.
+void FrameInput::choose_packing(Stream& stream, const std::vector<std::string>& packed_topics,
+                                const std::vector<DiscoveredEndpoint>& endpoints) {
+  const auto is_there = [&](const std::string& topic) {
+    return is_published(endpoints, context_.bus.full_name(topic));
+  };
+  std::string wanted;
+  if (topics_.transport == "compressed" || (topics_.transport == "auto" && !is_there(stream.topic))) {
+    const auto found = std::ranges::find_if(packed_topics, is_there);
+    if (found != packed_topics.end()) wanted = *found;
+  }
+  if (wanted == stream.packed_topic) return;
+  stream.packed = {};
+  stream.packed_topic = wanted;
+  if (wanted.empty()) return;
+  try {
+    read_packed(stream, wanted);
+    spdlog::info("reads {}, as nobody publishes {} as it is, or as camera.transport says", wanted,
+                 stream.topic);
+  } catch (const bus::BusError& e) {
+    spdlog::warn("{} cannot be read: {}", wanted, e.what());
+  }
+}
+
+void FrameInput::read_packed(Stream& stream, const std::string& topic) {
+  if (&stream == &color_)
+    stream.packed = read<CompressedImage>(
+        stream, topic, [](const auto& m) { return messages::camera_color(*m); },
+        [this](const auto& m, auto picture) { return take_color(m->header(), std::move(picture)); });
+  else
+    stream.packed = read<CompressedImage>(
+        stream, topic, [](const auto& m) { return messages::camera_depth(*m); },
+        [this](const auto& m, auto picture) { return take_depth(m->header(), std::move(picture)); });
+}
+
+StreamSight FrameInput::sight_of(const Stream& stream, const std::string& type,
+                                 const std::vector<DiscoveredEndpoint>& endpoints) const {
+  StreamSight sight{.topic = stream.topic,
+                    .silent_s = seconds_since(stream.used),
+                    .refused_s = seconds_since(stream.refused),
+                    .refusal = stream.refusal};
+  const std::string name = context_.bus.full_name(stream.topic);
+  const std::string packed = stream.packed_topic.empty() ? "" : context_.bus.full_name(stream.packed_topic);
+  for (const DiscoveredEndpoint& endpoint : endpoints) {
+    if (!endpoint.publisher) continue;
+    if (endpoint.topic == packed || (endpoint.topic == name && endpoint.type == type))
+      ++sight.publishers;
+    else if (endpoint.topic == name)
+      sight.other_type = endpoint.type;
+  }
+  return sight;
+}
+
+CameraSight FrameInput::sight(const std::vector<DiscoveredEndpoint>& endpoints) const {
+  const std::string& type_of_infos = bus::type_ops<CameraInfo>().dds_name;
+  CameraSight sight{.color = sight_of(color_, type_of_pictures(), endpoints),
+                    .info = sight_of(info_, type_of_infos, endpoints),
+                    .depth = sight_of(depth_, type_of_pictures(), endpoints),
+                    .since_frame_s = seconds_since(framed_),
+                    .color_frame = registration_.color_frame(),
+                    .depth_frame = registration_.depth_frame()};
+  if (const auto gap_ns = pairer_.partner_gap_ns()) sight.partner_ms = static_cast<double>(*gap_ns) / 1e6;
+  const std::string below = context_.node_namespace == "/" ? "" : context_.node_namespace.substr(1) + "/";
+  for (const DiscoveredEndpoint& endpoint : endpoints) {
+    const bool is_read = std::ranges::any_of(
+        std::array{&color_, &depth_, &info_, &depth_info_},
+        [&](const Stream* stream) { return endpoint.topic == context_.bus.full_name(stream->topic); });
+    if (!endpoint.publisher || is_read || !endpoint.topic.starts_with(below)) continue;
+    const bool is_packed = endpoint.type == bus::type_ops<CompressedImage>().dds_name;
+    if (endpoint.type == type_of_pictures() || is_packed) sight.other_pictures.push_back(endpoint.topic);
+    if (endpoint.type == type_of_infos) sight.other_infos.push_back(endpoint.topic);
+  }
+  return sight;
 }
 
 }  // namespace rds::tracker

@@ -1,27 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
 #include "common/service/service.hpp"
 #include "common/time/stamp_watch.hpp"
-#include "sensor_msgs/msg/CameraInfo.h"
-#include "sensor_msgs/msg/Image.h"
+#include "services/tracker/input/camera_faults.hpp"
 #include "services/tracker/input/frame_pairer.hpp"
+#include "services/tracker/input/picture_registration.hpp"
 #include "services/tracker/tracker_service_config.hpp"
+#include "std_msgs/msg/Header.h"
 
 namespace rds::tracker {
 
-/// The camera's topics, paired, as an inbox of frames, and how their stamps follow each other. Pictures stay
-/// in the messages' memory.
+/// The camera's topics, paired, as an inbox of frames, and how their stamps follow each other. Pictures of
+/// rgb8, bgr8, 16UC1 and 32FC1 stay in the messages' memory. Where nobody publishes pictures as they are,
+/// compressed ones are read. What is wrong with the camera is told by diagnostics.
 class FrameInput {
  public:
   /// @param lockstep  no frame is dropped, and time breaks at once.
   FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox, const CameraTopics& topics,
              bool lockstep);
+
+  /// Looks, four times a second at most, who publishes what, and what is wrong. For the worker, as often as
+  /// it likes.
+  void look();
 
   [[nodiscard]] concurrency::Inbox<image::RgbdFrame>& frames() { return frames_; }
   [[nodiscard]] const concurrency::Inbox<image::RgbdFrame>& frames() const { return frames_; }
@@ -29,19 +39,55 @@ class FrameInput {
   [[nodiscard]] std::uint64_t dropped() const { return frames_.dropped(); }
   /// Takes each frame's stamp, in order. For the worker.
   [[nodiscard]] time::StampWatch& stamps() { return stamps_; }
+  /// frame_id of the newest colour picture; empty before the first.
+  [[nodiscard]] std::string camera_frame() const;
 
  private:
-  /// Subscribes to one of the topics. @param convert  makes an expected of a message. @param add  gives what
-  /// is in it, and the message, to the pairer.
-  template <class Message, class Convert, class Add>
-  void subscribe(const std::string& topic, const bus::Qos& qos, Convert convert, Add add);
+  using Clock = std::chrono::steady_clock;
+  using Taken = tl::expected<FramePairer::Frames, std::string>;
+
+  /// One of the topics: its names, and when something came that could, or could not, be used.
+  struct Stream {
+    std::string topic;
+    Clock::time_point used = {};
+    Clock::time_point refused = {};
+    std::string refusal = {};
+    std::string packed_topic = {};  // of `packed`
+    bus::Subscription raw = {};
+    bus::Subscription packed = {};
+  };
+
+  /// @param convert  makes an expected of a message. @param take  gives what is in it to the pairer, under
+  /// the lock.
+  template <class Message, class Convert, class Take>
+  bus::Subscription read(Stream& stream, const std::string& topic, Convert convert, Take take);
+  void read_packed(Stream& stream, const std::string& topic);
+  void choose_packing(Stream& stream, const std::vector<std::string>& packed_topics,
+                      const std::vector<bus::DiscoveredEndpoint>& endpoints);
+  Taken take_info(const geometry::Lens& lens);
+  Taken take_color(const std_msgs::msg::Header& header, image::ColorImage picture);
+  Taken take_depth(const std_msgs::msg::Header& header, image::DepthImage picture);
+  void pass_on(FramePairer::Frames frames);
+  [[nodiscard]] StreamSight sight_of(const Stream& stream, const std::string& type,
+                                     const std::vector<bus::DiscoveredEndpoint>& endpoints) const;
+  [[nodiscard]] CameraSight sight(const std::vector<bus::DiscoveredEndpoint>& endpoints) const;
+  void tell_figures();
 
   service::ServiceContext& context_;
-  std::mutex pairer_mutex_;  // bus callbacks of different topics may run at once
+  CameraTopics topics_;
+  mutable std::mutex mutex_;  // bus callbacks of different topics may run at once; of all below but frames_
+  PictureRegistration registration_;
   FramePairer pairer_;
+  Clock::time_point framed_;  // when a colour and a depth picture last made a frame
+  std::map<std::string, std::string> faults_;
   concurrency::Inbox<image::RgbdFrame> frames_;
   time::StampWatch stamps_;
-  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
+  FaultFilter filter_;
+  Clock::time_point looked_;
+  Stream info_;  // last: callbacks use the members above
+  Stream depth_info_;
+  Stream color_;
+  Stream depth_;
 };
 
 }  // namespace rds::tracker

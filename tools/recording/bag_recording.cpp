@@ -188,9 +188,10 @@ tl::expected<void, std::string> BagRecording::take_camera(const Found& found) {
     return fault(
         fmt::format("no camera_info for {}, expected a topic {}/camera_info of sensor_msgs/msg/CameraInfo",
                     color_.topic, parent));
-  const auto camera = messages::to_camera_model(chosen->second);
-  if (!camera) return fault(fmt::format("{}: {}", chosen->first, camera.error()));
-  camera_ = *camera;
+  const auto lens = messages::to_lens(chosen->second);
+  if (!lens) return fault(fmt::format("{}: {}", chosen->first, lens.error()));
+  camera_ = lens->camera();
+  if (!lens->is_plain()) undistortion_.emplace(*lens, camera_);
   notes_ += fmt::format("{}: colour {}, depth {}, camera {}\n", path_.string(), color_.topic, depth_.topic,
                         chosen->first);
   return {};
@@ -210,6 +211,7 @@ tl::expected<image::ColorImage, std::string> BagRecording::load_color(std::size_
     return tl::unexpected(fmt::format("{}: {}×{} px, expected {}×{} as camera_info says",
                                       place_of(color_, index), picture->pixels.cols, picture->pixels.rows,
                                       camera_.width, camera_.height));
+  if (undistortion_) return undistortion_->color(*picture);
   return picture;
 }
 
@@ -222,6 +224,7 @@ tl::expected<image::DepthImage, std::string> BagRecording::load_depth(std::size_
     return tl::unexpected(fmt::format("{}: {}×{} px, expected depth registered to colour, {}×{}",
                                       place_of(depth_, index), picture->values.cols, picture->values.rows,
                                       camera_.width, camera_.height));
+  if (undistortion_) return undistortion_->depth(*picture);
   return picture;
 }
 

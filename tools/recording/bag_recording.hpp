@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "common/image/lens_table.hpp"
 #include "common/image/recording.hpp"
 #include "tools/recording/stream.hpp"
 
@@ -42,6 +44,7 @@ class BagRecording final : public image::Recording {
   std::unique_ptr<Bag> bag_;
   Stream color_;
   Stream depth_;
+  std::optional<image::LensTable> undistortion_;  // of pictures through a lens that CameraModel does not know
   std::string notes_;
 };
 

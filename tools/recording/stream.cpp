@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/recording/stream.hpp"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "common/bus/type_ops.hpp"
-#include "common/image/picture_file.hpp"
+#include "common/messages/camera_conversions.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "sensor_msgs/msg/CompressedImage.h"
@@ -15,10 +13,6 @@ namespace {
 
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
-
-constexpr std::size_t kDepthHeaderBytes =
-    12;  // of compressed_depth_image_transport: format and two parameters
-constexpr float kMillimetre = 0.001F;
 
 template <class Message>
 std::shared_ptr<Message> decode(std::span<const std::uint8_t> data) {
@@ -39,17 +33,6 @@ PictureHead compressed_head(const std::string& format) {
     return {Packing::kCompressedDepth, Content::kDepth};
   const std::string encoding = format.substr(0, format.find(';'));
   return {Packing::kCompressed, content_of(encoding).value_or(Content::kColor)};
-}
-
-/// Decodes a picture that a message carries. @return empty if it is none, or torn.
-cv::Mat unpack(std::span<const std::uint8_t> bytes, int flags) {
-  if (bytes.empty() || !image::is_whole_picture(bytes)) return {};
-  try {
-    const cv::Mat1b view(1, static_cast<int>(bytes.size()), const_cast<std::uint8_t*>(bytes.data()));
-    return cv::imdecode(view, flags | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    return {};
-  }
 }
 
 tl::unexpected<std::string> undecodable() {
@@ -81,9 +64,7 @@ tl::expected<image::ColorImage, std::string> decode_color(Packing packing, const
   }
   const auto compressed = decode<CompressedImage>(message);
   if (!compressed) return undecodable();
-  cv::Mat pixels = unpack(compressed->data(), cv::IMREAD_COLOR);
-  if (pixels.empty()) return tl::unexpected<std::string>("a picture that is torn, or neither JPEG nor PNG");
-  return image::ColorImage{std::move(pixels), image::ChannelOrder::kBgr, nullptr};
+  return messages::camera_color(*compressed);
 }
 
 tl::expected<image::DepthImage, std::string> decode_depth(Packing packing, const Bytes& message) {
@@ -94,12 +75,7 @@ tl::expected<image::DepthImage, std::string> decode_depth(Packing packing, const
   }
   const auto compressed = decode<CompressedImage>(message);
   if (!compressed) return undecodable();
-  std::span<const std::uint8_t> bytes = compressed->data();
-  if (packing == Packing::kCompressedDepth) bytes = bytes.subspan(std::min(bytes.size(), kDepthHeaderBytes));
-  cv::Mat values = unpack(bytes, cv::IMREAD_UNCHANGED);
-  if (values.type() != CV_16UC1 || compressed->format().starts_with("32FC1"))
-    return tl::unexpected<std::string>("compressed depth that is no whole PNG of 16 bits in millimetres");
-  return image::DepthImage{std::move(values), kMillimetre, nullptr};
+  return messages::camera_depth(*compressed);
 }
 
 }  // namespace rds::recording

@@ -31,8 +31,7 @@ FramePairer::Frames FramePairer::add_depth(std::int64_t stamp_ns, image::DepthIm
 
 template <class Picture>
 void FramePairer::put(Stamped<Picture> picture, std::deque<Stamped<Picture>>& waiting) {
-  if (!waiting.empty() &&
-      time::step_between(waiting.back().stamp_ns, picture.stamp_ns) == StampStep::kBack) {
+  if (!waiting.empty() && time::step_between(waiting.back().stamp_ns, picture.stamp_ns) == StampStep::kBack) {
     unpaired_ += waiting.size();
     waiting.clear();
   }
@@ -45,6 +44,7 @@ FramePairer::Frames FramePairer::take_complete() {
     const std::int64_t stamp_ns = colors_.front().stamp_ns;
     auto depth = take_partner(stamp_ns);
     if (!depth && partner_may_come(stamp_ns)) break;
+    if (!depth) note_gap(stamp_ns);
     Color color = std::move(colors_.front());
     colors_.pop_front();
     make_frame(std::move(color), std::move(depth), frames);
@@ -63,6 +63,14 @@ std::optional<FramePairer::Depth> FramePairer::take_partner(std::int64_t stamp_n
   depths_.erase(best);
   unpaired_ += std::erase_if(depths_, [&](const Depth& d) { return d.stamp_ns <= partner.stamp_ns; });
   return partner;
+}
+
+void FramePairer::note_gap(std::int64_t stamp_ns) {
+  partner_gap_ns_.reset();
+  for (const Depth& depth : depths_) {
+    const std::int64_t gap_ns = std::abs(depth.stamp_ns - stamp_ns);
+    partner_gap_ns_ = std::min(partner_gap_ns_.value_or(gap_ns), gap_ns);
+  }
 }
 
 bool FramePairer::partner_may_come(std::int64_t stamp_ns) const {
@@ -84,6 +92,7 @@ void FramePairer::make_frame(Color color, std::optional<Depth> depth, Frames& fr
   }
   last_stamp_ns_ = color.stamp_ns;
   if (!depth) ++without_depth_;
+  last_has_depth_ = depth.has_value();
   frames.push_back({color.stamp_ns, std::move(color.picture),
                     depth ? std::move(depth->picture) : image::empty_depth(size), *camera_});
 }

@@ -34,6 +34,11 @@ class FramePairer {
   [[nodiscard]] std::uint64_t unpaired() const { return unpaired_; }
   /// Frames with an empty depth picture.
   [[nodiscard]] std::uint64_t without_depth() const { return without_depth_; }
+  /// Whether the last frame has a depth picture.
+  [[nodiscard]] bool last_has_depth() const { return last_has_depth_; }
+  /// Between the last colour picture that went on without depth and the depth picture nearest to it; nullopt
+  /// where there was none.
+  [[nodiscard]] std::optional<std::int64_t> partner_gap_ns() const { return partner_gap_ns_; }
 
  private:
   template <class Picture>
@@ -47,6 +52,7 @@ class FramePairer {
   template <class Picture>
   void put(Stamped<Picture> picture, std::deque<Stamped<Picture>>& waiting);
   Frames take_complete();
+  void note_gap(std::int64_t stamp_ns);
   std::optional<Depth> take_partner(std::int64_t stamp_ns);
   [[nodiscard]] bool partner_may_come(std::int64_t stamp_ns) const;
   void make_frame(Color color, std::optional<Depth> depth, Frames& frames);
@@ -61,6 +67,8 @@ class FramePairer {
   std::optional<std::int64_t> last_stamp_ns_;  // of the last frame
   std::uint64_t unpaired_ = 0;
   std::uint64_t without_depth_ = 0;
+  bool last_has_depth_ = false;
+  std::optional<std::int64_t> partner_gap_ns_;
 };
 
 }  // namespace rds::tracker

@@ -54,17 +54,28 @@ TEST(CameraInfo, CameraSurvivesTheMessage) {
   EXPECT_EQ(*to_camera_model(to_camera_info(camera(), make_header(5, "camera"))), camera());
 }
 
+TEST(CameraInfo, TellsTheLens) {
+  auto message = to_camera_info(camera(), {});
+  message.distortion_model("rational_polynomial");
+  message.d().resize(8, 0.0);
+  EXPECT_EQ(to_camera_model(message), camera()) << "without k4 to k6 it is a plumb bob";
+  message.d()[6] = 0.1;
+  EXPECT_EQ(to_lens(message)->model, geometry::LensModel::kRationalPolynomial);
+  EXPECT_EQ(to_lens(message)->coefficients[6], 0.1);
+  EXPECT_FALSE(to_camera_model(message)->has_distortion()) << "its pictures are resampled";
+  message.distortion_model("equidistant");
+  message.d().assign(4, 0.1);
+  EXPECT_EQ(to_lens(message)->model, geometry::LensModel::kEquidistant);
+  message.d().clear();
+  message.distortion_model("");
+  EXPECT_TRUE(to_lens(message)->is_plain()) << "no distortion at all";
+}
+
 TEST(CameraInfo, RefusesUnknownDistortionAndNonsense) {
   auto message = to_camera_info(camera(), {});
   message.distortion_model("equidistant");
-  EXPECT_FALSE(to_camera_model(message).has_value());
-  message.d().assign(4, 0.0);  // no distortion at all, whatever its name
-  EXPECT_TRUE(to_camera_model(message).has_value());
-  message = to_camera_info(camera(), {});
-  message.distortion_model("rational_polynomial");
-  message.d().resize(8, 0.0);
-  EXPECT_TRUE(to_camera_model(message).has_value());
-  message.d()[6] = 0.1;
+  EXPECT_FALSE(to_camera_model(message).has_value()) << "five coefficients, it has four";
+  message.distortion_model("omnidirectional");
   EXPECT_FALSE(to_camera_model(message).has_value());
   message = to_camera_info(camera(), {});
   message.k()[0] = kNan;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/integration/camera/camera_driver.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "common/geometry/trajectory.hpp"
+#include "common/messages/conversions.hpp"
+#include "tools/evaluation/trajectory_evaluation.hpp"
+
+/// Drivers as there are, each beside a tracker with its defaults.
+namespace rds::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kDomain = 141;
+
+class Driver : public ::testing::TestWithParam<bus::Vendor> {
+ protected:
+  void expect_tracked(const DriverHabits& habits, const std::string& settings = "{}") {
+    TrackerWithDriver driver(GetParam(), kDomain, habits, settings);
+    EXPECT_TRUE(driver.publish_until([&] { return driver.tracked() >= 10; })) << driver.log();
+  }
+  /// One sentence in the log and in diagnostics, within two seconds of the first picture (measured, not
+  /// asserted).
+  void expect_warning(const std::string& name, const DriverHabits& habits,
+                      const std::vector<std::string>& words) {
+    const bool has_this_turn = warnings_++ % 2 == (GetParam() == bus::Vendor::kFastDds ? 0 : 1);
+    if (!has_this_turn) return;  // each with one vendor
+    SCOPED_TRACE(name);
+    TrackerWithDriver driver(GetParam(), kDomain, habits);
+    const auto started = std::chrono::steady_clock::now();
+    std::chrono::duration<double> took{0};
+    const auto is_said = [&] {
+      const std::string said = driver.log();
+      return std::ranges::all_of(
+          words, [&](const std::string& word) { return said.find(word) != std::string::npos; });
+    };
+    EXPECT_TRUE(driver.publish_until([&] {
+      if (!is_said()) return false;
+      if (took.count() == 0) took = std::chrono::steady_clock::now() - started;
+      return driver.diagnosis().find(words.front()) != std::string::npos;
+    })) << driver.log()
+        << driver.diagnosis();
+    fmt::print("{} on {}: said after {:.2f} s\n", name, name_of(GetParam()), took.count());
+  }
+
+ private:
+  int warnings_ = 0;
+};
+
+TEST_P(Driver, WithSensorDataQosIsReadWithoutASetting) {
+  expect_tracked({.best_effort = true});
+}
+
+TEST_P(Driver, ThatPublishesCompressedPicturesAloneIsRead) {
+  expect_tracked({.compressed = true});
+}
+
+TEST_P(Driver, ThatIsSilentlyWrongGetsASentence) {
+  expect_warning("another topic", {.color_topic = "camera/rgb/image_raw"},
+                 {"nobody publishes camera/color/image_raw", "camera/rgb/image_raw", "set camera.color"});
+  expect_warning("no camera_info", {.info_topic = ""},
+                 {"nobody publishes camera/color/camera_info", "calibration"});
+  expect_warning("no depth", {.depth_topic = ""},
+                 {"nobody publishes camera/aligned_depth_to_color/image_raw", "align_depth"});
+  expect_warning("without partner", {.depth_delay_ns = 7'000'000'000},
+                 {"have no partner", "camera.pairing_tolerance_s"});
+  expect_warning("unknown encoding", {.encoding = "nv21"},
+                 {"camera/color/image_raw: image encoding 'nv21'", "expected one of rgb8"});
+  expect_warning("depth elsewhere", {.depth_frame = "camera_depth_optical_frame"},
+                 {"not registered to colour", "align_depth"});
+  expect_warning("depth of another size elsewhere",
+                 {.depth_frame = "camera_depth_optical_frame", .half_depth = true},
+                 {"camera/aligned_depth_to_color/image_raw: depth of", "not 'camera_color_optical_frame'"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Driver, ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
+                         [](const auto& vendor) { return name_of(vendor.param); });
+
+/// ATE of the recording's first frames [m], each tracked in its turn.
+double ate_m(const DriverHabits& habits) {
+  TrackerWithDriver driver(bus::Vendor::kFastDds, kDomain + 1, habits,
+                           "{dynamics: false, loop_closer: false}");
+  std::vector<geometry::StampedPose> path;
+  for (std::size_t i = 0; i < TrackerWithDriver::frames().size(); ++i) {
+    const auto state = driver.track(i);
+    if (state.state() == 1 || state.state() == 2)
+      path.push_back(
+          {messages::to_nanoseconds(state.header().stamp()), *messages::to_pose(state.map_from_camera())});
+  }
+  EXPECT_EQ(path.size(), TrackerWithDriver::frames().size()) << driver.log();
+  const auto errors = evaluation::evaluate_trajectory(TrackerWithDriver::truth(), path);
+  EXPECT_TRUE(errors);
+  return errors ? errors->absolute_m.rmse : 1;
+}
+
+TEST(PicturesOfAnyDriver, AreTrackedAsThoseOfRgb8) {
+  const double reference_m = ate_m({});
+  fmt::print("rgb8, plumb_bob: ATE {:.1f} mm\n", 1e3 * reference_m);
+  constexpr double kChanceM = 0.003;  // from run to run, and of pictures that were resampled twice
+  for (const DriverHabits& habits :
+       {DriverHabits{.encoding = "mono8"}, DriverHabits{.encoding = "bayer_rggb8"},
+        DriverHabits{.half_depth = true}, DriverHabits{.compressed = true},
+        DriverHabits{.distortion = "rational_polynomial"}, DriverHabits{.distortion = "equidistant"}}) {
+    const double error_m = ate_m(habits);
+    const std::string name =
+        fmt::format("{}, {}{}{}", habits.encoding, habits.distortion, habits.half_depth ? ", half depth" : "",
+                    habits.compressed ? ", compressed" : "");
+    fmt::print("{}: ATE {:.1f} mm\n", name, 1e3 * error_m);
+    EXPECT_LE(error_m, 1.1 * reference_m + kChanceM) << name;
+  }
+}
+
+}  // namespace
+}  // namespace rds::test

@@ -12,9 +12,6 @@
 namespace rds::tracker {
 namespace {
 
-const std::string kMap = "map";
-const std::string kCamera = "camera_color_optical_frame";
-
 /// A mono8 image of the mask's cells, without pixels if nothing is movable.
 sensor_msgs::msg::Image movable_cells(const MovableMask& movable, const std_msgs::msg::Header& header) {
   return messages::to_image_message(movable.any() ? movable.cells() : cv::Mat1b(), header);
@@ -62,10 +59,13 @@ void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
 
 }  // namespace
 
-TrackerOutputs::TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch)
+TrackerOutputs::TrackerOutputs(service::ServiceContext& context, const FramesConfig& frames,
+                               std::uint64_t map_epoch)
     : instance_(context.instance),
       map_epoch_(map_epoch),
-      odometry_(context.bus),
+      map_frame_(context.frame("map")),
+      default_camera_frame_(context.frame("camera_color_optical_frame")),
+      odometry_(context, frames),
       state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
       boxes_(topics::advertise(context.bus, topics::kPredictedBoxes, topics::kTracker)),
       features_(topics::advertise(context.bus, topics::kFeatures, topics::kTracker)),
@@ -78,7 +78,7 @@ void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   pose_changes_.clear();
   moved_.clear();
-  odometry_.reset();
+  odometry_.begin_map();
   sharing_.begin(map_epoch);
 }
 
@@ -89,11 +89,16 @@ bool TrackerOutputs::has_new_reader() {
 }
 
 void TrackerOutputs::publish(const FrameReport& report) {
-  if (has_pose(report.result.state)) odometry_.publish(report.frame.stamp_ns, report.result.map_from_camera);
+  if (has_pose(report.result.state))
+    odometry_.publish(report.frame.stamp_ns, report.result, camera_frame(report));
   publish_boxes(report);
   publish_features(report);
   if (report.result.keyframe) publish_keyframe(report);
   publish_state(report);
+}
+
+const std::string& TrackerOutputs::camera_frame(const FrameReport& report) const {
+  return report.camera_frame.empty() ? default_camera_frame_ : report.camera_frame;
 }
 
 /// A message about a frame. @param frame_id  that it is in.
@@ -108,7 +113,7 @@ Message TrackerOutputs::about(const FrameReport& report, const std::string& fram
 }
 
 void TrackerOutputs::publish_boxes(const FrameReport& report) {
-  auto message = about<rds_msgs::msg::PredictedBoxes>(report, kMap);
+  auto message = about<rds_msgs::msg::PredictedBoxes>(report, map_frame_);
   for (const auto& [object, box] : report.objects) {
     const geometry::Box3 volume = object.box.axis_aligned_hull();
     message.ids().push_back(object.id);
@@ -127,7 +132,7 @@ void TrackerOutputs::publish_boxes(const FrameReport& report) {
 
 void TrackerOutputs::publish_features(const FrameReport& report) {
   if (features_.matched() == 0) return;
-  auto message = about<rds_msgs::msg::FrameFeatures>(report, kCamera);
+  auto message = about<rds_msgs::msg::FrameFeatures>(report, camera_frame(report));
   message.positions().reserve(2 * report.result.verdicts.size());
   for (const KeypointVerdict& verdict : report.result.verdicts) {
     message.positions().push_back(verdict.image_px.x());
@@ -140,7 +145,7 @@ void TrackerOutputs::publish_features(const FrameReport& report) {
 
 void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   const KeyframeData& keyframe = *report.result.keyframe;
-  auto images = about<rds_msgs::msg::KeyFrameImages>(report, kCamera);
+  auto images = about<rds_msgs::msg::KeyFrameImages>(report, camera_frame(report));
   images.keyframe_id(keyframe.id);
   images.map_from_camera(messages::to_pose_message(keyframe.map_from_camera));
   images.camera_info(messages::to_camera_info(report.frame.camera, images.header()));
@@ -150,7 +155,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   keyframe_images_.write(images);
   sharing_.share(std::move(images));
   if (!keyframe.in_map) return;
-  auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, kCamera);
+  auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, camera_frame(report));
   fill(features, keyframe);
   append_moved(features, moved_.next(report.keyframe_poses));
   features.loop_instance(report.loops.instance);
@@ -161,7 +166,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
 
 void TrackerOutputs::publish_state(const FrameReport& report) {
   const FrameResult& result = report.result;
-  auto message = about<rds_msgs::msg::TrackingState>(report, kMap);
+  auto message = about<rds_msgs::msg::TrackingState>(report, map_frame_);
   message.state(static_cast<std::uint8_t>(result.state));
   message.features(result.features);
   message.dynamic_features(result.dynamic_features);
@@ -183,7 +188,7 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
 std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,
                                             bool exact) {
   rds_msgs::msg::KeyFramePoses message;
-  message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, kMap));
+  message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, map_frame_));
   message.instance(instance_);
   message.map_epoch(map_epoch_);
   message.source(0);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/geometry/pose.hpp"
@@ -18,7 +19,7 @@
 #include "rds_msgs/msg/TrackingState.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
-#include "services/tracker/odometry_output.hpp"
+#include "services/tracker/odometry/odometry_output.hpp"
 
 namespace rds::tracker {
 
@@ -33,6 +34,7 @@ struct LoopState {
 struct FrameReport {
   const image::RgbdFrame& frame;
   const FrameResult& result;
+  std::string camera_frame;  // frame_id of the picture; empty: not known
   std::span<const ImageObject> objects;
   std::uint64_t frame_index = 0;
   std::uint32_t predict_us = 0;
@@ -46,7 +48,7 @@ struct FrameReport {
 /// All topics that the tracker writes.
 class TrackerOutputs {
  public:
-  TrackerOutputs(service::ServiceContext& context, std::uint64_t map_epoch);
+  TrackerOutputs(service::ServiceContext& context, const FramesConfig& frames, std::uint64_t map_epoch);
 
   /// Odometry, tf, boxes, features, keyframe, and last the tracking state, which acknowledges the frame.
   void publish(const FrameReport& report);
@@ -66,6 +68,7 @@ class TrackerOutputs {
  private:
   template <class Message>
   [[nodiscard]] Message about(const FrameReport& report, const std::string& frame_id) const;
+  [[nodiscard]] const std::string& camera_frame(const FrameReport& report) const;
   void publish_boxes(const FrameReport& report);
   void publish_features(const FrameReport& report);
   void publish_keyframe(const FrameReport& report);
@@ -73,6 +76,8 @@ class TrackerOutputs {
 
   std::uint64_t instance_;
   std::uint64_t map_epoch_;
+  std::string map_frame_;
+  std::string default_camera_frame_;
   messages::KeyframePoseChanges pose_changes_;
   messages::MovedKeyframes moved_;  // since the loop closer was told of a keyframe
   int informed_readers_ = 0;        // subscribers that have got all poses

@@ -38,7 +38,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
                executor_with_helper(), time::now_us),
       epoch_(context, config, tracker_),
       objects_(config.prediction),
-      outputs_(context, epoch_.id()),
+      outputs_(context, config.frames, epoch_.id()),
       input_(context, mailbox_, config.camera, config.lockstep.enabled),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
       map_commands_(mailbox_, config.maps, map_file::kTracker) {
@@ -66,11 +66,13 @@ void TrackerService::run(const std::stop_token& stop) {
     if (const auto frame = input_.frames().try_pop())
       if (!guarded("frame", [&] { take(*frame); })) guarded("frame", [&] { acknowledge(*frame); });
     epoch_.save_if_due();
+    input_.look();
   }
 }
 
 /// A new subscriber gets all poses even while no frame comes.
 void TrackerService::idle() {
+  input_.look();
   if (outputs_.has_new_reader()) publish_poses();
 }
 
@@ -114,8 +116,8 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   const auto poses = result.keyframe ? tracker_.keyframe_poses() : std::vector<KeyframePose>{};
-  outputs_.publish({frame, result, objects, frame_index_, predict_us, started_us, input_.dropped(),
-                    objects_.observed(), epoch_.loops(), poses});
+  outputs_.publish({frame, result, input_.camera_frame(), objects, frame_index_, predict_us, started_us,
+                    input_.dropped(), objects_.observed(), epoch_.loops(), poses});
   if (result.keyframe) {
     outputs_.publish_poses(poses, epoch_.loops());
     epoch_.note_keyframe();
@@ -130,8 +132,15 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 void TrackerService::acknowledge(const image::RgbdFrame& frame) {
   FrameResult result;
   if (tracker_.map().keyframes().size() > 0) result.state = State::kLost;
-  outputs_.publish(
-      {frame, result, {}, frame_index_, 0, time::now_us(), input_.dropped(), objects_.observed()});
+  outputs_.publish({frame,
+                    result,
+                    input_.camera_frame(),
+                    {},
+                    frame_index_,
+                    0,
+                    time::now_us(),
+                    input_.dropped(),
+                    objects_.observed()});
   ++frame_index_;
 }
 

@@ -8,8 +8,15 @@ void read(config::ConfigReader& reader, CameraTopics& topics) {
   reader.value("color", topics.color);
   reader.value("camera_info", topics.camera_info);
   reader.value("depth", topics.depth);
+  reader.value("depth_info", topics.depth_info);
+  reader.choice("transport", topics.transport, {"auto", "raw", "compressed"});
   reader.value("best_effort", topics.best_effort);
   reader.value("pairing_tolerance_s", topics.pairing_tolerance_s, 0.0, 0.5, "s");
+}
+
+void read(config::ConfigReader& reader, FramesConfig& config) {
+  reader.value("base", config.base);
+  reader.value("publish_tf", config.publish_tf);
 }
 
 void read(config::ConfigReader& reader, LockstepConfig& config) {
@@ -25,6 +32,7 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   reader.value("nice", config.nice, 0, 19);
   reader.value("mapping_nice", config.mapping_nice, 0, 19);
   read(reader.section("camera"), config.camera);
+  read(reader.section("frames"), config.frames);
   read(reader, config.lockstep);
   reader.value("dynamics", config.dynamics);
   reader.value("loop_closer", config.loop_closer);

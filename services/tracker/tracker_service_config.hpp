@@ -9,6 +9,7 @@
 #include "common/topics/topics.hpp"
 #include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
+#include "services/tracker/odometry/frames_config.hpp"
 
 namespace rds::tracker {
 
@@ -17,7 +18,9 @@ struct CameraTopics {
   std::string color = topics::kColor.name;
   std::string camera_info = topics::kCameraInfo.name;
   std::string depth = topics::kDepth.name;
-  bool best_effort = false;  // read a driver that publishes best effort
+  std::string depth_info;          // of the depth camera; empty: camera_info beside `depth`
+  std::string transport = "auto";  // raw or compressed; auto: compressed where nobody publishes raw pictures
+  bool best_effort = false;        // ask no driver for reliability; otherwise those that offer it
   double pairing_tolerance_s = 0.02;
 
   bool operator==(const CameraTopics&) const = default;
@@ -25,9 +28,9 @@ struct CameraTopics {
 
 /// When answers of other threads and processes take effect.
 struct LockstepConfig {
-  bool enabled = false;   // at the frames that KeyframeAnswers names; otherwise as soon as they have arrived
+  bool enabled = false;  // at the frames that KeyframeAnswers names; otherwise as soon as they have arrived
   std::uint64_t detection_latency_frames = 2;  // boxes of keyframe k take effect at frame k + this
-  double timeout_s = 10;  // then a frame goes on without the answer
+  double timeout_s = 10;                       // then a frame goes on without the answer
 
   bool operator==(const LockstepConfig&) const = default;
 };
@@ -36,6 +39,7 @@ struct TrackerServiceConfig {
   int nice = 0;           // of the process
   int mapping_nice = 10;  // of local mapping's thread: tracking has the processor first
   CameraTopics camera;
+  FramesConfig frames;
   LockstepConfig lockstep;
   bool dynamics = true;          // boxes are used (and in lockstep waited for)
   bool loop_closer = true;       // in lockstep: its answers are waited for

@@ -132,6 +132,7 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
   if (relocalize(context, frame)) return State::kRelocalised;
   if (!by_depth) return State::kLost;
   frame.camera_from_map = *by_depth;
+  frame.information.setZero();
   frame.clear_matches();
   frame.by_depth_only = true;
   return State::kWeak;

@@ -93,6 +93,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
     make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
   if (has_pose(state_)) {
     result.map_from_camera = frame.camera_from_map.inverse();
+    result.information = frame.information;
     result.reference_keyframe_id = localizer_.features().reference();
     result.reference_from_camera =
         mapper_.map().pose_of(result.reference_keyframe_id).inverse() * result.map_from_camera;

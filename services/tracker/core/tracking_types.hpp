@@ -44,6 +44,8 @@ struct KeypointVerdict {
 struct FrameResult {
   State state = State::kNotInitialized;
   Pose map_from_camera = Pose::Identity();  // identity unless has_pose(state)
+  Eigen::Matrix<double, 6, 6> information =
+      Eigen::Matrix<double, 6, 6>::Zero();  // OptimizedPose::information
   std::uint64_t reference_keyframe_id = 0;
   Pose reference_from_camera = Pose::Identity();
   unsigned features = 0;          // extracted

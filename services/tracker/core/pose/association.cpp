@@ -227,6 +227,7 @@ int optimize_frame(const SlamMap& map, const ObservationModel& model, const Scal
                                       ? check_pose(model, observations, frame.camera_from_map)
                                       : optimize_pose(model, observations, frame.camera_from_map);
   frame.camera_from_map = optimized.camera_from_map;
+  frame.information = optimized.information;
   for (std::size_t i = 0; i < feature.size(); ++i)
     if (!optimized.inlier[i]) frame.points[feature[i]] = kNoId;
   return optimized.inliers;

@@ -69,7 +69,8 @@ class PoseProblem {
     return sum;
   }
 
-  void optimize(geometry::Pose& pose, bool robust) const {
+  /// @return the information at the pose.
+  Matrix6 optimize(geometry::Pose& pose, bool robust) const {
     double damping = kFirstDamping;
     NormalEquations equations = linearize(pose, robust);
     for (int i = 0; i < kIterations; ++i) {
@@ -77,19 +78,20 @@ class PoseProblem {
       damped.diagonal() *= 1 + damping;
       damped.diagonal().array() += 1e-9;
       const Twist step = damped.ldlt().solve(-equations.gradient);
-      if (!step.allFinite()) return;
+      if (!step.allFinite()) break;
       const geometry::Pose moved = se3_exp(step) * pose;
       const NormalEquations there = linearize(moved, robust);
       if (there.cost < equations.cost) {
         pose = moved;
-        if (step.norm() < kConvergedStep) return;
-        damping = std::max(damping * 0.1, 1e-9);
         equations = there;
+        if (step.norm() < kConvergedStep) break;
+        damping = std::max(damping * 0.1, 1e-9);
       } else {
         damping *= 10;
-        if (damping > kMaxDamping || step.norm() < kConvergedStep) return;
+        if (damping > kMaxDamping || step.norm() < kConvergedStep) break;
       }
     }
+    return equations.hessian;
   }
 
   int classify(const geometry::Pose& pose) {
@@ -121,7 +123,7 @@ OptimizedPose optimize_pose(const ObservationModel& model, std::span<const Point
   if (observations.size() < kMinObservations) return result;
   PoseProblem problem(model, observations);
   for (int round = 0; round < kRounds; ++round) {
-    problem.optimize(result.camera_from_map, 2 * round < kRounds);
+    result.information = problem.optimize(result.camera_from_map, 2 * round < kRounds);
     result.inliers = problem.classify(result.camera_from_map);
     if (result.inliers < kMinObservations) break;
   }

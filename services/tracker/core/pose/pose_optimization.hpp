@@ -20,6 +20,9 @@ struct OptimizedPose {
   geometry::Pose camera_from_map = geometry::Pose::Identity();
   std::vector<bool> inlier;  // per observation
   int inliers = 0;
+  /// About a motion of the map in the camera's frame; of a camera that stood still its inverse is the
+  /// covariance. Zero if it was not optimised.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Moves the camera so that map points show where their features are (motion-only bundle adjustment).

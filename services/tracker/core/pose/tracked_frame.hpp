@@ -25,12 +25,14 @@ struct TrackedFrame {
   std::shared_ptr<const FeatureSet> features;
   std::vector<PointId> points;  // per feature: the map point it sees; kNoId
   Pose camera_from_map = Pose::Identity();
-  ShutterMotion motion;          // that px and depth of the features are compensated for
-  double given_fx = 0;           // px, of the camera before calibration; 0: it is not calibrated
-  bool pose_is_given = false;    // and not to be estimated
-  bool movable_in_view = false;  // something that can move: points that are new may be its
-  bool by_depth_only = false;    // the pose comes from depth alone
-  double found_share = 1;        // of the expected map points, relative to the usual (FoundShare)
+  Eigen::Matrix<double, 6, 6> information =
+      Eigen::Matrix<double, 6, 6>::Zero();  // OptimizedPose::information
+  ShutterMotion motion;                     // that px and depth of the features are compensated for
+  double given_fx = 0;                      // px, of the camera before calibration; 0: it is not calibrated
+  bool pose_is_given = false;               // and not to be estimated
+  bool movable_in_view = false;             // something that can move: points that are new may be its
+  bool by_depth_only = false;               // the pose comes from depth alone
+  double found_share = 1;                   // of the expected map points, relative to the usual (FoundShare)
 
   [[nodiscard]] int matches() const {
     return static_cast<int>(std::ranges::count_if(points, [](PointId p) { return p != kNoId; }));

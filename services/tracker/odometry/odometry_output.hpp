@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "common/service/service.hpp"
+#include "nav_msgs/msg/Odometry.h"
+#include "services/tracker/core/tracking_types.hpp"
+#include "services/tracker/odometry/frames_config.hpp"
+#include "services/tracker/odometry/odometry.hpp"
+#include "tf2_msgs/msg/TFMessage.h"
+
+namespace rds::tracker {
+
+/// Publishes the robot's pose as odometry and transforms, beside those that other nodes publish, which it
+/// reads: no frame gets a second parent (RobotFrames).
+class OdometryOutput {
+ public:
+  OdometryOutput(service::ServiceContext& context, const FramesConfig& config);
+
+  /// @param camera_frame  frame_id of the pictures.
+  void publish(std::int64_t stamp_ns, const FrameResult& result, const std::string& camera_frame);
+  void move_map(const geometry::Pose& corrected_map_from_map) { odometry_.move_map(corrected_map_from_map); }
+  void begin_map() { odometry_.begin_map(); }
+
+ private:
+  void take(const tf2_msgs::msg::TFMessage& message, bool is_static);
+
+  service::ServiceContext& context_;
+  FrameNames names_;
+  bool publish_tf_;
+  Odometry odometry_;
+  bus::Publisher<nav_msgs::msg::Odometry> publisher_;
+  bus::Publisher<tf2_msgs::msg::TFMessage> tf_;
+  std::mutex mutex_;  // of the tree
+  TransformTree tree_;
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
+};
+
+}  // namespace rds::tracker

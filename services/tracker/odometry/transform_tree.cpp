@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/odometry/transform_tree.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace rds::tracker {
+namespace {
+
+constexpr int kDeepest = 64;  // a longer way to the root is a circle
+
+geometry::Pose interpolated(const std::deque<std::pair<std::int64_t, geometry::Pose>>& poses,
+                            std::int64_t stamp_ns) {
+  const auto after =
+      std::ranges::lower_bound(poses, stamp_ns, {}, &std::pair<std::int64_t, geometry::Pose>::first);
+  if (after == poses.begin()) return poses.front().second;
+  if (after == poses.end()) return poses.back().second;
+  const auto& [first_ns, first] = *std::prev(after);
+  const auto& [second_ns, second] = *after;
+  const double share = static_cast<double>(stamp_ns - first_ns) / static_cast<double>(second_ns - first_ns);
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(first.linear()).slerp(share, Eigen::Quaterniond(second.linear()));
+  return geometry::make_pose((1 - share) * first.translation() + share * second.translation(), turn);
+}
+
+}  // namespace
+
+TransformTree::Edge* TransformTree::edge_for(const std::string& parent, const std::string& child) {
+  if (parent.empty() || child.empty() || parent == child) return nullptr;
+  if (!by_child_.contains(child) && by_child_.size() >= kMaxFrames) return nullptr;
+  Edge& edge = by_child_[child];
+  if (edge.parent != parent) edge = {parent, false, {}};
+  return &edge;
+}
+
+void TransformTree::set(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
+                        const geometry::Pose& parent_from_child) {
+  Edge* edge = edge_for(parent, child);
+  if (edge == nullptr) return;
+  if (edge->is_static) *edge = {parent, false, {}};
+  auto& poses = edge->poses;
+  // Stamps that go back are those of another time.
+  while (!poses.empty() && poses.back().first >= stamp_ns) poses.pop_back();
+  poses.emplace_back(stamp_ns, parent_from_child);
+  while (poses.front().first < stamp_ns - kKeptNs) poses.pop_front();
+}
+
+void TransformTree::set_static(const std::string& parent, const std::string& child,
+                               const geometry::Pose& parent_from_child) {
+  Edge* edge = edge_for(parent, child);
+  if (edge != nullptr) *edge = {parent, true, {{0, parent_from_child}}};
+}
+
+const TransformTree::Edge* TransformTree::edge_of(const std::string& frame, std::int64_t stamp_ns) const {
+  const auto found = by_child_.find(frame);
+  if (found == by_child_.end()) return nullptr;
+  const Edge& edge = found->second;
+  const bool is_forgotten = !edge.is_static && edge.poses.back().first < stamp_ns - kForgottenNs;
+  return is_forgotten ? nullptr : &edge;
+}
+
+std::optional<std::string> TransformTree::parent_of(const std::string& frame, std::int64_t stamp_ns) const {
+  const Edge* edge = edge_of(frame, stamp_ns);
+  return edge == nullptr ? std::nullopt : std::optional(edge->parent);
+}
+
+std::string TransformTree::root_of(const std::string& frame, std::int64_t stamp_ns) const {
+  std::string root = frame;
+  for (int depth = 0; depth < kDeepest; ++depth) {
+    const Edge* edge = edge_of(root, stamp_ns);
+    if (edge == nullptr) break;
+    root = edge->parent;
+  }
+  return root;
+}
+
+geometry::Pose TransformTree::root_from(const std::string& frame, std::int64_t stamp_ns) const {
+  geometry::Pose pose = geometry::Pose::Identity();
+  std::string at = frame;
+  for (int depth = 0; depth < kDeepest; ++depth) {
+    const Edge* edge = edge_of(at, stamp_ns);
+    if (edge == nullptr) break;
+    pose = interpolated(edge->poses, stamp_ns) * pose;
+    at = edge->parent;
+  }
+  return pose;
+}
+
+std::optional<geometry::Pose> TransformTree::lookup(const std::string& target, const std::string& source,
+                                                    std::int64_t stamp_ns) const {
+  if (root_of(target, stamp_ns) != root_of(source, stamp_ns)) return std::nullopt;
+  return root_from(target, stamp_ns).inverse() * root_from(source, stamp_ns);
+}
+
+}  // namespace rds::tracker

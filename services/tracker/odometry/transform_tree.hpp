@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/geometry/pose.hpp"
+
+namespace rds::tracker {
+
+/// The transforms that others publish: of each frame its parent and, of the last seconds, where it was in it.
+///
+/// A transform that is not static and has not been repeated for kForgottenNs of its own stamps is forgotten:
+/// who published it has gone.
+class TransformTree {
+ public:
+  static constexpr std::int64_t kKeptNs = 2'000'000'000;
+  static constexpr std::int64_t kForgottenNs = 5'000'000'000;
+  static constexpr std::size_t kMaxFrames = 1000;  // more are not taken in
+
+  void set(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
+           const geometry::Pose& parent_from_child);
+  void set_static(const std::string& parent, const std::string& child,
+                  const geometry::Pose& parent_from_child);
+
+  /// nullopt for a frame without parent.
+  [[nodiscard]] std::optional<std::string> parent_of(const std::string& frame, std::int64_t stamp_ns) const;
+  /// The frame at the end of the parents; the frame itself if it has none.
+  [[nodiscard]] std::string root_of(const std::string& frame, std::int64_t stamp_ns) const;
+  /// Where `source` is in `target` at that time: interpolated, beyond the newest transform as it was last.
+  /// @return target_from_source; nullopt if no path joins them.
+  [[nodiscard]] std::optional<geometry::Pose> lookup(const std::string& target, const std::string& source,
+                                                     std::int64_t stamp_ns) const;
+
+ private:
+  struct Edge {
+    std::string parent;
+    bool is_static = false;
+    std::deque<std::pair<std::int64_t, geometry::Pose>> poses;  // parent_from_child, by stamp
+  };
+  [[nodiscard]] const Edge* edge_of(const std::string& frame, std::int64_t stamp_ns) const;
+  Edge* edge_for(const std::string& parent, const std::string& child);
+  [[nodiscard]] geometry::Pose root_from(const std::string& frame, std::int64_t stamp_ns) const;
+
+  std::map<std::string, Edge> by_child_;
+};
+
+}  // namespace rds::tracker

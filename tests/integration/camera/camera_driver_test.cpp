@@ -89,8 +89,8 @@ double ate_m(const DriverHabits& habits) {
   for (std::size_t i = 0; i < TrackerWithDriver::frames().size(); ++i) {
     const auto state = driver.track(i);
     if (state.state() == 1 || state.state() == 2)
-      path.push_back(
-          {messages::to_nanoseconds(state.header().stamp()), *messages::to_pose(state.map_from_camera())});
+      path.push_back({messages::to_nanoseconds(state.header().stamp()),
+                      *messages::to_pose(state.map_from_camera()), ""});
   }
   EXPECT_EQ(path.size(), TrackerWithDriver::frames().size()) << driver.log();
   const auto errors = evaluation::evaluate_trajectory(TrackerWithDriver::truth(), path);

@@ -189,7 +189,8 @@ TEST_P(OneVendor, TopicsStandBelowTheNamespaceAndAreRemapped) {
 
 TEST_P(OneVendor, RefusesANamespaceThatRosWouldRefuse) {
   EXPECT_THROW(
-      Participant::create({.vendor = GetParam(), .domain = test_domain(), .node_namespace = "robot-1"}),
+      Participant::create(
+          {.vendor = GetParam(), .domain = test_domain(), .node_name = "node", .node_namespace = "robot-1"}),
       BusError);
 }
 

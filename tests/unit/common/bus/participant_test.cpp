@@ -146,7 +146,7 @@ std::vector<std::uint8_t> announcement_of_an_empty_node(std::size_t gid_size) {
   return bytes;
 }
 
-TEST_P(OneVendor, AnnouncesItsNodeInTheFormOfTheDistribution) {
+TEST_P(OneVendorOfDds, AnnouncesItsNodeInTheFormOfTheDistribution) {
   for (const auto& [distro, gid_size] : {std::pair("humble", 24), std::pair("jazzy", 16)}) {
     const auto participant = Participant::create({.vendor = GetParam(),
                                                   .domain = test_domain(),

@@ -53,9 +53,8 @@ TEST_F(MapperTimeOnTheBus, BoxesAreOfTheNewestKeyframeOfTheirStamp) {
 TEST_F(MapperTimeOnTheBus, AKeyframeDoesNotWaitForBoxesForEverWhenTheClockWasSetBack) {
   start(waiting_for_boxes(1.5));
   send_at(0, 2000 * kSecond);
+  ASSERT_TRUE(waits("1"));
   send_at(1, 1000 * kSecond);
-  ASSERT_TRUE(waits("2"));
-  send_at(2, 1001 * kSecond);
   EXPECT_TRUE(has_revision(1));
 }
 

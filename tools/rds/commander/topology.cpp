@@ -39,7 +39,8 @@ struct Link {
 std::vector<Link> links() {
   std::vector<Link> links;
   for (const topics::Row& row : topics::table()) {
-    if (row.name == topics::kServiceStatus.name) continue;     // said every second: nothing is lost
+    if (row.name == topics::kServiceStatus.name) continue;        // said every second: nothing is lost
+    if (row.name == topics::kTransforms.name) continue;           // said with every frame, for others
     if (row.name.starts_with(topics::kTransferPrefix)) continue;  // for other machines
     Link& link = links.emplace_back(row.name);
     for (const auto& [process, name] : members()) {

@@ -171,9 +171,9 @@ bool publishes(const Role& role, const std::string& topic) {
   });
 }
 
-TEST(Roles, OnlyTheOperatorCommands) {
+TEST(Roles, OnlyTheOperatorCommandsAndAViewerThatIsAllowedTo) {
   for (const Role& role : roles({"camera/*"}))
-    EXPECT_EQ(publishes(role, "rds/command"), role.name == "operator") << role.name;
+    EXPECT_EQ(publishes(role, "rds/command"), role.name == "operator" || role.name == "viewer") << role.name;
 }
 
 TEST(Roles, NobodyButAServiceWritesWhatItMakes) {
@@ -187,9 +187,10 @@ TEST(Roles, NobodyButAServiceWritesWhatItMakes) {
 }
 
 TEST(Roles, WhoReadsTheMapMayAskForIt) {
-  for (const Role& role : roles({"camera/*"}))
-    EXPECT_EQ(publishes(role, "rds/map/requests"), role.name == "reader" || role.name == "operator")
-        << role.name;
+  for (const Role& role : roles({"camera/*"})) {
+    const bool reads_it = role.name == "reader" || role.name == "operator" || role.name == "viewer";
+    EXPECT_EQ(publishes(role, "rds/map/requests"), reads_it) << role.name;
+  }
 }
 
 TEST(Roles, TakeTheCamerasTopicsAsTheyAreGiven) {

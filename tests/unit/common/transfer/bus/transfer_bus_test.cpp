@@ -10,6 +10,7 @@
 
 #include "common/transfer/bus/item_client.hpp"
 #include "common/transfer/bus/item_server.hpp"
+#include "tests/unit/common/bus/bus_test_support.hpp"
 
 namespace rds::transfer {
 namespace {
@@ -150,7 +151,7 @@ TEST_P(TransferBus, OnOneMachineNothingIsMade) {
   EXPECT_FALSE(made);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
+INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::ValuesIn(bus::kAllVendors),
                          [](const auto& vendor) { return bus::name_of(vendor.param); });
 
 }  // namespace

@@ -118,9 +118,9 @@ class Viewer(unittest.TestCase):
 
     # ---- a run
 
-    def start_run(self):
+    def start_run(self, rate="max"):
         out = self.folder / "out"
-        run = self.start("run", PROGRAMS / "rds", "run", RECORDING, "--out", out, "--rate", "max", "--frames", FRAMES, "--domain", DOMAIN, f"--view={self.port}", "--view-keep")
+        run = self.start("run", PROGRAMS / "rds", "run", RECORDING, "--out", out, "--rate", rate, "--frames", FRAMES, "--domain", DOMAIN, f"--view={self.port}", "--view-keep")
         wait_for(lambda: "the page: " in self.log("run") or run.poll() is not None, "the page")
         self.assertIsNone(run.poll(), self.log("run"))
         return run, out
@@ -178,7 +178,7 @@ class Viewer(unittest.TestCase):
         self.need_node()
         recorded = self.folder / "bag.db3"
         record = self.start("record", PROGRAMS / "rds", "record", recorded, *RECORDED, "--domain", DOMAIN, "--loopback")
-        run, out = self.start_run()
+        run, out = self.start_run("0.5")  # so that the page is there before the run is over
         page = self.child("node", FOLDER / "page.mjs", self.url, PICTURES)
         programs = {name: self.child("node", FOLDER / "foxglove.mjs", f"ws://127.0.0.1:{self.port}", name) for name in ("foxglove.sdk.v1", "foxglove.websocket.v1")}
         for program in programs.values():

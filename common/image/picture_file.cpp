@@ -34,12 +34,22 @@ bool is_whole_png(Bytes bytes) {
   return false;
 }
 
+int big_endian_16(Bytes bytes, std::size_t at) {
+  return bytes[at] << 8 | bytes[at + 1];
+}
+
 bool is_jpeg_standalone(std::uint8_t marker) {
   return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
 }
 
-/// Walks the segments; inside entropy-coded data FF 00 is a byte and FF D0…D7 a restart.
-bool is_whole_jpeg(Bytes bytes) {
+bool is_jpeg_frame(std::uint8_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+/// Walks the segments up to the end; inside entropy-coded data FF 00 is a byte and FF D0…D7 a restart.
+/// @param look  at a segment's marker and where its length stands. @return whether there is an end.
+template <class Look>
+bool walk_jpeg(Bytes bytes, Look look) {
   constexpr std::uint8_t kEndOfImage = 0xD9;
   std::size_t at = 2;
   while (at + 1 < bytes.size()) {
@@ -52,9 +62,29 @@ bool is_whole_jpeg(Bytes bytes) {
     at += 2;
     if (is_jpeg_standalone(marker)) continue;
     if (at + 2 > bytes.size()) return false;
-    at += static_cast<std::size_t>(bytes[at]) << 8 | bytes[at + 1];
+    look(marker, at);
+    at += static_cast<std::size_t>(big_endian_16(bytes, at));
   }
   return false;
+}
+
+cv::Size png_size(Bytes bytes) {
+  constexpr std::size_t kWidthAt = 16;
+  constexpr int kMost = 0xFFFF;
+  if (bytes.size() < kWidthAt + 8) return {};
+  const auto side = [&](std::size_t at) {
+    return big_endian_16(bytes, at) > 0 ? kMost : big_endian_16(bytes, at + 2);
+  };
+  return {side(kWidthAt), side(kWidthAt + 4)};
+}
+
+cv::Size jpeg_size(Bytes bytes) {
+  cv::Size size;
+  walk_jpeg(bytes, [&](std::uint8_t marker, std::size_t at) {
+    if (is_jpeg_frame(marker) && at + 7 <= bytes.size())
+      size = {big_endian_16(bytes, at + 5), big_endian_16(bytes, at + 3)};
+  });
+  return size;
 }
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
@@ -95,8 +125,14 @@ tl::expected<cv::Mat, std::string> read_picture(const std::filesystem::path& fil
 
 bool is_whole_picture(Bytes bytes) {
   if (begins_with(bytes, kPngSignature)) return is_whole_png(bytes);
-  if (begins_with(bytes, kJpegStart)) return is_whole_jpeg(bytes);
+  if (begins_with(bytes, kJpegStart)) return walk_jpeg(bytes, [](std::uint8_t, std::size_t) {});
   return true;
+}
+
+cv::Size declared_size(Bytes bytes) {
+  if (begins_with(bytes, kPngSignature)) return png_size(bytes);
+  if (begins_with(bytes, kJpegStart)) return jpeg_size(bytes);
+  return {};
 }
 
 tl::expected<cv::Mat, std::string> read_color_picture(const std::filesystem::path& file,

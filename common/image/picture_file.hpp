@@ -17,6 +17,10 @@ namespace rds::image {
 /// stream.
 bool is_whole_picture(std::span<const std::uint8_t> bytes);
 
+/// The size that a JPEG or PNG stream says it has, before anything is decoded; sides above 65535 px count as
+/// that. Empty if it says none, or is of another format.
+cv::Size declared_size(std::span<const std::uint8_t> bytes);
+
 /// Decodes a picture to 8-bit BGR (CV_8UC3) of the given size.
 ///
 /// @return or one sentence that names the file: missing, truncated, not a picture, of another size.

@@ -25,9 +25,14 @@ constexpr std::size_t kDepthHeaderBytes = 12;  // of compressed_depth_image_tran
 constexpr float kMillimetre = 0.001F;
 constexpr float kMetre = 1.0F;
 
-/// Decodes a picture that a message carries. @return empty if it is none, or torn.
+/// More has no camera, and a few bytes could claim it.
+constexpr std::int64_t kMostPixels = 50'000'000;
+
+/// Decodes a picture that a message carries. @return empty if it is none, torn or too large.
 cv::Mat unpack(std::span<const std::uint8_t> bytes, int flags) {
-  if (bytes.empty() || !image::is_whole_picture(bytes)) return {};
+  const auto size = image::declared_size(bytes);
+  const std::int64_t pixels = std::int64_t{size.width} * size.height;
+  if (pixels == 0 || pixels > kMostPixels || !image::is_whole_picture(bytes)) return {};
   try {
     const cv::Mat1b view(1, static_cast<int>(bytes.size()), const_cast<std::uint8_t*>(bytes.data()));
     return cv::imdecode(view, flags | cv::IMREAD_IGNORE_ORIENTATION);
@@ -87,7 +92,8 @@ Expected<image::DepthImage> camera_depth(std::shared_ptr<const Image> message) {
 
 Expected<image::ColorImage> camera_color(const CompressedImage& message) {
   cv::Mat pixels = unpack(message.data(), cv::IMREAD_COLOR);
-  if (pixels.empty()) return tl::make_unexpected("a picture that is torn, or neither JPEG nor PNG");
+  if (pixels.empty())
+    return tl::make_unexpected("a picture that is torn, too large, or neither JPEG nor PNG");
   return image::ColorImage{std::move(pixels), image::ChannelOrder::kBgr, nullptr};
 }
 

@@ -2,9 +2,9 @@
 #include "services/tracker/frame_input.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <spdlog/spdlog.h>
 
@@ -24,10 +24,6 @@ using sensor_msgs::msg::Image;
 
 constexpr std::size_t kLiveFrames = 5;  // that wait, as the topic keeps; older ones are dropped
 constexpr std::chrono::milliseconds kLookPeriod{250};
-
-const std::string& type_of_pictures() {
-  return bus::type_ops<Image>().dds_name;
-}
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
   if (then == std::chrono::steady_clock::time_point()) return StreamSight::kNever;
@@ -63,6 +59,7 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
       read<CameraInfo>(info_, info_.topic, lens, [this](const auto&, const auto& l) { return take_info(l); });
   depth_info_.raw =
       read<CameraInfo>(depth_info_, depth_info_.topic, lens, [this](const auto&, const auto& l) {
+        const std::lock_guard lock(mutex_);
         registration_.set_depth_lens(l);
         return Taken();
       });
@@ -75,6 +72,13 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
         [this](const auto& m, auto picture) { return take_depth(m->header(), std::move(picture)); });
   }
   tell_figures();
+  watcher_ = std::jthread([this](const std::stop_token& stop) {
+    concurrency::Mailbox nothing;
+    while (!stop.stop_requested()) {
+      look();
+      nothing.wait_for(stop, kLookPeriod, [] { return false; });
+    }
+  });
 }
 
 void FrameInput::tell_figures() {
@@ -103,33 +107,47 @@ bus::Subscription FrameInput::read(Stream& stream, const std::string& topic, Con
   return context_.bus.subscribe<Message>(
       topic, qos, [this, &stream, topic, convert, take](const std::shared_ptr<const Message>& message) {
         auto converted = convert(message);
-        std::string refusal;
+        const Taken taken =
+            converted ? take(message, std::move(*converted)) : tl::unexpected(converted.error());
         {
           const std::lock_guard lock(mutex_);
-          Taken taken = converted ? take(message, std::move(*converted)) : tl::unexpected(converted.error());
           (taken ? stream.used : stream.refused) = Clock::now();
-          if (taken) return pass_on(std::move(*taken));
-          stream.refusal = refusal = std::move(taken.error());
+          if (!taken) stream.refusal = taken.error();
         }
-        context_.diagnostics.reject(topic, service::Rejection::kInvalid, refusal);
+        if (!taken) context_.diagnostics.reject(topic, service::Rejection::kInvalid, taken.error());
       });
 }
 
 FrameInput::Taken FrameInput::take_info(const geometry::Lens& lens) {
+  const std::lock_guard lock(mutex_);
   registration_.set_color_lens(lens);
-  return pairer_.set_camera(lens.camera());
+  FramePairer::Frames waiting = pairer_.set_camera(lens.camera());
+  if (lens.is_plain()) pass_on(std::move(waiting));  // others were taken before their table was known
+  return {};
 }
 
 FrameInput::Taken FrameInput::take_color(const std_msgs::msg::Header& header, image::ColorImage picture) {
-  return registration_.color(std::move(picture), header.frame_id()).map([&](image::ColorImage color) {
-    return pairer_.add_color(to_nanoseconds(header.stamp()), std::move(color));
-  });
+  const auto table = [&] {
+    const std::lock_guard lock(mutex_);
+    return registration_.color(picture.pixels.size(), header.frame_id());
+  }();
+  if (!table) return tl::unexpected(table.error());
+  if (*table) picture = (*table)->color(picture);
+  const std::lock_guard lock(mutex_);
+  pass_on(pairer_.add_color(to_nanoseconds(header.stamp()), std::move(picture)));
+  return {};
 }
 
 FrameInput::Taken FrameInput::take_depth(const std_msgs::msg::Header& header, image::DepthImage picture) {
-  return registration_.depth(std::move(picture), header.frame_id()).map([&](image::DepthImage depth) {
-    return pairer_.add_depth(to_nanoseconds(header.stamp()), std::move(depth));
-  });
+  const auto table = [&] {
+    const std::lock_guard lock(mutex_);
+    return registration_.depth(picture.values.size(), header.frame_id());
+  }();
+  if (!table) return tl::unexpected(table.error());
+  if (*table) picture = (*table)->depth(picture);
+  const std::lock_guard lock(mutex_);
+  pass_on(pairer_.add_depth(to_nanoseconds(header.stamp()), std::move(picture)));
+  return {};
 }
 
 void FrameInput::pass_on(FramePairer::Frames frames) {
@@ -143,14 +161,12 @@ std::string FrameInput::camera_frame() const {
 }
 
 void FrameInput::look() {
-  const auto now = Clock::now();
-  if (now - looked_ < kLookPeriod) return;
-  looked_ = now;
   const auto endpoints = context_.bus.discovered();
   choose_packing(color_, {color_.topic + "/compressed"}, endpoints);
   choose_packing(depth_, {depth_.topic + "/compressedDepth", depth_.topic + "/compressed"}, endpoints);
+  auto faults = filter_.lasting(camera_faults(sight(endpoints)), Clock::now());
   const std::lock_guard lock(mutex_);
-  faults_ = filter_.lasting(camera_faults(sight(endpoints)), now);
+  faults_ = std::move(faults);
 }
 
 /// Reads compressed pictures where a setting says so, or where nobody publishes others.
@@ -190,10 +206,13 @@ void FrameInput::read_packed(Stream& stream, const std::string& topic) {
 
 StreamSight FrameInput::sight_of(const Stream& stream, const std::string& type,
                                  const std::vector<DiscoveredEndpoint>& endpoints) const {
-  StreamSight sight{.topic = stream.topic,
-                    .silent_s = seconds_since(stream.used),
-                    .refused_s = seconds_since(stream.refused),
-                    .refusal = stream.refusal};
+  StreamSight sight{.topic = stream.topic};
+  {
+    const std::lock_guard lock(mutex_);
+    sight.silent_s = seconds_since(stream.used);
+    sight.refused_s = seconds_since(stream.refused);
+    sight.refusal = stream.refusal;
+  }
   const std::string name = context_.bus.full_name(stream.topic);
   const std::string packed = stream.packed_topic.empty() ? "" : context_.bus.full_name(stream.packed_topic);
   for (const DiscoveredEndpoint& endpoint : endpoints) {
@@ -207,25 +226,31 @@ StreamSight FrameInput::sight_of(const Stream& stream, const std::string& type,
 }
 
 CameraSight FrameInput::sight(const std::vector<DiscoveredEndpoint>& endpoints) const {
-  const std::string& type_of_infos = bus::type_ops<CameraInfo>().dds_name;
-  CameraSight sight{.color = sight_of(color_, type_of_pictures(), endpoints),
-                    .info = sight_of(info_, type_of_infos, endpoints),
-                    .depth = sight_of(depth_, type_of_pictures(), endpoints),
-                    .since_frame_s = seconds_since(framed_),
-                    .color_frame = registration_.color_frame(),
-                    .depth_frame = registration_.depth_frame()};
+  CameraSight sight{.color = sight_of(color_, bus::type_ops<Image>().dds_name, endpoints),
+                    .info = sight_of(info_, bus::type_ops<CameraInfo>().dds_name, endpoints),
+                    .depth = sight_of(depth_, bus::type_ops<Image>().dds_name, endpoints)};
+  add_others(endpoints, sight);
+  const std::lock_guard lock(mutex_);
+  sight.since_frame_s = seconds_since(framed_);
+  sight.color_frame = registration_.color_frame();
+  sight.depth_frame = registration_.depth_frame();
   if (const auto gap_ns = pairer_.partner_gap_ns()) sight.partner_ms = static_cast<double>(*gap_ns) / 1e6;
-  const std::string below = context_.node_namespace == "/" ? "" : context_.node_namespace.substr(1) + "/";
-  for (const DiscoveredEndpoint& endpoint : endpoints) {
-    const bool is_read = std::ranges::any_of(
-        std::array{&color_, &depth_, &info_, &depth_info_},
-        [&](const Stream* stream) { return endpoint.topic == context_.bus.full_name(stream->topic); });
-    if (!endpoint.publisher || is_read || !endpoint.topic.starts_with(below)) continue;
-    const bool is_packed = endpoint.type == bus::type_ops<CompressedImage>().dds_name;
-    if (endpoint.type == type_of_pictures() || is_packed) sight.other_pictures.push_back(endpoint.topic);
-    if (endpoint.type == type_of_infos) sight.other_infos.push_back(endpoint.topic);
-  }
   return sight;
+}
+
+/// The robot's pictures and camera_info that are not read.
+void FrameInput::add_others(const std::vector<DiscoveredEndpoint>& endpoints, CameraSight& sight) const {
+  const std::string below = context_.node_namespace == "/" ? "" : context_.node_namespace.substr(1) + "/";
+  std::set<std::string> read;
+  for (const Stream* stream : {&color_, &depth_, &info_, &depth_info_})
+    read.insert(context_.bus.full_name(stream->topic));
+  for (const DiscoveredEndpoint& endpoint : endpoints) {
+    if (!endpoint.publisher || read.contains(endpoint.topic) || !endpoint.topic.starts_with(below)) continue;
+    if (endpoint.type == bus::type_ops<Image>().dds_name ||
+        endpoint.type == bus::type_ops<CompressedImage>().dds_name)
+      sight.other_pictures.push_back(endpoint.topic);
+    if (endpoint.type == bus::type_ops<CameraInfo>().dds_name) sight.other_infos.push_back(endpoint.topic);
+  }
 }
 
 }  // namespace rds::tracker

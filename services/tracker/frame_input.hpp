@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
@@ -21,17 +22,14 @@
 namespace rds::tracker {
 
 /// The camera's topics, paired, as an inbox of frames, and how their stamps follow each other. Pictures of
-/// rgb8, bgr8, 16UC1 and 32FC1 stay in the messages' memory. Where nobody publishes pictures as they are,
-/// compressed ones are read. What is wrong with the camera is told by diagnostics.
+/// rgb8, bgr8, 16UC1 and 32FC1 stay in the messages' memory; all others are made on their topic's thread of
+/// the bus. Four times a second a thread of its own looks who publishes what: where nobody publishes pictures
+/// as they are, compressed ones are read, and what is wrong with the camera is told by diagnostics.
 class FrameInput {
  public:
   /// @param lockstep  no frame is dropped, and time breaks at once.
   FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox, const CameraTopics& topics,
              bool lockstep);
-
-  /// Looks, four times a second at most, who publishes what, and what is wrong. For the worker, as often as
-  /// it likes.
-  void look();
 
   [[nodiscard]] concurrency::Inbox<image::RgbdFrame>& frames() { return frames_; }
   [[nodiscard]] const concurrency::Inbox<image::RgbdFrame>& frames() const { return frames_; }
@@ -44,7 +42,7 @@ class FrameInput {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Taken = tl::expected<FramePairer::Frames, std::string>;
+  using Taken = tl::expected<void, std::string>;
 
   /// One of the topics: its names, and when something came that could, or could not, be used.
   struct Stream {
@@ -57,8 +55,7 @@ class FrameInput {
     bus::Subscription packed = {};
   };
 
-  /// @param convert  makes an expected of a message. @param take  gives what is in it to the pairer, under
-  /// the lock.
+  /// @param convert  makes an expected of a message. @param take  gives what is in it to the pairer.
   template <class Message, class Convert, class Take>
   bus::Subscription read(Stream& stream, const std::string& topic, Convert convert, Take take);
   void read_packed(Stream& stream, const std::string& topic);
@@ -67,10 +64,12 @@ class FrameInput {
   Taken take_info(const geometry::Lens& lens);
   Taken take_color(const std_msgs::msg::Header& header, image::ColorImage picture);
   Taken take_depth(const std_msgs::msg::Header& header, image::DepthImage picture);
-  void pass_on(FramePairer::Frames frames);
+  void pass_on(FramePairer::Frames frames);  // under the lock
+  void look();
   [[nodiscard]] StreamSight sight_of(const Stream& stream, const std::string& type,
                                      const std::vector<bus::DiscoveredEndpoint>& endpoints) const;
   [[nodiscard]] CameraSight sight(const std::vector<bus::DiscoveredEndpoint>& endpoints) const;
+  void add_others(const std::vector<bus::DiscoveredEndpoint>& endpoints, CameraSight& sight) const;
   void tell_figures();
 
   service::ServiceContext& context_;
@@ -82,12 +81,12 @@ class FrameInput {
   std::map<std::string, std::string> faults_;
   concurrency::Inbox<image::RgbdFrame> frames_;
   time::StampWatch stamps_;
-  FaultFilter filter_;
-  Clock::time_point looked_;
-  Stream info_;  // last: callbacks use the members above
+  FaultFilter filter_;  // of the watcher
+  Stream info_;         // callbacks use the members above
   Stream depth_info_;
   Stream color_;
   Stream depth_;
+  std::jthread watcher_;  // last: it uses the others
 };
 
 }  // namespace rds::tracker

@@ -66,13 +66,11 @@ void TrackerService::run(const std::stop_token& stop) {
     if (const auto frame = input_.frames().try_pop())
       if (!guarded("frame", [&] { take(*frame); })) guarded("frame", [&] { acknowledge(*frame); });
     epoch_.save_if_due();
-    input_.look();
   }
 }
 
 /// A new subscriber gets all poses even while no frame comes.
 void TrackerService::idle() {
-  input_.look();
   if (outputs_.has_new_reader()) publish_poses();
 }
 

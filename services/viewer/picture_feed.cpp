@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/viewer/picture_feed.hpp"
 
-#include "common/messages/image_conversions.hpp"
+#include "common/messages/camera_conversions.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/viewer/scene_frames.hpp"
 
@@ -67,7 +67,7 @@ void PictureFeed::take() {
 
 void PictureFeed::put(std::int64_t stamp_ns, const Image& image,
                       const rds_msgs::msg::FrameFeatures* features) {
-  const auto picture = messages::to_color_image(image);
+  const auto picture = messages::camera_color(image);
   if (!picture) return context_.diagnostics.reject(topic_, service::Rejection::kInvalid, picture.error());
   const auto jpeg = compressor_.compress(*picture);
   auto frame = picture_frame(jpeg, stamp_ns, image->width(), image->height(), features);

@@ -52,8 +52,8 @@ std::string key(int domain, const std::string& topic, const TypeOps& type, const
 }
 
 std::string node_prefix(const ZenohNodeName& node, int entity, const char* kind) {
-  return fmt::format("@ros2_lv/{}/{}/0/{}/{}/%/%/{}", node.domain, node.session, entity, kind,
-                     mangled(node.name));
+  return fmt::format("@ros2_lv/{}/{}/0/{}/{}/%/{}/{}", node.domain, node.session, entity, kind,
+                     mangled(node.node_namespace), mangled(node.name));
 }
 
 /// What equals rmw_zenoh's defaults is left out: reliable 1, volatile 2, keep last 1, a depth of 42, no

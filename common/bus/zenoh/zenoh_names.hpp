@@ -32,6 +32,7 @@ struct ZenohNodeName {
   int domain = 0;
   std::string session;  // identifier
   std::string name;
+  std::string node_namespace = "/";
 };
 
 /// All tokens of a domain.

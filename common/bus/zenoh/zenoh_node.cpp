@@ -28,7 +28,7 @@ void take_token(void* graph, const char* token, std::size_t size, int alive) {
 
 ZenohNode::ZenohNode(const ParticipantOptions& options)
     : session_(open(options)),
-      name_{options.domain, id_of(session_), options.node_name},
+      name_{options.domain, id_of(session_), options.node_name, normal_namespace(options.node_namespace)},
       guid_(session_guid(name_.session).value_or(Guid{})),
       graph_(std::make_shared<ZenohGraph>(guid_)),
       token_(declare_token(session_, node_token(name_))),

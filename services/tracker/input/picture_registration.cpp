@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/input/picture_registration.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 
 namespace rds::tracker {
@@ -20,30 +18,25 @@ constexpr const char* kAlign = "switch the driver's alignment on (align_depth.en
 
 }  // namespace
 
-std::optional<geometry::CameraModel> PictureRegistration::camera() const {
-  return color_lens_ ? std::optional(color_lens_->camera()) : std::nullopt;
-}
-
-PictureRegistration::Expected<image::ColorImage> PictureRegistration::color(image::ColorImage picture,
-                                                                            const std::string& frame_id) {
+tl::expected<PictureRegistration::Table, std::string> PictureRegistration::color(
+    const cv::Size& size, const std::string& frame_id) {
   color_frame_ = frame_id;
-  if (!color_lens_) return picture;
-  if (picture.pixels.size() != size_of(*color_lens_))
+  if (!color_lens_) return nullptr;
+  if (size != size_of(*color_lens_))
     return tl::unexpected(
         fmt::format("pictures of {} px, but camera_info is of {}: let both come from one driver",
-                    text_of(picture.pixels.size()), text_of(size_of(*color_lens_))));
-  if (color_lens_->is_plain()) return picture;
-  return made(color_table_, *color_lens_, color_lens_->camera()).color(picture);
+                    text_of(size), text_of(size_of(*color_lens_))));
+  if (color_lens_->is_plain()) return nullptr;
+  return made(color_table_, *color_lens_, color_lens_->camera());
 }
 
-PictureRegistration::Expected<image::DepthImage> PictureRegistration::depth(image::DepthImage picture,
-                                                                            const std::string& frame_id) {
+tl::expected<PictureRegistration::Table, std::string> PictureRegistration::depth(
+    const cv::Size& size, const std::string& frame_id) {
   depth_frame_ = frame_id;
-  if (!color_lens_) return picture;
-  const cv::Size size = picture.values.size();
+  if (!color_lens_) return nullptr;
   if (size == size_of(*color_lens_)) {
-    if (color_lens_->is_plain()) return picture;
-    return made(color_table_, *color_lens_, color_lens_->camera()).depth(picture);
+    if (color_lens_->is_plain()) return nullptr;
+    return made(color_table_, *color_lens_, color_lens_->camera());
   }
   const std::string sizes =
       fmt::format("depth of {} px, colour of {}", text_of(size), text_of(size_of(*color_lens_)));
@@ -56,13 +49,14 @@ PictureRegistration::Expected<image::DepthImage> PictureRegistration::depth(imag
   if (size != size_of(*depth_lens_))
     return tl::unexpected(fmt::format("{}, but depth's camera_info is of {}: {}", sizes,
                                       text_of(size_of(*depth_lens_)), kAlign));
-  return made(depth_table_, *depth_lens_, color_lens_->camera()).depth(picture);
+  return made(depth_table_, *depth_lens_, color_lens_->camera());
 }
 
-const image::LensTable& PictureRegistration::made(Table& table, const geometry::Lens& source,
-                                                  const geometry::CameraModel& target) {
-  if (!table || table->source() != source || table->target() != target) table.emplace(source, target);
-  return *table;
+PictureRegistration::Table PictureRegistration::made(Table& table, const geometry::Lens& source,
+                                                     const geometry::CameraModel& target) {
+  if (!table || table->source() != source || table->target() != target)
+    table = std::make_shared<const image::LensTable>(source, target);
+  return table;
 }
 
 }  // namespace rds::tracker

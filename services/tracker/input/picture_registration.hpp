@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,35 +11,33 @@
 
 namespace rds::tracker {
 
-/// Makes the pictures of a camera those of the one pinhole camera that the tracker knows: colour and its
+/// How the pictures of a camera become those of the one pinhole camera that the tracker knows: colour and its
 /// registered depth without the distortion that geometry::CameraModel does not have, depth of another size at
 /// colour's.
+///
+/// Says by which table; who asks applies it, outside of any lock.
 ///
 /// Depth of colour's size is taken as registered to it. Depth of another size is registered here by the depth
 /// camera's own camera_info, where both are of one frame: then a pixel's place does not depend on its depth.
 class PictureRegistration {
  public:
-  template <class T>
-  using Expected = tl::expected<T, std::string>;
+  /// nullptr: the picture stays as it is.
+  using Table = std::shared_ptr<const image::LensTable>;
 
   void set_color_lens(const geometry::Lens& lens) { color_lens_ = lens; }
   void set_depth_lens(const geometry::Lens& lens) { depth_lens_ = lens; }
-  /// Of the pictures as they are made here; nullopt before colour's camera_info.
-  [[nodiscard]] std::optional<geometry::CameraModel> camera() const;
 
   /// Before the lens is known, a picture stays as it is.
   /// @param frame_id  of its header. @return or what is wrong, and what to do about it.
-  Expected<image::ColorImage> color(image::ColorImage picture, const std::string& frame_id);
-  Expected<image::DepthImage> depth(image::DepthImage picture, const std::string& frame_id);
+  tl::expected<Table, std::string> color(const cv::Size& size, const std::string& frame_id);
+  tl::expected<Table, std::string> depth(const cv::Size& size, const std::string& frame_id);
 
   /// Of the last pictures.
   [[nodiscard]] const std::string& color_frame() const { return color_frame_; }
   [[nodiscard]] const std::string& depth_frame() const { return depth_frame_; }
 
  private:
-  using Table = std::optional<image::LensTable>;
-  static const image::LensTable& made(Table& table, const geometry::Lens& source,
-                                      const geometry::CameraModel& target);
+  static Table made(Table& table, const geometry::Lens& source, const geometry::CameraModel& target);
 
   std::optional<geometry::Lens> color_lens_;
   std::optional<geometry::Lens> depth_lens_;

@@ -7,8 +7,6 @@
 namespace rds::tracker {
 namespace {
 
-constexpr int kDeepest = 64;  // a longer way to the root is a circle
-
 geometry::Pose interpolated(const std::deque<std::pair<std::int64_t, geometry::Pose>>& poses,
                             std::int64_t stamp_ns) {
   const auto after =
@@ -59,37 +57,30 @@ const TransformTree::Edge* TransformTree::edge_of(const std::string& frame, std:
   return is_forgotten ? nullptr : &edge;
 }
 
-std::optional<std::string> TransformTree::parent_of(const std::string& frame, std::int64_t stamp_ns) const {
-  const Edge* edge = edge_of(frame, stamp_ns);
-  return edge == nullptr ? std::nullopt : std::optional(edge->parent);
-}
-
-std::string TransformTree::root_of(const std::string& frame, std::int64_t stamp_ns) const {
-  std::string root = frame;
-  for (int depth = 0; depth < kDeepest; ++depth) {
-    const Edge* edge = edge_of(root, stamp_ns);
+std::vector<std::string> TransformTree::ancestry(const std::string& frame, std::int64_t stamp_ns) const {
+  std::vector<std::string> frames{frame};
+  while (frames.size() < kDeepest) {
+    const Edge* edge = edge_of(frames.back(), stamp_ns);
     if (edge == nullptr) break;
-    root = edge->parent;
+    frames.push_back(edge->parent);
   }
-  return root;
+  return frames;
 }
 
-geometry::Pose TransformTree::root_from(const std::string& frame, std::int64_t stamp_ns) const {
+geometry::Pose TransformTree::root_from(const std::vector<std::string>& ancestry,
+                                        std::int64_t stamp_ns) const {
   geometry::Pose pose = geometry::Pose::Identity();
-  std::string at = frame;
-  for (int depth = 0; depth < kDeepest; ++depth) {
-    const Edge* edge = edge_of(at, stamp_ns);
-    if (edge == nullptr) break;
-    pose = interpolated(edge->poses, stamp_ns) * pose;
-    at = edge->parent;
-  }
+  for (std::size_t i = 0; i + 1 < ancestry.size(); ++i)
+    pose = interpolated(by_child_.at(ancestry[i]).poses, stamp_ns) * pose;
   return pose;
 }
 
 std::optional<geometry::Pose> TransformTree::lookup(const std::string& target, const std::string& source,
                                                     std::int64_t stamp_ns) const {
-  if (root_of(target, stamp_ns) != root_of(source, stamp_ns)) return std::nullopt;
-  return root_from(target, stamp_ns).inverse() * root_from(source, stamp_ns);
+  const auto of_target = ancestry(target, stamp_ns);
+  const auto of_source = ancestry(source, stamp_ns);
+  if (of_target.back() != of_source.back()) return std::nullopt;
+  return root_from(of_target, stamp_ns).inverse() * root_from(of_source, stamp_ns);
 }
 
 }  // namespace rds::tracker

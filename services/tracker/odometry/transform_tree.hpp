@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/geometry/pose.hpp"
 
@@ -22,16 +23,19 @@ class TransformTree {
   static constexpr std::int64_t kKeptNs = 2'000'000'000;
   static constexpr std::int64_t kForgottenNs = 5'000'000'000;
   static constexpr std::size_t kMaxFrames = 1000;  // more are not taken in
+  static constexpr std::size_t kDeepest = 64;
 
   void set(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
            const geometry::Pose& parent_from_child);
   void set_static(const std::string& parent, const std::string& child,
                   const geometry::Pose& parent_from_child);
 
-  /// nullopt for a frame without parent.
-  [[nodiscard]] std::optional<std::string> parent_of(const std::string& frame, std::int64_t stamp_ns) const;
-  /// The frame at the end of the parents; the frame itself if it has none.
-  [[nodiscard]] std::string root_of(const std::string& frame, std::int64_t stamp_ns) const;
+  /// The frame, its parent, and so on up to the root. Where others publish a circle it ends after kDeepest.
+  [[nodiscard]] std::vector<std::string> ancestry(const std::string& frame, std::int64_t stamp_ns) const;
+  /// The last of the ancestry; the frame itself if it has no parent.
+  [[nodiscard]] std::string root_of(const std::string& frame, std::int64_t stamp_ns) const {
+    return ancestry(frame, stamp_ns).back();
+  }
   /// Where `source` is in `target` at that time: interpolated, beyond the newest transform as it was last.
   /// @return target_from_source; nullopt if no path joins them.
   [[nodiscard]] std::optional<geometry::Pose> lookup(const std::string& target, const std::string& source,
@@ -45,7 +49,9 @@ class TransformTree {
   };
   [[nodiscard]] const Edge* edge_of(const std::string& frame, std::int64_t stamp_ns) const;
   Edge* edge_for(const std::string& parent, const std::string& child);
-  [[nodiscard]] geometry::Pose root_from(const std::string& frame, std::int64_t stamp_ns) const;
+  /// Where the first of them is in the last.
+  [[nodiscard]] geometry::Pose root_from(const std::vector<std::string>& ancestry,
+                                         std::int64_t stamp_ns) const;
 
   std::map<std::string, Edge> by_child_;
 };

@@ -31,6 +31,8 @@ TEST(ZenohNames, AreThoseOfRmwZenoh) {
   EXPECT_EQ(topic_key(2, "chatter", string_type()), "2/chatter/std_msgs::msg::dds_::String_/" + kHash);
   EXPECT_EQ(node_token(kTalker), "@ros2_lv/2/" + kSession + "/0/0/NN/%/%/talker");
   EXPECT_EQ(endpoint_token(kTalker, 10, "chatter", string_type(), {.depth = 7}, true), kToken);
+  EXPECT_EQ(node_token({2, kSession, "talker", "/robot1/arm"}),
+            "@ros2_lv/2/" + kSession + "/0/0/NN/%/%robot1%arm/talker");
 }
 
 TEST(ZenohNames, SayTheQos) {

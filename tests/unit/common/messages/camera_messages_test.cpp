@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -171,6 +173,18 @@ TEST(CompressedPictures, AreThoseOfRgb8) {
   CompressedImage torn = compressed(scene(), ".jpg", "jpeg");
   torn.data().resize(torn.data().size() / 2);
   EXPECT_FALSE(camera_color(torn));
+}
+
+TEST(CompressedPictures, ThatClaimToBeHugeAreNotDecoded) {
+  CompressedImage huge = compressed(scene(), ".jpg", "jpeg");
+  auto& bytes = huge.data();
+  const std::array<std::uint8_t, 4> frame{0xFF, 0xC0, 0x00,
+                                          0x11};  // the marker and the length of its segment
+  const auto found = std::ranges::search(bytes, frame);
+  ASSERT_FALSE(found.empty());
+  const std::array<std::uint8_t, 4> size{0x3E, 0x80, 0x3E, 0x80};  // 16000 px high and wide
+  std::ranges::copy(size, found.begin() + 5);
+  EXPECT_FALSE(camera_color(huge));
 }
 
 TEST(CompressedDepth, IsInMillimetresOrInverse) {

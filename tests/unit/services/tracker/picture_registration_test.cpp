@@ -17,60 +17,53 @@ geometry::Lens lens(int width, int height, geometry::LensModel model = geometry:
           .cy = height / 2.0 - 0.5,
           .model = model};
 }
-image::ColorImage color(int width, int height) {
-  return {cv::Mat3b(height, width, cv::Vec3b(1, 2, 3)), image::ChannelOrder::kBgr, nullptr};
-}
-image::DepthImage depth(int width, int height) {
-  return {cv::Mat1w(height, width, std::uint16_t{1500}), 0.001F, nullptr};
-}
+const cv::Size kSize(64, 48);
+const cv::Size kHalf(32, 24);
 
 TEST(PictureRegistration, LeavesPicturesOfAPlainLensAsTheyAre) {
   PictureRegistration registration;
-  EXPECT_FALSE(registration.camera());
   registration.set_color_lens(lens(64, 48));
-  const auto before = color(64, 48);
-  EXPECT_EQ(registration.color(before, "c")->pixels.data, before.pixels.data);
-  const auto registered = depth(64, 48);
-  EXPECT_EQ(registration.depth(registered, "c")->values.data, registered.values.data);
-  EXPECT_EQ(registration.camera()->width, 64);
+  EXPECT_EQ(registration.color(kSize, "c").value(), nullptr);
+  EXPECT_EQ(registration.depth(kSize, "c").value(), nullptr);
 }
 
-TEST(PictureRegistration, UndistortsColourAndItsDepth) {
+TEST(PictureRegistration, UndistortsColourAndItsDepthByOneTable) {
   PictureRegistration registration;
   registration.set_color_lens(lens(64, 48, geometry::LensModel::kEquidistant));
-  const auto before = color(64, 48);
-  EXPECT_NE(registration.color(before, "c")->pixels.data, before.pixels.data);
-  EXPECT_FLOAT_EQ(registration.depth(depth(64, 48), "c")->at(32, 24), 1.5F);
-  EXPECT_FALSE(registration.camera()->has_distortion());
+  const auto table = registration.color(kSize, "c").value();
+  ASSERT_NE(table, nullptr);
+  EXPECT_FALSE(table->target().has_distortion());
+  EXPECT_EQ(registration.depth(kSize, "c").value(), table);
 }
 
 TEST(PictureRegistration, RegistersDepthOfAnotherSizeInTheSameFrame) {
   PictureRegistration registration;
   registration.set_color_lens(lens(64, 48));
   registration.set_depth_lens(lens(32, 24));
-  ASSERT_TRUE(registration.color(color(64, 48), "c"));
-  const auto registered = registration.depth(depth(32, 24), "c");
-  ASSERT_TRUE(registered) << registered.error();
-  EXPECT_EQ(registered->values.size(), cv::Size(64, 48));
-  EXPECT_FLOAT_EQ(registered->at(10, 10), 1.5F);
+  ASSERT_TRUE(registration.color(kSize, "c"));
+  const auto table = registration.depth(kHalf, "c").value();
+  ASSERT_NE(table, nullptr);
+  const auto registered = table->depth({cv::Mat1w(kHalf, std::uint16_t{1500}), 0.001F, nullptr});
+  EXPECT_EQ(registered.values.size(), kSize);
+  EXPECT_FLOAT_EQ(registered.at(10, 10), 1.5F);
 }
 
 TEST(PictureRegistration, SaysWhatDepthOfAnotherSizeLacks) {
   PictureRegistration registration;
   registration.set_color_lens(lens(64, 48));
-  ASSERT_TRUE(registration.color(color(64, 48), "c"));
-  EXPECT_THAT(registration.depth(depth(32, 24), "c").error(),
+  ASSERT_TRUE(registration.color(kSize, "c"));
+  EXPECT_THAT(registration.depth(kHalf, "c").error(),
               AllOf(HasSubstr("depth of 32×24 px, colour of 64×48"), HasSubstr("camera_info"),
                     HasSubstr("align_depth")));
   registration.set_depth_lens(lens(32, 24));
-  EXPECT_THAT(registration.depth(depth(32, 24), "d").error(), HasSubstr("in frame 'd', not 'c'"));
-  EXPECT_THAT(registration.depth(depth(16, 12), "c").error(), HasSubstr("depth's camera_info is of 32×24"));
+  EXPECT_THAT(registration.depth(kHalf, "d").error(), HasSubstr("in frame 'd', not 'c'"));
+  EXPECT_THAT(registration.depth({16, 12}, "c").error(), HasSubstr("depth's camera_info is of 32×24"));
 }
 
 TEST(PictureRegistration, RefusesPicturesThatAreNotOfTheirCameraInfo) {
   PictureRegistration registration;
   registration.set_color_lens(lens(64, 48));
-  EXPECT_THAT(registration.color(color(32, 24), "c").error(),
+  EXPECT_THAT(registration.color(kHalf, "c").error(),
               HasSubstr("pictures of 32×24 px, but camera_info is of 64×48"));
 }
 

@@ -47,6 +47,15 @@ TEST(RobotFrames, HangTheRootOfTheTreeBelowOdomAndTellOfTheBase) {
   EXPECT_TRUE(frames.body_from_camera.isApprox(at(0, 0, 0.1) * frames.child_from_camera, 1e-12));
 }
 
+TEST(RobotFrames, OfACircleThatSomebodyPublishesAreFoundAllTheSame) {
+  TransformTree tree;
+  tree.set_static("a", "optical", at(0, 0, 0));
+  tree.set_static("b", "a", at(0, 0, 0));
+  tree.set_static("a", "b", at(0, 0, 0));
+  tree.set_static("a", "odom", at(0, 0, 0));
+  EXPECT_FALSE(frames_of(tree).body.empty());
+}
+
 TEST(RobotFrames, LeaveOdomToWheelOdometry) {
   TransformTree tree = robot_with_a_camera();
   tree.set("odom", "base_footprint", 0, at(3, 0, 1));

@@ -7,6 +7,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr std::int64_t kS = 1'000'000'000;
+using Frames = std::vector<std::string>;
 
 geometry::Pose at(double x, double y, double z, double turn_rad = 0) {
   return geometry::make_pose({x, y, z},
@@ -19,8 +20,8 @@ TEST(TransformTree, JoinsFramesByTheirCommonParent) {
   tree.set_static("camera", "optical", at(0, 2, 0));
   tree.set_static("base", "laser", at(0, 0, 3));
   EXPECT_EQ(tree.root_of("optical", 0), "base");
-  EXPECT_EQ(tree.parent_of("optical", 0), "camera");
-  EXPECT_FALSE(tree.parent_of("base", 0));
+  EXPECT_EQ(tree.ancestry("optical", 0), (Frames{"optical", "camera", "base"}));
+  EXPECT_EQ(tree.ancestry("base", 0), Frames{"base"});
   const auto laser_from_optical = tree.lookup("laser", "optical", 5 * kS);
   ASSERT_TRUE(laser_from_optical);
   EXPECT_TRUE(
@@ -50,7 +51,7 @@ TEST(TransformTree, TakesTheNewestParentAndStampsThatGoBack) {
   TransformTree tree;
   tree.set("a", "frame", 9 * kS, at(1, 0, 0));
   tree.set("b", "frame", 9 * kS, at(2, 0, 0));
-  EXPECT_EQ(tree.parent_of("frame", 9 * kS), "b");
+  EXPECT_EQ(tree.ancestry("frame", 9 * kS), (Frames{"frame", "b"}));
   tree.set("b", "frame", 3 * kS, at(3, 0, 0));
   EXPECT_TRUE(tree.lookup("b", "frame", 3 * kS)->isApprox(at(3, 0, 0), 1e-12));
 }
@@ -62,10 +63,11 @@ TEST(TransformTree, EndsInACircleAndKeepsItsBound) {
   EXPECT_FALSE(tree.root_of("a", 0).empty());
   EXPECT_TRUE(tree.lookup("a", "a", 0));
   tree.set_static("self", "self", at(0, 0, 0));
-  EXPECT_FALSE(tree.parent_of("self", 0));
+  EXPECT_EQ(tree.ancestry("self", 0), Frames{"self"});
   for (std::size_t i = 0; i < 2 * TransformTree::kMaxFrames; ++i)
     tree.set_static("x", "f" + std::to_string(i), at(0, 0, 0));
-  EXPECT_FALSE(tree.parent_of("f" + std::to_string(2 * TransformTree::kMaxFrames - 1), 0));
+  const std::string last = "f" + std::to_string(2 * TransformTree::kMaxFrames - 1);
+  EXPECT_EQ(tree.ancestry(last, 0), Frames{last});
 }
 
 }  // namespace

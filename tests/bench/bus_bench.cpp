@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/bus/domain_lock.hpp"
 #include "common/bus/participant.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
@@ -129,8 +130,8 @@ std::string secured_folder() {
 }
 
 void deliver(benchmark::State& state, Vendor writer, Vendor reader, bool is_secured) {
-  static std::atomic<int> next_domain = 10 + static_cast<int>(getpid() % 200);
-  const int domain = next_domain++ % 230;
+  const bus::DomainLock lock;
+  const int domain = lock.domain();
   const std::string secured = is_secured ? secured_folder() : "";
   const ReaderProcess process(reader, domain, secured);
   Answers answers;

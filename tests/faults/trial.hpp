@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/domain_lock.hpp"
 #include "common/image/tum_dataset.hpp"
 #include "tests/faults/faulty_camera.hpp"
 #include "tests/faults/process_fault.hpp"
 #include "tools/rds/run/results/recorder.hpp"
-#include "tools/rds/run/services/domain_lock.hpp"
 #include "tools/rds/run/services/run_options.hpp"
 
 namespace rds::test {
@@ -57,7 +57,7 @@ class Trial {
   int patience_;
   image::TumDataset dataset_;
   run::RunOptions options_;
-  run::DomainLock domain_;
+  bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Recorder recorder_;
   run::Commander commander_;

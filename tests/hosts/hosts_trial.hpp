@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/domain_lock.hpp"
 #include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/figures.hpp"
@@ -15,7 +16,6 @@
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/results/recorder.hpp"
-#include "tools/rds/run/services/domain_lock.hpp"
 #include "tools/rds/run/services/fleet.hpp"
 
 namespace rds::test {
@@ -51,7 +51,7 @@ class HostsTrial {
   HostNetwork network_;
   OnHost here_;  // all that follows is on A
   OnCore core_;
-  run::DomainLock domain_;
+  bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Recorder recorder_;
   run::Commander commander_;

@@ -7,11 +7,11 @@
 #include <thread>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "tests/integration/run_support.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_domain.hpp"
 #include "tools/recording/bag_recording.hpp"
 #include "tools/recording/open_recording.hpp"
 
@@ -36,7 +36,7 @@ class Record : public testing::TestWithParam<const char*> {
   }
   [[nodiscard]] std::vector<std::string> on_bus(std::vector<std::string> command) const {
     command.insert(command.end(),
-                   {"--loopback", "--domain", std::to_string(10 + getpid() % 200), "--bus", GetParam()});
+                   {"--loopback", "--domain", std::to_string(test_domain()), "--bus", GetParam()});
     return command;
   }
   [[nodiscard]] std::vector<std::string> recorder(const std::vector<std::string>& arguments) const {

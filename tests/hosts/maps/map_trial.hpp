@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/domain_lock.hpp"
 #include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/host_network.hpp"
 #include "tests/hosts/maps/revisions.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
-#include "tools/rds/run/services/domain_lock.hpp"
 #include "tools/rds/run/services/fleet.hpp"
 
 namespace rds::test {
@@ -63,7 +63,7 @@ class MapTrial {
   image::TumDataset dataset_;
   HostNetwork network_;
   OnHost here_;  // all that follows is on the fast machine
-  run::DomainLock domain_;
+  bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Commander commander_;
   Arrivals arrivals_;

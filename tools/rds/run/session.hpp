@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string>
 
+#include "common/bus/domain_lock.hpp"
 #include "common/image/recording.hpp"
 #include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
@@ -15,7 +16,6 @@
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
 #include "tools/rds/run/run_services.hpp"
-#include "tools/rds/run/services/domain_lock.hpp"
 
 namespace rds::run {
 
@@ -52,7 +52,7 @@ class Session {
   const RunOptions& options_;
   const image::Recording& dataset_;
   OutputFolder folder_;
-  DomainLock domain_;
+  bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   Recorder recorder_;
   Commander commander_;

@@ -9,16 +9,12 @@
 #include <thread>
 #include <vector>
 
-#include <unistd.h>
-
 #include "common/bus/participant.hpp"
+#include "tests/support/test_domain.hpp"
 
 namespace rds::bus {
 
-/// A domain that tests running at the same time do not share.
-inline int test_domain() {
-  return 10 + static_cast<int>(getpid() % 200);
-}
+using test::test_domain;
 
 inline std::unique_ptr<Participant> join(Vendor vendor, const std::string& node_name,
                                          int domain = test_domain()) {

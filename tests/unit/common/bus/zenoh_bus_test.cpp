@@ -76,7 +76,7 @@ class OnZenoh : public ::testing::Test {
 };
 
 TEST_F(OnZenoh, DomainsDoNotMeet) {
-  const auto elsewhere = join(Vendor::kZenoh, "elsewhere", test_domain() + 1);
+  const auto elsewhere = join(Vendor::kZenoh, "elsewhere", test_domain() + 100);
   auto publisher = elsewhere->advertise<Header>("numbers", kTransform);
   const auto here = join(Vendor::kZenoh, "here");
   auto other = here->advertise<Header>("numbers", kTransform);

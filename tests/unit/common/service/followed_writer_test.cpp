@@ -2,10 +2,10 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/service/peers/peers.hpp"
 #include "common/topics/topics.hpp"
+#include "tests/support/test_domain.hpp"
 
 namespace rds::service {
 namespace {
@@ -18,7 +18,7 @@ class Followed : public ::testing::Test {
  protected:
   static std::unique_ptr<bus::Participant> join(const std::string& name) {
     return bus::Participant::create(
-        {.domain = 10 + static_cast<int>(getpid() % 200), .node_name = name, .loopback_only = true});
+        {.domain = test::test_domain(), .node_name = name, .loopback_only = true});
   }
   /// Returns when the follower has heard it.
   void tell(std::uint64_t instance, std::uint8_t role) {

@@ -6,10 +6,10 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/messages/conversions.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_domain.hpp"
 
 namespace rds::loop_closer {
 namespace {
@@ -18,7 +18,7 @@ using Features = rds_msgs::msg::KeyFrameFeatures;
 
 std::unique_ptr<bus::Participant> join(const std::string& name) {
   return bus::Participant::create({.vendor = bus::Vendor::kFastDds,
-                                   .domain = 10 + static_cast<int>(getpid() % 200),
+                                   .domain = test::test_domain(),
                                    .node_name = name,
                                    .loopback_only = true});
 }

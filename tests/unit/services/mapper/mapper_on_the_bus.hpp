@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
@@ -21,6 +20,7 @@
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/mapper_service.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_domain.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -33,7 +33,7 @@ inline constexpr std::uint64_t kEpoch = 42;
 
 inline std::unique_ptr<bus::Participant> join(const std::string& name) {
   return bus::Participant::create({.vendor = bus::Vendor::kFastDds,
-                                   .domain = 10 + static_cast<int>(getpid() % 200),
+                                   .domain = rds::test::test_domain(),
                                    .node_name = name,
                                    .loopback_only = true});
 }

@@ -2,9 +2,9 @@
 #include "services/tracker/keyframe_answers.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/messages/conversions.hpp"
+#include "tests/support/test_domain.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -30,7 +30,7 @@ class Answers : public ::testing::Test {
   }
 
   std::unique_ptr<bus::Participant> participant = bus::Participant::create(
-      {.domain = 10 + static_cast<int>(getpid() % 200), .node_name = "tracker", .loopback_only = true});
+      {.domain = test::test_domain(), .node_name = "tracker", .loopback_only = true});
   service::Diagnostics diagnostics;
   service::ServiceContext context{"tracker", *participant, diagnostics};
   concurrency::Mailbox mailbox;

@@ -2,7 +2,6 @@
 // The tools' readers against a publisher in this process, on both vendors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "nav_msgs/msg/Odometry.h"
 #include "octomap_msgs/msg/Octomap.h"
@@ -10,6 +9,7 @@
 #include "services/mapper/io/map_files.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_domain.hpp"
 #include "tools/rds/map/live_map.hpp"
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/topic/topic_reader.hpp"
@@ -19,7 +19,7 @@ namespace {
 using nav_msgs::msg::Odometry;
 using testing::HasSubstr;
 
-const int kDomain = 10 + static_cast<int>(getpid() % 200);
+const int kDomain = test::test_domain();
 
 class LiveBus : public testing::TestWithParam<bus::Vendor> {
  protected:

@@ -8,10 +8,10 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "common/transfer/bus/item_client.hpp"
 #include "common/transfer/bus/item_server.hpp"
+#include "tests/support/test_domain.hpp"
 #include "tests/unit/common/bus/bus_test_support.hpp"
 
 namespace rds::transfer {
@@ -34,7 +34,7 @@ ItemServer::Bytes item_of(std::uint64_t number) {
 struct Node {
   Node(bus::Vendor vendor, const std::string& name)
       : bus(bus::Participant::create({.vendor = vendor,
-                                      .domain = 10 + static_cast<int>(getpid() % 200),
+                                      .domain = test::test_domain(),
                                       .node_name = name,
                                       .loopback_only = true})),
         context{name, *bus, diagnostics} {}

@@ -18,7 +18,7 @@ constexpr std::uint64_t kElsewhere = 1;  // a machine
 struct Reader {
   Reader(bus::Vendor vendor, std::uint64_t host)
       : bus(bus::Participant::create({.vendor = vendor,
-                                      .domain = 10 + static_cast<int>(getpid() % 200),
+                                      .domain = rds::test::test_domain(),
                                       .node_name = "reader",
                                       .loopback_only = true})),
         follower(context, host) {}
@@ -96,7 +96,7 @@ TEST_F(MapFollowerOnTheBus, GoesOverToAnotherProcess) {
   const std::string settings = (maps / "mapper.yaml").string();
   rds::test::write_text(settings, "expect_boxes: false\ncheckpoint: false\n");
   const std::vector<std::string> command{RDS_BIN_DIR "/rds-mapper", "--loopback", "--domain",
-                                         std::to_string(10 + getpid() % 200), "--config", settings};
+                                         std::to_string(rds::test::test_domain()), "--config", settings};
   Reader reader(bus::Vendor::kCycloneDds, kElsewhere);
   auto process = std::make_unique<rds::test::Process>(command);
   ASSERT_TRUE(wait_for([&] { return images.matched() > 0; })) << process->standard_error();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/run/services/domain_lock.hpp"
+#include "common/bus/domain_lock.hpp"
 
 #include <filesystem>
 #include <stdexcept>
@@ -9,7 +9,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace rds::run {
+namespace rds::bus {
 namespace {
 // People use low domains by hand; above 101 the ports collide with Linux's ephemeral ones (7400 + 250 ×
 // domain).
@@ -37,4 +37,4 @@ DomainLock::~DomainLock() {
   if (fd_ >= 0) close(fd_);
 }
 
-}  // namespace rds::run
+}  // namespace rds::bus

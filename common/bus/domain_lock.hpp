@@ -3,10 +3,9 @@
 
 #include <optional>
 
-namespace rds::run {
+namespace rds::bus {
 
-/// The DDS domain of a run: the user's choice, or one that no other `rds run` on this machine uses, held until
-/// destruction.
+/// A domain: the user's choice, or one that no other DomainLock on this machine has, held until destruction.
 class DomainLock {
  public:
   /// @throws std::runtime_error if all are taken.
@@ -22,4 +21,4 @@ class DomainLock {
   int fd_ = -1;
 };
 
-}  // namespace rds::run
+}  // namespace rds::bus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the
-// camera with people in the picture, and a way around the room that closes a loop.
+// camera with people in the picture, and ways that close a loop: around the room, and through a floor.
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -52,9 +52,10 @@ INSTANTIATE_TEST_SUITE_P(Path, RenderedRun,
                                            RenderedFigures{"static", "cyclonedds", 0.005, 0.80, 0.02, {}}),
                          [](const auto& path) { return path.param.name; });
 
-/// What a lap around the room leaves behind. @param joined  the tracker listens to the loop closer.
-nlohmann::json lap(const std::filesystem::path& place, bool joined) {
-  const auto dataset = rendered_recording("loop");
+/// What a recording that comes back to a place leaves behind. @param joined  the tracker listens to the loop
+/// closer.
+nlohmann::json lap(const std::string& recording, const std::filesystem::path& place, bool joined) {
+  const auto dataset = rendered_recording(recording);
   const auto config = place / "config.yaml";
   const auto out = place / (joined ? "joined" : "open");
   write_text(config, joined ? "{}\n" : "tracker: {loop_closer: false}\n");
@@ -68,8 +69,8 @@ nlohmann::json lap(const std::filesystem::path& place, bool joined) {
 /// The end of the lap sees the start again: where it is not joined, the walls there stand twice.
 TEST(RenderedLoop, IsJoinedThroughAllProcesses) {
   const TemporaryFolder place;
-  const auto open = lap(place.path(), false);
-  const auto joined = lap(place.path(), true);
+  const auto open = lap("loop", place.path(), false);
+  const auto joined = lap("loop", place.path(), true);
   EXPECT_EQ(open["loops_closed"].get<int>(), 0);
   EXPECT_GE(joined["loops_closed"].get<int>(), 1);
   EXPECT_GE(joined["loops_true"].get<int>(), 3);
@@ -80,6 +81,22 @@ TEST(RenderedLoop, IsJoinedThroughAllProcesses) {
   EXPECT_LT(joined["map_occupied"].get<int>(), open["map_occupied"].get<int>());
   EXPECT_GE(joined["static_recall"].get<double>(), 0.97);
   EXPECT_GE(joined["map_precision"].get<double>(), 0.99);
+}
+
+/// A robot leaves a corridor through a door into a room, and comes back to it from another one: nowhere is it
+/// lost, and both visits are one room of the map.
+TEST(RenderedFloor, IsTrackedThroughDoorsAndJoined) {
+  const TemporaryFolder place;
+  const auto open = lap("floor", place.path(), false);
+  const auto joined = lap("floor", place.path(), true);
+  EXPECT_EQ(open["tracked"].get<double>(), 1.0);
+  EXPECT_EQ(joined["tracked"].get<double>(), 1.0);
+  EXPECT_GE(joined["loops_closed"].get<int>(), 1);
+  EXPECT_EQ(joined["loops_false"].get<int>(), 0);
+  EXPECT_LE(joined["ate_final"].get<double>(), 0.010);
+  EXPECT_LT(joined["ate_final"].get<double>(), open["ate_final"].get<double>());
+  EXPECT_LT(joined["map_occupied"].get<int>(), open["map_occupied"].get<int>());
+  EXPECT_GE(joined["map_precision"].get<double>(), 0.97);
 }
 
 }  // namespace

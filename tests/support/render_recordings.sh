@@ -14,14 +14,15 @@ options() {  # of NAME
     rpy | halfsphere | static) echo --path "$1" --people 2 --seconds 10 --fps 15 ;;
     rpy_empty | halfsphere_empty | static_empty) echo --path "${1%_empty}" --people 0 --seconds 10 --fps 5 ;;
     loop) echo --path loop --people 0 --seconds 28 --fps 15 ;;
-    *) echo "$1: expected room, rpy, halfsphere or static, alone or with _empty, or loop" >&2; return 1 ;;
+    floor) echo --world floor --rooms 8 --people 0 --seconds 52 --fps 10 ;;
+    *) echo "$1: expected room, rpy, halfsphere or static, alone or with _empty, loop or floor" >&2; return 1 ;;
   esac
 }
 
 mkdir -p "$folder"
 exec 9>"$folder/lock"
 flock 9
-simulator=$(cat "$sources"/*.?pp | sha256sum)
+simulator=$(find "$sources" -name '*.?pp' | sort | xargs cat | sha256sum)
 for name in "$@"; do
   wanted=$(options "$name")
   made="$wanted $simulator"

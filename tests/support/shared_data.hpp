@@ -19,7 +19,8 @@ std::string why_not_shared(const std::string& name);
 std::filesystem::path dynamic_sequence(const std::string& name);
 
 /// Folder of a recording that a fixture has rendered: `room` and `room_empty` (its twin without people) for a
-/// test declared RECORDINGS; `rpy`, `halfsphere`, `static`, with people, and `loop` for one declared PATHS.
+/// test declared RECORDINGS; `rpy`, `halfsphere`, `static`, with people, `loop` and `floor` for one declared
+/// PATHS.
 /// @throws std::runtime_error if it is not there.
 std::filesystem::path rendered_recording(const std::string& name);
 

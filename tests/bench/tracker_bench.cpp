@@ -88,19 +88,22 @@ BENCHMARK(pose_optimisation)->Unit(benchmark::kMicrosecond);
 void association_with_local_map(benchmark::State& state) {
   measure(state, [](Scene& s) {
     TrackedFrame frame = s.extracted;
-    return match_points(*s.map, s.points, s.model, s.pyramid, FeatureTracker::kUsualWindow, frame).found;
+    return match_points(*s.map, s.points, s.model, s.pyramid, FeatureTracker::kUsualWindow, frame)
+        .found;
   });
 }
 BENCHMARK(association_with_local_map)->Unit(benchmark::kMicrosecond);
 
 void local_map_selection(benchmark::State& state) {
   std::uint64_t mark = 2'000'000'000;
-  measure(state, [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, ++mark); });
+  measure(state,
+          [&](Scene& s) { return select_local_map(*s.map, s.last_followed.points, ++mark); });
 }
 BENCHMARK(local_map_selection)->Unit(benchmark::kMicrosecond);
 
 void keyframe_insertion(benchmark::State& state) {
-  measure_on_copy(state, [](Scene& s, SlamMap& map) { insert_keyframe(map, s.extracted); });
+  measure_on_copy(
+      state, [](Scene& s, SlamMap& map) { insert_keyframe(map, s.extracted, s.config.depth); });
 }
 BENCHMARK(keyframe_insertion)->Unit(benchmark::kMicrosecond);
 

@@ -22,7 +22,8 @@ struct ExtractionConfig {
 
 /// The depth sensor.
 struct DepthConfig {
-  double max_depth_m = 8.0;  // beyond: as if not measured
+  double max_depth_m = 8.0;    // beyond: as if not measured
+  double close_depth_m = 3.2;  // points nearer than this are made into map points at once
   double disparity_sigma_px =
       0.6;  // of one depth measurement as a disparity (ObservationModel), at any level
 

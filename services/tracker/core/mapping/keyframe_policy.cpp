@@ -10,8 +10,8 @@ constexpr double kUsualDepth = 2;         // m, that kMaxTranslationM is meant f
 constexpr double kMinIntervalS = 0.09;    // between keyframes, unless tracking is about to fail
 constexpr int kMinMovableFrames = 3;      // between keyframes while movable objects are there
 constexpr double kReferenceRatio = 0.75;  // fewer inliers than this share of the reference keyframe's points
-constexpr int kMinTracked = 100;          // fewer points with depth tracked than this …
-constexpr int kMinNew = 70;               // … while more than this could be made
+constexpr int kMinCloseTracked = 100;     // fewer close points tracked than this …
+constexpr int kMinCloseNew = 70;          // … while more than this could be made
 constexpr int kScarceInliers = 200;       // with fewer among movable objects, the map takes every keyframe
 constexpr double kUrgentShare = 0.4;      // of kScarceInliers: tracking is about to fail
 
@@ -28,11 +28,11 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   const bool urgent = scarce && facts.inliers < kUrgentShare * kScarceInliers;
   if (!facts.has_depth || (facts.since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
   const bool losing_reference = facts.seen < kReferenceRatio * facts.seen_by_reference;
-  const bool points_wanted = facts.measured_tracked < kMinTracked && facts.measured_new > kMinNew;
+  const bool close_points_wanted = facts.close_tracked < kMinCloseTracked && facts.close_new > kMinCloseNew;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
-  if (urgent || losing_reference || points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
+  if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
   const bool is_soon_after_last = facts.frames_since_last < kMinMovableFrames;
   if (facts.since_last_s < longest - kJitter || is_soon_after_last) return KeyframeNeed::kNone;
   return scarce ? KeyframeNeed::kMap : KeyframeNeed::kDetector;

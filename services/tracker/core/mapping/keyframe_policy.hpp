@@ -14,8 +14,8 @@ struct KeyframeFacts {
   int seen = 0;                     // how much of the map shows: points, or cells of the picture with points
   int seen_by_reference = 0;        // the same of the view that it is compared with
   bool has_depth = false;           // without, no map points can be made
-  int measured_tracked = 0;         // of the inliers, those with a depth
-  int measured_new = 0;             // features with a depth, without map point
+  int close_tracked = 0;            // of the inliers, those at close depth
+  int close_new = 0;                // close features without map point
   double view_change = 0;           // from the nearest keyframe around, as view_change() says
   bool movable_or_changed = false;  // movable objects are there, or the picture changes faster than the view
 };

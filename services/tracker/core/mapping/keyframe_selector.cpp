@@ -60,8 +60,9 @@ void add_facts_of_map(const KeyframeSelector::Candidate& candidate, KeyframeFact
   if (reference != nullptr) facts.seen_by_reference = well_observed_points(context.map, *reference);
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const Feature& f = (*frame.features)[i];
-    if (f.movable || f.depth_m <= 0) continue;
-    ++(frame.points[i] != kNoId ? facts.measured_tracked : facts.measured_new);
+    if (f.movable || f.depth_m <= 0 || static_cast<double>(f.depth_m) > context.settings.depth.close_depth_m)
+      continue;
+    ++(frame.points[i] != kNoId ? facts.close_tracked : facts.close_new);
   }
 }
 

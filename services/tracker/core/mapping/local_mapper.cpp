@@ -34,7 +34,7 @@ KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
 KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const ImagePyramid> images,
                                  const PictureCells& cells) {
   const PointId first_new = map_.points().next_id();
-  Keyframe& keyframe = insert_keyframe(map_, frame);
+  Keyframe& keyframe = insert_keyframe(map_, frame, settings_.depth);
   frame.points = keyframe.points;
   keyframe.images = std::move(images);
   KeyframeData data = keyframe_data(map_, keyframe);
@@ -72,7 +72,9 @@ const PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
 }
 
 void LocalMapper::retract(KeyframeId keyframe, const MovableMask& movable) {
-  retract_movable(map_, keyframe, movable);
+  const PointId first_new = map_.points().next_id();
+  retract_movable(map_, keyframe, movable, settings_.depth);
+  for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
 }
 
 std::optional<LocalMappingJob> LocalMapper::take_job(const SelfCalibration& calibration) {
@@ -98,7 +100,7 @@ std::optional<std::vector<KeyframeId>> LocalMapper::apply(const LocalMappingResu
     return std::nullopt;
   }
   apply_mapping_result(map_, result);
-  return cull_redundant_keyframes(map_, result.keyframe);
+  return cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
 }
 
 bool LocalMapper::is_mostly_static(KeyframeId id) const {

@@ -8,12 +8,13 @@
 namespace rds::tracker {
 namespace {
 
+constexpr int kMinPoints = 400;           // the nearest of a keyframe, close or not: as many as are followed
 constexpr double kMinFoundRatio = 0.25;   // a point found more rarely where it should show goes
 constexpr KeyframeId kKeyframesOn = 2;    // when a point must have been seen again …
 constexpr std::size_t kMinObservers = 2;  // … by so many keyframes
 constexpr KeyframeId kProbation = 3;      // keyframes after which a point is trusted
 constexpr KeyframeId kKeptNewest = 3;     // keyframes that culling leaves alone
-constexpr double kRedundantShare = 0.9;   // a keyframe goes when this share of its points with depth …
+constexpr double kRedundantShare = 0.9;   // a keyframe goes when this share of its close points …
 constexpr int kRedundantObservers = 3;    // … is seen in so many others
 constexpr std::size_t kConsidered = 20;   // covisible keyframes looked at per culling
 
@@ -27,13 +28,21 @@ void observe_matches(SlamMap& map, const TrackedFrame& frame, Keyframe& keyframe
   }
 }
 
-/// Far ones, too: where a room is seen through a door nothing else tells how the camera moves on, and what
-/// their depth is worth the ObservationModel knows.
-void make_points(SlamMap& map, const Keyframe& keyframe) {
+/// Far ones, too, where the close ones are too few: in a doorway the room behind it is all that the next
+/// frames will see.
+void make_points(SlamMap& map, const DepthConfig& depth, const Keyframe& keyframe) {
   const FeatureSet& features = *keyframe.features;
+  std::vector<std::pair<float, std::uint32_t>> by_depth;
   for (std::uint32_t i = 0; i < features.size(); ++i)
-    if (features[i].depth_m > 0 && !keyframe.movable[i] && keyframe.points[i] == kNoId)
+    if (features[i].depth_m > 0 && !keyframe.movable[i]) by_depth.emplace_back(features[i].depth_m, i);
+  std::ranges::sort(by_depth);
+  int nearest = 0;
+  for (const auto& [z, i] : by_depth) {
+    if (static_cast<double>(z) > depth.close_depth_m && nearest >= kMinPoints) break;
+    ++nearest;
+    if (keyframe.points[i] == kNoId)
       map.add_point(keyframe.map_from_camera * features.point_in_camera(i), keyframe.id, i);
+  }
 }
 
 /// True if enough other keyframes see the point at the same or a finer scale.
@@ -48,30 +57,30 @@ bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& k
   return false;
 }
 
-bool is_redundant(const SlamMap& map, const Keyframe& keyframe) {
-  int measured = 0;
+bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth) {
+  int close = 0;
   int redundant = 0;
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     const Feature& f = (*keyframe.features)[i];
-    if (f.depth_m <= 0) continue;
+    if (f.depth_m <= 0 || static_cast<double>(f.depth_m) > depth.close_depth_m) continue;
     const MapPoint* point = map.point(keyframe.points[i]);
     if (point == nullptr) continue;
-    ++measured;
+    ++close;
     redundant += seen_by_others(map, *point, keyframe, f.level) ? 1 : 0;
   }
-  return measured > 0 && redundant > kRedundantShare * measured;
+  return close > 0 && redundant > kRedundantShare * close;
 }
 
 }  // namespace
 
-Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame) {
+Keyframe& insert_keyframe(SlamMap& map, const TrackedFrame& frame, const DepthConfig& depth) {
   Keyframe& keyframe = map.add_keyframe(frame.stamp_ns, frame.camera_from_map.inverse(), frame.features);
   keyframe.time_ns = frame.time_ns;
   keyframe.motion = frame.motion;
   keyframe.given_fx = frame.given_fx;
   keyframe.pose_is_given = frame.pose_is_given;
   observe_matches(map, frame, keyframe);
-  make_points(map, keyframe);
+  make_points(map, depth, keyframe);
   update_covisibility(map, keyframe.id);
   return keyframe;
 }
@@ -92,7 +101,7 @@ void cull_recent_points(SlamMap& map, KeyframeId newest, std::vector<PointId>& r
   recent = std::move(undecided);
 }
 
-std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest) {
+std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest, const DepthConfig& depth) {
   const Keyframe* centre = map.keyframe(newest);
   std::vector<KeyframeId> culled;
   if (centre == nullptr) return culled;
@@ -102,14 +111,14 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
     const Keyframe* keyframe = map.keyframe(c.id);
     if (keyframe == nullptr || c.id == 0 || map.records().is_fixed(c.id) || c.id + kKeptNewest > newest)
       continue;
-    if (!is_redundant(map, *keyframe)) continue;
+    if (!is_redundant(map, *keyframe, depth)) continue;
     map.cull_keyframe(c.id);
     culled.push_back(c.id);
   }
   return culled;
 }
 
-void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable) {
+void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, const DepthConfig& depth) {
   Keyframe* keyframe = map.keyframe(id);
   if (keyframe == nullptr || !movable.any()) return;
   for (std::size_t i = 0; i < keyframe->points.size(); ++i) {
@@ -124,6 +133,7 @@ void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable) {
     else
       map.forget(point_id, id);
   }
+  make_points(map, depth, *keyframe);
 }
 
 }  // namespace rds::tracker

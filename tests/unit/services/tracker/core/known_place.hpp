@@ -24,7 +24,7 @@ class KnownPlace {
   /// Makes the frame from there a keyframe. @return its id.
   KeyframeId add_keyframe(const Pose& map_from_camera, std::int64_t time_ns = 0) {
     TrackedFrame frame = frame_at(map_from_camera, time_ns);
-    const Keyframe& keyframe = insert_keyframe(map, frame);
+    const Keyframe& keyframe = insert_keyframe(map, frame, settings.depth);
     for (std::size_t f = 0; f < view.point.size(); ++f) ids[view.point[f]] = keyframe.points[f];
     return keyframe.id;
   }

@@ -14,7 +14,7 @@ KeyframeFacts calm() {
   KeyframeFacts facts;
   facts.since_last_s = 0.5;
   facts.inliers = facts.seen = facts.seen_by_reference = 300;
-  facts.measured_tracked = 250;
+  facts.close_tracked = 250;
   facts.has_depth = true;
   return facts;
 }

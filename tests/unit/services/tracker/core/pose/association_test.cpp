@@ -25,7 +25,7 @@ class FramePose : public testing::Test {
   void add(std::int64_t stamp_ns, std::size_t count) {
     TrackedFrame frame = frame_of({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)});
     frame.stamp_ns = frame.time_ns = stamp_ns;
-    const Keyframe& keyframe = insert_keyframe(map, frame);
+    const Keyframe& keyframe = insert_keyframe(map, frame, DepthConfig{});
     for (std::size_t f = 0; f < view.point.size(); ++f) known[view.point[f]] = keyframe.points[f];
   }
 

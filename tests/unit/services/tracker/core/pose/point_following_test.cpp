@@ -43,7 +43,7 @@ class PointFollowing : public ::testing::Test {
     TrackedFrame frame;
     frame.features = std::make_shared<const FeatureSet>(wall.camera, std::move(features));
     frame.clear_matches();
-    insert_keyframe(map, frame).images = seen;
+    insert_keyframe(map, frame, DepthConfig{}).images = seen;
     map.points().for_each([&](const MapPoint& p) { all.push_back(p.id); });
   }
 

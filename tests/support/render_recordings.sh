@@ -14,7 +14,7 @@ options() {  # of NAME
     rpy | halfsphere | static) echo --path "$1" --people 2 --seconds 10 --fps 15 ;;
     rpy_empty | halfsphere_empty | static_empty) echo --path "${1%_empty}" --people 0 --seconds 10 --fps 5 ;;
     loop) echo --path loop --people 0 --seconds 28 --fps 15 ;;
-    floor) echo --world floor --rooms 8 --people 0 --seconds 52 --fps 10 ;;
+    floor) echo --world floor --rooms 8 --people 0 --seconds 48 --fps 10 ;;
     *) echo "$1: expected room, rpy, halfsphere or static, alone or with _empty, loop or floor" >&2; return 1 ;;
   esac
 }

@@ -213,6 +213,11 @@ void add_run_command(CLI::App& rds) {
       "serve a page that shows the run: --view=PORT or --view=ADDRESS:PORT (default: 127.0.0.1:8080)");
   command->add_flag("--view-keep", options->view_keep,
                     "as --view, and the page stays after the results, until Ctrl-C");
+  command
+      ->add_option("--frame", options->frame,
+                   "of trajectory*.txt: camera, the first one's, or map, level as the other files; default: "
+                   "camera, with --map or --poses map")
+      ->check(CLI::IsMember({"camera", "map"}));
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, no_dynamics] {

@@ -31,7 +31,7 @@ class Voxels:
     @property
     def occupied(self):
         """N bool; the others are free. What is in no row is unknown."""
-        return self.log_odds >= 0
+        return self.log_odds > 0
 
     @property
     def names(self):

@@ -96,8 +96,8 @@ class LiveMapTest(unittest.TestCase):
     def check_is_what_our_tools_say(self, voxels, out):
         said = told_by(rds("map", "info", "--map", out))
         occupied = voxels.centers[voxels.occupied]
-        self.assertEqual(int(said["occupied"]), len(occupied))
-        self.assertEqual(int(said["free"]), np.count_nonzero(~voxels.occupied))
+        self.assertEqual(int(said["occupied_voxels"]), len(occupied))
+        self.assertEqual(int(said["free_voxels"]), np.count_nonzero(~voxels.occupied))
         rds("map", "export", "--map", out, out / "map.ply")
         points = np.frombuffer((out / "map.ply").read_bytes().split(b"end_header\n", 1)[1], [("at", "<f4", 3), ("rgb", "u1", 3)])
         np.testing.assert_array_equal(np.sort(points["at"], axis=0), np.sort(occupied.astype(np.float32), axis=0))

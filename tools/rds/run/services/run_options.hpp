@@ -44,6 +44,7 @@ struct RunOptions {
   SecureOptions secure{.identities = {"operator"}};
   std::string view;        // where rds-viewer serves its page, ADDRESS:PORT or PORT; empty: nowhere
   bool view_keep = false;  // after the results, until the user stops it
+  std::string record;  // file that the outputs are kept in; empty: nowhere
   bool video = false;
   bool force = false;
 

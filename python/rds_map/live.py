@@ -16,6 +16,7 @@ from rds_map.robot import Robot, boxes_of, pose_of
 
 class _Live:
     def __init__(self, bus, readers):
+        self._bus = bus  # its entities live as long as it
         self._readers = readers  # and what takes their messages
         self._waits = bus.wait_set(readers)
 

@@ -11,12 +11,9 @@ from cyclonedds.idl.types import array, float32, float64, int8, int32, sequence,
 __all__ = ["MapInfo", "Octomap", "OctreeDelta", "PredictedBoxes", "TrackingState"]
 
 
-class _Serialized:
-    """Lets a reader hand over a sample as the bytes that it is on the wire, undecoded."""
-
-    @classmethod
-    def deserialize(cls, data, has_header=True, use_version_2=None):
-        return types.SimpleNamespace(data=bytes(data))
+def _as_bytes(cls, data, has_header=True, use_version_2=None):
+    """In place of IdlStruct.deserialize(): a reader hands a sample over as it is on the wire."""
+    return types.SimpleNamespace(data=bytes(data))
 
 
 def _message(ros_name):
@@ -25,8 +22,9 @@ def _message(ros_name):
 
     def declare(cls):
         members = {"__annotations__": cls.__annotations__, "__module__": cls.__module__}
-        struct = types.new_class(name, (_Serialized, IdlStruct), {"typename": f"{package}::msg::dds_::{name}_"},
+        struct = types.new_class(name, (IdlStruct,), {"typename": f"{package}::msg::dds_::{name}_"},
                                  lambda namespace: namespace.update(members))
+        struct.deserialize = classmethod(_as_bytes)
         return final(dataclasses.dataclass(struct))
     return declare
 

@@ -57,14 +57,15 @@ class Follow:
         self.examples = {name: subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
                          for name, command in EXAMPLES.items()}
         run = subprocess.Popen([RDS, "run", RECORDING, "--out", out, "--domain", str(DOMAIN), "--bus", vendor, "--frames", "150"],
-                               stderr=subprocess.PIPE, text=True)
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         while run.poll() is None:
             self.look(bus)
         time.sleep(0.2)
         self.look(bus)
-        self.status, self.said = run.wait(), run.stderr.read()
+        self.status, self.said = run.returncode, run.communicate()[1]
         for example in self.examples.values():
             example.kill()
+        self.examples = {name: example.communicate()[0].splitlines() for name, example in self.examples.items()}
 
     def look(self, bus):
         voxels = self.early.wait(0.1) or self.early.now()
@@ -103,8 +104,7 @@ class LiveMapTest(unittest.TestCase):
         np.testing.assert_array_equal(np.sort(points["at"], axis=0), np.sort(occupied.astype(np.float32), axis=0))
         np.testing.assert_array_equal(points["rgb"].sum(axis=0), voxels.colors[voxels.occupied].sum(axis=0, dtype=np.uint64))
 
-    def check_examples(self, examples):
-        said = {name: example.stdout.read().splitlines() for name, example in examples.items()}
+    def check_examples(self, said):
         for name in ("near.py", "near.cpp"):
             self.assertRegex(said[name][-1], r"^revision \d+: \d+ voxels within 2 m", name)
         for name in ("stop.py", "stop.cpp"):

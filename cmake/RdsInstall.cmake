@@ -22,8 +22,8 @@ function(_rds_install_documents program component)
   add_custom_command(OUTPUT ${files}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
     COMMAND sh -c "\"$1\" --document man | gzip -9n >\"$2\"" sh $<TARGET_FILE:${program}> ${out}/${program}.1.gz
-    COMMAND ${write} bash >${out}/${program}.bash
-    COMMAND ${write} zsh >${out}/_${program}
+    COMMAND ${write} bash > ${out}/${program}.bash
+    COMMAND ${write} zsh > ${out}/_${program}
     DEPENDS ${program} COMMENT "Manual page and completions of ${program}" VERBATIM)
   set_property(GLOBAL APPEND PROPERTY RDS_DOCUMENTS ${files})
   install(FILES ${out}/${program}.1.gz DESTINATION share/man/man1 COMPONENT ${component})

@@ -2,7 +2,7 @@
 #include "common/command_line/manual.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -53,9 +53,11 @@ std::string options_of(const CommandDescription& command) {
 
 std::string synopsis(const std::string& name, const CommandDescription& command) {
   std::string line = fmt::format("\\fB{}\\fR [\\fIoptions\\fR]", plain(name));
-  for (const OptionDescription& option : command.options)
-    if (!option.place.empty())
-      line += fmt::format(option.required ? " \\fI{}\\fR" : " [\\fI{}\\fR]", plain(option.place));
+  for (const OptionDescription& option : command.options) {
+    if (option.place.empty()) continue;
+    const std::string place = fmt::format("\\fI{}\\fR", plain(option.place));
+    line += option.required ? " " + place : " [" + place + "]";
+  }
   if (!command.subcommands.empty()) line += " \\fIcommand\\fR";
   return line;
 }

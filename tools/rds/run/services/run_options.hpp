@@ -44,9 +44,9 @@ struct RunOptions {
   SecureOptions secure{.identities = {"operator"}};
   std::string view;        // where rds-viewer serves its page, ADDRESS:PORT or PORT; empty: nowhere
   bool view_keep = false;  // after the results, until the user stops it
-  std::string record;  // file that the outputs are kept in; empty: nowhere
   bool video = false;
   bool force = false;
+  std::string record;  // file that the outputs are kept in; empty: nowhere
 
   [[nodiscard]] bool lockstep() const { return rate == 0; }
   [[nodiscard]] bus::Vendor vendor_of(const std::string& process) const {

@@ -82,6 +82,8 @@ inline constexpr Topic<rds_msgs::msg::TrackingState> kTrackingState{
     "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 inline constexpr Topic<rds_msgs::msg::PredictedBoxes> kPredictedBoxes{
     "rds/predicted_boxes", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
+inline constexpr Topic<sensor_msgs::msg::PointCloud2> kObstacles{
+    "rds/obstacles", {{kTracker, bus::kStream}}, {}};
 inline constexpr Topic<rds_msgs::msg::FrameFeatures> kFeatures{
     "rds/features", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 
@@ -182,6 +184,7 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kStaticTransforms,
                                        kTrackingState,
                                        kPredictedBoxes,
+                                       kObstacles,
                                        kFeatures,
                                        kKeyframeImages,
                                        kKeyframeFeatures,

@@ -13,8 +13,15 @@
 namespace rds::mapper {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kViewPeriod{1};
+
 std::array<double, 3> to_array(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
+}
+
+auto tree_of(const MapSnapshot& snapshot) {
+  return tree_from_bytes(snapshot.nodes, snapshot.resolution).value();
 }
 
 void prefix(std_msgs::msg::Header& header, const std::string& frame_prefix) {
@@ -113,12 +120,8 @@ void MapOutputs::share_map(const SemanticMapper& mapper) {
   head.revision = mapper.map().revision;
   head.keyframe_id = keyframe_.id;
   head.stamp_ns = keyframe_.stamp_ns;
-  sharing_.start(
-      [snapshot, head] {
-        const auto tree = tree_from_bytes(snapshot->nodes, snapshot->resolution).value();
-        return whole_map(*tree, *snapshot, head);
-      },
-      snapshot->labels);
+  sharing_.start([snapshot, head] { return whole_map(*tree_of(*snapshot), *snapshot, head); },
+                 snapshot->labels);
 }
 
 void MapOutputs::publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting) {
@@ -131,33 +134,63 @@ void MapOutputs::publish(MapDelta delta, const SemanticMapper& mapper, std::size
 void MapOutputs::publish_all(const SemanticMapper& mapper, std::size_t keyframes_waiting) {
   since_full_ = 0;
   full_stamp_ns_ = std::max(keyframe_.stamp_ns, full_stamp_ns_ + 1);
-  ++full_maps_under_way_;
-  sender_.send([this, stamp = full_stamp_ns_, info = info_of(mapper, keyframes_waiting, full_stamp_ns_),
-                snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))]() mutable {
-    const std::shared_ptr<void> done(nullptr, [this](void*) { --full_maps_under_way_; });
-    write_all(*snapshot, info, stamp);
+  views_ = {mapper.map().revision, Clock::now()};
+  send_large([this, stamp = full_stamp_ns_, info = info_of(mapper, keyframes_waiting, full_stamp_ns_),
+              snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))]() mutable {
+    const auto started = Clock::now();
+    const auto tree = tree_of(*snapshot);
+    write_full(*tree, *snapshot, info, stamp);
+    write_views(*tree, *snapshot, stamp);
+    const std::chrono::duration<double, std::milli> took = Clock::now() - started;
+    full_map_latency_.add_ms(took.count());
   });
 }
 
-void MapOutputs::write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns) {
-  const auto started = std::chrono::steady_clock::now();
-  const auto tree = tree_from_bytes(snapshot.nodes, snapshot.resolution).value();
-  LabelRows hidden = labels_not_shown_by_colors(*tree, snapshot);
+bool MapOutputs::has_viewers() const {
+  return topics_.objects.matched() + topics_.markers.matched() + topics_.grid.matched() +
+             topics_.binary.matched() + topics_.points.matched() >
+         0;
+}
+
+void MapOutputs::refresh_views(const SemanticMapper& mapper) {
+  if (mapper.map().revision == views_.revision || Clock::now() - views_.made < kViewPeriod || is_busy() ||
+      !has_viewers())
+    return;
+  views_ = {mapper.map().revision, Clock::now()};
+  send_large(
+      [this, stamp = keyframe_.stamp_ns, snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))] {
+        write_views(*tree_of(*snapshot), *snapshot, stamp);
+      });
+}
+
+void MapOutputs::send_large(std::function<void()> write) {
+  ++large_under_way_;
+  sender_.send([this, write = std::move(write)] {
+    const std::shared_ptr<void> done(nullptr, [this](void*) { --large_under_way_; });
+    write();
+  });
+}
+
+void MapOutputs::write_full(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot,
+                            rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns) {
+  LabelRows hidden = labels_not_shown_by_colors(tree, snapshot);
   info.describes_full(true);
   info.label_keys(std::move(hidden.keys));
   info.label_values(std::move(hidden.values));
   topics_.full.write(of_robot(full_message(snapshot, stamp_ns), frame_prefix_));
   topics_.info.write(info);
+}
+
+void MapOutputs::write_views(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot,
+                             std::int64_t stamp_ns) {
   topics_.objects.write(of_robot(objects_message(snapshot.objects, stamp_ns), frame_prefix_));
   topics_.markers.write(of_robot(markers_message(snapshot.objects, stamp_ns), frame_prefix_));
   topics_.grid.write(
-      of_robot(grid_message(make_grid(*tree, snapshot.up, grid_config_), stamp_ns), frame_prefix_));
+      of_robot(grid_message(make_grid(tree, snapshot.up, grid_config_), stamp_ns), frame_prefix_));
   if (topics_.binary.matched() > 0)
-    topics_.binary.write(of_robot(binary_message(*tree, stamp_ns), frame_prefix_));
+    topics_.binary.write(of_robot(binary_message(tree, stamp_ns), frame_prefix_));
   if (topics_.points.matched() > 0)
-    topics_.points.write(of_robot(points_message(points_of(*tree, snapshot), stamp_ns), frame_prefix_));
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
-  full_map_latency_.add_ms(took.count());
+    topics_.points.write(of_robot(points_message(points_of(tree, snapshot), stamp_ns), frame_prefix_));
 }
 
 }  // namespace rds::mapper

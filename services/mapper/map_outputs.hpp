@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "common/service/service.hpp"
@@ -48,24 +50,37 @@ class MapOutputs {
   void publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting);
   /// Full map, its MapInfo, objects, markers and grid; binary map and points where somebody reads them.
   void publish_all(const SemanticMapper& mapper, std::size_t keyframes_waiting);
+  /// What other programs look at (objects, markers, grid, binary map, points), where somebody does, the map
+  /// has changed, and the last one is a second old. Called again and again.
+  void refresh_views(const SemanticMapper& mapper);
 
   /// Where readers on other machines wait for the map: shares it as it is.
   void share_map(const SemanticMapper& mapper);
   /// True once after somebody new has subscribed to the map in any form.
   bool has_new_reader();
-  /// True while a full map is on its way.
-  [[nodiscard]] bool is_busy() const { return full_maps_under_way_ > 0; }
+  /// True while a full map, or views of it, are on their way.
+  [[nodiscard]] bool is_busy() const { return large_under_way_ > 0; }
   /// Returns when everything is out.
   void flush() { sender_.flush(); }
 
  private:
   [[nodiscard]] rds_msgs::msg::MapInfo info_of(const SemanticMapper& mapper, std::size_t keyframes_waiting,
                                                std::int64_t stamp_ns) const;
-  void write_all(const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info, std::int64_t stamp_ns);
+  /// @param tree  of the snapshot's nodes; this and below.
+  void write_full(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, rds_msgs::msg::MapInfo& info,
+                  std::int64_t stamp_ns);
+  void write_views(const octomap::ColorOcTree& tree, const MapSnapshot& snapshot, std::int64_t stamp_ns);
+  [[nodiscard]] bool has_viewers() const;
+  /// On the sender's thread, while is_busy().
+  void send_large(std::function<void()> write);
 
   struct Newest {
     std::uint64_t id = 0;
     std::int64_t stamp_ns = 0;
+  };
+  struct Views {
+    std::uint64_t revision = 0;  // that they show
+    std::chrono::steady_clock::time_point made = {};
   };
 
   GridConfig grid_config_;
@@ -76,8 +91,9 @@ class MapOutputs {
   Newest keyframe_;
   std::int64_t full_stamp_ns_ = 0;  // of the newest full map
   int since_full_ = 0;              // keyframes
+  Views views_;
   int readers_ = 0;
-  std::atomic<int> full_maps_under_way_ = 0;
+  std::atomic<int> large_under_way_ = 0;
   MapPublishers topics_;
   service::LatencyWindow& full_map_latency_;
   MapSharing sharing_;

@@ -134,6 +134,7 @@ void MapperService::run(const std::stop_token& stop) {
 void MapperService::idle() {
   if (mapper_.map().revision > 0 && !outputs_.is_busy() && outputs_.has_new_reader())
     outputs_.publish_all(mapper_, queue_.size());
+  outputs_.refresh_views(mapper_);
   outputs_.share_map(mapper_);
   if (is_paused_) return;
   guarded(topics::kKeyframePoses.name, [this] { correct(); });

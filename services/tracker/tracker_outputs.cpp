@@ -8,6 +8,7 @@
 #include "common/messages/keyframe_conversions.hpp"
 #include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
+#include "services/tracker/obstacles/obstacle_cloud.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -68,6 +69,7 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, const FramesCon
       odometry_(context, frames),
       state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
       boxes_(topics::advertise(context.bus, topics::kPredictedBoxes, topics::kTracker)),
+      obstacles_(topics::advertise(context.bus, topics::kObstacles, topics::kTracker)),
       features_(topics::advertise(context.bus, topics::kFeatures, topics::kTracker)),
       keyframe_images_(topics::advertise(context.bus, topics::kKeyframeImages, topics::kTracker)),
       keyframe_features_(topics::advertise(context.bus, topics::kKeyframeFeatures, topics::kTracker)),
@@ -92,6 +94,7 @@ void TrackerOutputs::publish(const FrameReport& report) {
   if (has_pose(report.result.state))
     odometry_.publish(report.frame.stamp_ns, report.result, camera_frame(report));
   publish_boxes(report);
+  publish_obstacles(report);
   publish_features(report);
   if (report.result.keyframe) publish_keyframe(report);
   publish_state(report);
@@ -128,6 +131,12 @@ void TrackerOutputs::publish_boxes(const FrameReport& report) {
     message.ages().push_back(object.age_s);
   }
   boxes_.write(message);
+}
+
+/// What stands in the way now, while somebody reads it. A frame without a pose does not know where that is.
+void TrackerOutputs::publish_obstacles(const FrameReport& report) {
+  if (obstacles_.matched() == 0 || !has_pose(report.result.state)) return;
+  obstacles_.write(obstacle_cloud(report.objects, messages::make_header(report.frame.stamp_ns, map_frame_)));
 }
 
 void TrackerOutputs::publish_features(const FrameReport& report) {

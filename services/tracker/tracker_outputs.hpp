@@ -17,6 +17,7 @@
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "rds_msgs/msg/PredictedBoxes.h"
 #include "rds_msgs/msg/TrackingState.h"
+#include "sensor_msgs/msg/PointCloud2.h"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/odometry/odometry_output.hpp"
@@ -50,7 +51,8 @@ class TrackerOutputs {
  public:
   TrackerOutputs(service::ServiceContext& context, const FramesConfig& frames, std::uint64_t map_epoch);
 
-  /// Odometry, tf, boxes, features, keyframe, and last the tracking state, which acknowledges the frame.
+  /// Odometry, tf, boxes, obstacles, features, keyframe, and last the tracking state, which acknowledges the
+  /// frame.
   void publish(const FrameReport& report);
 
   /// Keyframe poses (source LOCAL), with the next revision: of all of them those that are new or have moved
@@ -70,6 +72,7 @@ class TrackerOutputs {
   [[nodiscard]] Message about(const FrameReport& report, const std::string& frame_id) const;
   [[nodiscard]] const std::string& camera_frame(const FrameReport& report) const;
   void publish_boxes(const FrameReport& report);
+  void publish_obstacles(const FrameReport& report);
   void publish_features(const FrameReport& report);
   void publish_keyframe(const FrameReport& report);
   void publish_state(const FrameReport& report);
@@ -84,6 +87,7 @@ class TrackerOutputs {
   OdometryOutput odometry_;
   bus::Publisher<rds_msgs::msg::TrackingState> state_;
   bus::Publisher<rds_msgs::msg::PredictedBoxes> boxes_;
+  bus::Publisher<sensor_msgs::msg::PointCloud2> obstacles_;
   bus::Publisher<rds_msgs::msg::FrameFeatures> features_;
   bus::Publisher<rds_msgs::msg::KeyFrameImages> keyframe_images_;
   bus::Publisher<rds_msgs::msg::KeyFrameFeatures> keyframe_features_;

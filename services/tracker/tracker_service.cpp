@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -27,6 +28,21 @@ Executor executor_with_helper() {
   return [helper = std::make_shared<concurrency::ParallelFor>()](std::size_t count, const auto& part) {
     helper->run(count, part);
   };
+}
+
+/// Which way the map that begins calls up.
+void tell(const UpDirection& up) {
+  const double tilt_deg = std::acos(std::clamp(-up.up.y(), -1.0, 1.0)) * 180 / std::numbers::pi;
+  if (up.is_seen)
+    return spdlog::info(
+        "the map is level: the camera is tilted by {:.1f} degrees, {:.0f} % of {} surfaces are level, {:.0f} "
+        "% "
+        "upright",
+        tilt_deg, 100 * up.level, up.surfaces, 100 * up.upright);
+  spdlog::warn(
+      "the first picture does not show which way is up ({} plane surfaces), the map's z is a guess, {:.0f} "
+      "degrees from the camera's: show it floor or walls, or set map_frame.up_in_camera",
+      up.surfaces, tilt_deg);
 }
 
 }  // namespace
@@ -109,6 +125,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
       objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
   std::uint32_t predict_us = time::microseconds_since(predict_started_us);
   const FrameResult result = tracker_.track(frame, regions);
+  if (result.up) tell(*result.up);
   const std::int64_t project_started_us = time::now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += time::microseconds_since(project_started_us);

@@ -54,6 +54,7 @@ FoxgloveBridge::FoxgloveBridge(service::ServiceContext& context, const ViewerSer
   offer<sensor_msgs::msg::CameraInfo>(config.camera_info_topic, bus::kSensorBestEffort);
   offer<sensor_msgs::msg::Image>(topics::kDepth.name, bus::kSensorBestEffort);
   offer<sensor_msgs::msg::PointCloud2>(topics::kMapPoints.name, offered(topics::kMapPoints));
+  offer<sensor_msgs::msg::PointCloud2>(topics::kObstacles.name, offered(topics::kObstacles));
   offer<visualization_msgs::msg::MarkerArray>(topics::kMapMarkers.name, offered(topics::kMapMarkers));
   offer<nav_msgs::msg::OccupancyGrid>(topics::kMapGrid.name, offered(topics::kMapGrid));
   offer<vision_msgs::msg::Detection3DArray>(topics::kMapObjects.name, offered(topics::kMapObjects));

@@ -150,7 +150,7 @@ void Trial::write_results() {
   run::Recording recording = with_true_stamps(recorder_.recording(), camera_.true_stamps());
   report_.localized = static_cast<std::size_t>(
       std::ranges::count_if(recording.frames, [](const auto& frame) { return frame.second.has_pose; }));
-  run::write_run_files(recording, out_);
+  run::write_run_files(recording, out_, false);
 }
 
 }  // namespace rds::test

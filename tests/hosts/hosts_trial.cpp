@@ -77,11 +77,10 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
       network_(hosts_of(row), row.link, row.has_multicast),
       here_(network_, kA),
       core_(row.cores == Cores::kAny ? -1 : 1),
-      bus_(bus::Participant::create(
-          {.vendor = row.vendor,
-           .domain = domain_.domain(),
-           .node_name = "hosts_trial",
-           .peers = bus::peer_addresses(peers_of(kA))})),
+      bus_(bus::Participant::create({.vendor = row.vendor,
+                                     .domain = domain_.domain(),
+                                     .node_name = "hosts_trial",
+                                     .peers = bus::peer_addresses(peers_of(kA))})),
       recorder_(*bus_),
       commander_(*bus_),
       arrivals_(*bus_),
@@ -143,7 +142,7 @@ HostFigures HostsTrial::run() {
   for (const auto& [stamp_ns, frame] : recording.frames) totals_ms.push_back(frame.total_ms);
   std::ranges::sort(totals_ms);
   figures_.p99_total_ms = quantile(totals_ms, 0.99);
-  run::write_run_files(recording, out_);
+  run::write_run_files(recording, out_, false);
   return figures_;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs of the real processes on rendered recordings, whose truth is exact: each way of moving the
 // camera with people in the picture, and a way around the room that closes a loop.
+#include <algorithm>
+#include <numbers>
 #include <optional>
 
 #include <gmock/gmock.h>
 
+#include "common/geometry/trajectory.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -27,6 +30,21 @@ void PrintTo(const RenderedFigures& figures, std::ostream* out) {
   *out << figures.name;
 }
 
+/// How far the map's z is from up: truth's frame is level.
+double map_tilt_deg(const std::filesystem::path& dataset, const std::filesystem::path& out) {
+  const auto truth = geometry::read_trajectory(dataset / "groundtruth.txt").value();
+  const auto keyframes = geometry::read_trajectory(out / "keyframes.txt").value();
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const auto& keyframe : keyframes) {
+    const auto true_one = std::ranges::min_element(truth, {}, [&](const geometry::StampedPose& pose) {
+      return std::abs(pose.stamp_ns - keyframe.stamp_ns);
+    });
+    up += keyframe.map_from_camera.linear() * true_one->map_from_camera.linear().transpose() *
+          Eigen::Vector3d::UnitZ();
+  }
+  return std::acos(up.normalized().z()) * 180 / std::numbers::pi;
+}
+
 class RenderedRun : public ::testing::TestWithParam<RenderedFigures> {};
 
 TEST_P(RenderedRun, KeepsPeopleOutOfPoseAndMap) {
@@ -40,6 +58,7 @@ TEST_P(RenderedRun, KeepsPeopleOutOfPoseAndMap) {
   EXPECT_LE(figures["ate_final"].get<double>(), expected.max_ate_m);
   EXPECT_GE(figures["box_recall"].get<double>(), expected.min_box_recall);
   EXPECT_LE(figures["residue"].get<double>(), expected.max_residue);
+  EXPECT_LE(map_tilt_deg(dataset, place / "out"), 1.5);
   if (expected.min_static_recall) {
     EXPECT_GE(figures["static_recall"].get<double>(), *expected.min_static_recall);
   }

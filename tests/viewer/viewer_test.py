@@ -182,7 +182,7 @@ class Viewer(unittest.TestCase):
         page = self.child("node", FOLDER / "page.mjs", self.url, PICTURES)
         programs = {name: self.child("node", FOLDER / "foxglove.mjs", f"ws://127.0.0.1:{self.port}", name) for name in ("foxglove.sdk.v1", "foxglove.websocket.v1")}
         for program in programs.values():
-            self.assertEqual(program.read()["channels"], 15)
+            self.assertEqual(program.read()["channels"], 16)
         ready = page.read()
         boxes = 0
         pictures = False

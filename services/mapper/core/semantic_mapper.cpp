@@ -216,8 +216,10 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
 }
 
 Eigen::Vector3d SemanticMapper::up_in_map() const {
-  if (config_.grid.up != "auto") return axis_of(config_.grid.up);
+  const bool from_surfaces = config_.grid.up == "surfaces";
+  if (!from_surfaces && config_.grid.up != "auto") return axis_of(config_.grid.up);
   if (saved_.up) return *saved_.up;
+  if (!from_surfaces) return Eigen::Vector3d::UnitZ();
   const auto known = archive_.poses();
   std::vector<geometry::Pose> poses;
   for (const auto& pose : known) poses.push_back(pose.map_from_camera);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/tracker/core/level/level_pose.hpp"
+#include "services/tracker/core/level/plane_normals.hpp"
 #include "services/tracker/core/pose/sparse_image_alignment.hpp"
 
 namespace rds::tracker {
@@ -83,6 +85,22 @@ PoseEstimate Localizer::localize(TrackingContext& context, State before, const K
   return estimate;
 }
 
+/// Puts the first camera of a map into it.
+void Localizer::begin_map(const TrackingContext& context, PoseEstimate& first) const {
+  first.state = State::kTracking;
+  first.begins_map = true;
+  first.frame.camera_from_map = Pose::Identity();
+  const MapFrameConfig& config = config_.map_frame;
+  if (!config.level) return;
+  if (config.up_in_camera.empty()) {
+    first.up = find_up(plane_normals(context.depth));
+    first.frame.camera_from_map = level_pose(first.up->up).inverse();
+  } else {
+    const Eigen::Vector3d up(config.up_in_camera[0], config.up_in_camera[1], config.up_in_camera[2]);
+    first.frame.camera_from_map = level_pose(up.normalized()).inverse();
+  }
+}
+
 /// Extracts features and finds the pose from them.
 PoseEstimate Localizer::match(const TrackingContext& context, State before,
                               const KeyframeSelector& keyframes) {
@@ -103,9 +121,7 @@ PoseEstimate Localizer::match(const TrackingContext& context, State before,
     const auto with_depth = std::ranges::count_if(
         frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
     if (config_.localize_only || with_depth < kMinFeaturesToStart) return found;
-    frame.camera_from_map = Pose::Identity();
-    found.state = State::kTracking;
-    found.begins_map = true;
+    begin_map(context, found);
   } else {
     found.state = estimate(context, before, keyframes, frame);
   }

@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include "services/tracker/core/config/tracker_config.hpp"
+#include "services/tracker/core/level/up_direction.hpp"
 #include "services/tracker/core/mapping/keyframe_selector.hpp"
 #include "services/tracker/core/pose/depth_aligner.hpp"
 #include "services/tracker/core/pose/feature_tracker.hpp"
@@ -22,6 +24,7 @@ struct PoseEstimate {
   bool begins_map = false;                      // no keyframe yet: the frame has to become the first
   std::shared_ptr<const FeatureSet> extracted;  // of a followed frame, if its features were looked at, too
   std::int64_t extract_us = 0;
+  std::optional<UpDirection> up = std::nullopt;  // that a map begins with, by its first picture
 };
 
 /// Finds the pose of a frame: chooses between the estimates of point following, feature tracking, depth
@@ -59,6 +62,7 @@ class Localizer {
   [[nodiscard]] const Relocalizer& relocalizer() const { return relocalizer_; }
 
  private:
+  void begin_map(const TrackingContext& context, PoseEstimate& first) const;
   PoseEstimate match(const TrackingContext& context, State before, const KeyframeSelector& keyframes);
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                  TrackedFrame& frame);

@@ -99,6 +99,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
         mapper_.map().pose_of(result.reference_keyframe_id).inverse() * result.map_from_camera;
   }
   result.movable = context.movable;
+  result.up = estimate.up;
   finish(context, std::move(frame));
   result.times = {estimate.extract_us, ports_.now_us() - started_us - estimate.extract_us};
   return result;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "services/tracker/core/level/up_direction.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 
@@ -52,6 +53,7 @@ struct FrameResult {
   unsigned dynamic_features = 0;  // of these on movable objects
   unsigned inliers = 0;           // map points that support the pose
   StageTimes times;
+  std::optional<UpDirection> up;          // of the first frame of a map, if its surfaces were asked
   MovableMask movable;                    // whose features were dropped
   std::optional<KeyframeData> keyframe;   // if the frame became one
   std::vector<KeypointVerdict> verdicts;  // one per feature

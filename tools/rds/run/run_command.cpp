@@ -216,6 +216,11 @@ void add_run_command(CLI::App& rds) {
                     "as --view, and the page stays after the results, until Ctrl-C");
   command->add_flag(fmt::format("--record{{{}}}", kRecordBeside), options->record,
                     "keep all outputs as MCAP, in outputs.mcap beside the results or --record=FILE");
+  command
+      ->add_option("--frame", options->frame,
+                   "of trajectory*.txt: camera, the first one's, or map, level as the other files; default: "
+                   "camera, with --map or --poses map")
+      ->check(CLI::IsMember({"camera", "map"}));
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, no_dynamics] {

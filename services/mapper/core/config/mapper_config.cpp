@@ -44,7 +44,7 @@ void read(ConfigReader& r, CorrectionConfig& c) {
 }
 
 void read(ConfigReader& r, GridConfig& c) {
-  r.choice("up", c.up, {"auto", "x", "-x", "y", "-y", "z", "-z"});
+  r.choice("up", c.up, {"auto", "surfaces", "x", "-x", "y", "-y", "z", "-z"});
   r.value("floor", c.floor);
   char* end = nullptr;
   const double floor_m = std::strtod(c.floor.c_str(), &end);

@@ -62,7 +62,7 @@ struct CorrectionConfig {
 };
 
 struct GridConfig {
-  std::string up = "auto";     // auto, x, -x, y, -y, z, -z: of the map frame
+  std::string up = "auto";     // auto, surfaces, x, -x, y, -y, z, -z: of the map frame
   std::string floor = "auto";  // auto, or the height of the floor along `up` [m]
   double min_height_m = 0.10;  // above the floor
   double max_height_m = 1.80;

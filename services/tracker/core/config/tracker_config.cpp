@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/config/tracker_config.hpp"
 
+#include <fmt/ranges.h>
+
 #include "common/config/config_reader.hpp"
 
 namespace rds::tracker {
@@ -41,6 +43,16 @@ void read(config::ConfigReader& r, KeyframeConfig& c) {
   r.value("static_interval_s", c.static_interval_s, 0.01, 3600.0, "s");
 }
 
+void read(config::ConfigReader& r, MapFrameConfig& c) {
+  r.value("level", c.level);
+  r.value("up_in_camera", c.up_in_camera);
+  double squares = 0;
+  for (const double along : c.up_in_camera) squares += along * along;
+  if (!c.up_in_camera.empty() && (c.up_in_camera.size() != 3 || !(squares > 1e-6) || !(squares < 1e6)))
+    r.violation("up_in_camera", fmt::format("[{}]", fmt::join(c.up_in_camera, ", ")),
+                "expected [x, y, z], a direction, or []");
+}
+
 }  // namespace
 
 void read(config::ConfigReader& reader, TrackerConfig& config) {
@@ -50,6 +62,7 @@ void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("following"), config.following);
   read(reader.section("removal"), config.removal);
   read(reader.section("keyframe"), config.keyframe);
+  read(reader.section("map_frame"), config.map_frame);
   reader.section("quality").value("young_map_s", config.young_map_s, 0.0, 1e6, "s");
   reader.value("localize_only", config.localize_only);
 }

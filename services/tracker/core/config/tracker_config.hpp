@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace rds::config {
 class ConfigReader;
@@ -64,6 +65,15 @@ struct KeyframeConfig {
   bool operator==(const KeyframeConfig&) const = default;
 };
 
+/// Where a map begins.
+struct MapFrameConfig {
+  bool level = true;  // z points up, as floors and walls of the first picture say; false: the map's frame is
+                      // the first picture's optical frame
+  std::vector<double> up_in_camera;  // x, y, z of the direction up in that frame, where it is known; or empty
+
+  bool operator==(const MapFrameConfig&) const = default;
+};
+
 struct TrackerConfig {
   ExtractionConfig extraction;
   DepthConfig depth;
@@ -71,6 +81,7 @@ struct TrackerConfig {
   FollowingConfig following;
   RemovalConfig removal;
   KeyframeConfig keyframe;
+  MapFrameConfig map_frame;
   double young_map_s = 5;       // of tracking; a younger map is given up by who is lost in it for as long
   bool localize_only = false;   // in the map that it starts from, which stays as it is
   bool keep_all_poses = false;  // of keyframes in a known place; else those of a minute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Color, GridHelper, Group, Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer } from "../vendor/three/three.module.js";
+import { Color, GridHelper, Group, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer } from "../vendor/three/three.module.js";
 import { Labels } from "./labels.js";
 import { Layers } from "./layers.js";
 import { Orbit } from "./orbit.js";
@@ -8,8 +8,6 @@ import { Voxels } from "./voxels.js";
 const MOST_PIXELS = 2; // per CSS pixel
 const BACKGROUND = { dark: "#0f151d", light: "#eef1f4" };
 const FLOOR = { dark: ["#33404e", "#212b36"], light: ["#c2ccd5", "#dce2e8"] };
-// Until the grid tells which way is up: the map's frame is that of the first camera, whose y points down.
-const UP_OF_CAMERA = new Quaternion().setFromRotationMatrix(new Matrix4().set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1));
 
 /// The picture: draws when something has changed.
 export class View {
@@ -20,8 +18,7 @@ export class View {
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(50, 1, 0.05, 200);
     this.camera.up.set(0, 0, 1);
-    this.root = new Group(); // the map's frame, turned so that z is up
-    this.root.quaternion.copy(UP_OF_CAMERA);
+    this.root = new Group(); // the map's frame, turned so that z is up where the grid says that it is not
     this.voxels = new Voxels();
     this.layers = new Layers();
     this.root.add(this.voxels.group, this.layers.group);

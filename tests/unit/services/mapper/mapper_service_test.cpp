@@ -126,6 +126,30 @@ TEST_F(MapperOnTheBus, PublishesBinaryMapAndPointsToWhoReadsThem) {
   EXPECT_THAT(names, testing::ElementsAre("x", "y", "z", "rgb", "label"));
 }
 
+TEST_F(MapperOnTheBus, ShowsChangesToWhoLooksAtTheGridWithinSeconds) {
+  auto rare = config();
+  rare.full_map_every = 1000;
+  start(rare);
+  std::vector<std::int64_t> stamps;
+  const auto grids =
+      bus->subscribe<nav_msgs::msg::OccupancyGrid>("rds/map/grid", bus::kLatched, [&](const auto& m) {
+        const std::lock_guard lock(mutex);
+        stamps.push_back(messages::to_nanoseconds(m->header().stamp()));
+      });
+  for (std::uint64_t id = 0; id < 3; ++id) {
+    send(id);
+    ASSERT_TRUE(has_revision(id + 1));
+    ASSERT_TRUE(wait_for([&] {
+      const std::lock_guard lock(mutex);
+      return !stamps.empty() && stamps.back() >= SyntheticKeyframe(id).make().stamp_ns;
+    })) << "keyframe "
+        << id;
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const std::lock_guard lock(mutex);
+  EXPECT_LE(stamps.size(), 4U) << "one for each change, and the one for a new reader";
+}
+
 TEST_F(MapperOnTheBus, GoesOnInItsMapAfterARestart) {
   auto lasting = config();
   lasting.maps.checkpoint = true;

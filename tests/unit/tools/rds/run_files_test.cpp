@@ -39,7 +39,7 @@ Recording two_frames() {
 
 class RunFilesTest : public ::testing::Test {
  protected:
-  void SetUp() override { write_run_files(two_frames(), place_.path()); }
+  void SetUp() override { write_run_files(two_frames(), place_.path(), true); }
   std::string text(const std::string& file) const { return test::read_text(place_ / file); }
   test::TemporaryFolder place_;
 };
@@ -52,6 +52,24 @@ TEST_F(RunFilesTest, TrajectoriesHoldFramesWithAPoseOnly) {
 TEST_F(RunFilesTest, OptimizedTrajectoryFollowsTheReferenceKeyframe) {
   EXPECT_THAT(text("trajectory_optimized.txt"), HasSubstr("1.000000 10.500000000 "));
   EXPECT_THAT(text("keyframes.txt"), HasSubstr("0.900000 10.000000000 "));
+}
+
+TEST(InFirstCamera, EveryMapHasItsOwn) {
+  Recording recording = two_frames();
+  const auto add = [&](std::int64_t stamp_ns, double x, std::uint64_t epoch) {
+    FrameRecord& frame = recording.frames[stamp_ns];
+    frame.stamp_ns = stamp_ns;
+    frame.has_pose = true;
+    frame.map_from_camera = at(x);
+    frame.map_epoch = epoch;
+  };
+  add(1'066'000'000, 3, 0);
+  add(2'000'000'000, 7, 1);
+  add(2'033'000'000, 7.5, 1);
+  std::vector<double> x;
+  for (const auto& pose : in_first_camera(live_trajectory(recording), recording))
+    x.push_back(pose.map_from_camera.translation().x());
+  EXPECT_THAT(x, testing::ElementsAre(0, 2, 0, 0.5));
 }
 
 TEST_F(RunFilesTest, AFrameAtAKeyframeOfASavedMapKeepsItsPose) {
@@ -93,12 +111,12 @@ TEST(RunFilesOnAFullDisk, EveryWriterSaysWhichFileHasNoRoom) {
   };
   Recording recording;  // without poses: trajectories are short enough
   for (int i = 0; i < 20; ++i) recording.frames[i] = {.stamp_ns = i, .state = "LOST", .has_pose = false};
-  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }),
+  EXPECT_THAT(fault([&] { write_run_files(recording, place.path(), true); }),
               HasSubstr("frames.csv: cannot be written"));
   recording.frames.clear();
   recording.detections[1] = two_frames().detections.begin()->second;
   recording.detections[2] = recording.detections[1];
-  EXPECT_THAT(fault([&] { write_run_files(recording, place.path()); }),
+  EXPECT_THAT(fault([&] { write_run_files(recording, place.path(), true); }),
               HasSubstr("detections.jsonl: cannot be written"));
   EXPECT_THAT(fault([&] { write_result(place / "summary.json", std::string(200, ' ')); }),
               HasSubstr("summary.json: cannot be written"));

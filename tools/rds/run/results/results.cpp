@@ -56,7 +56,7 @@ void print_main_figures(const nlohmann::ordered_json& s) {
 
 void write_all_results(SummaryInput input, const image::Recording& dataset,
                        const std::filesystem::path& folder) {
-  write_run_files(input.recording, folder);
+  write_run_files(input.recording, folder, input.options.trajectories_in_map());
   const std::vector<StampedPose> optimized = optimized_trajectory(input.recording);
   input.ate_live_m = ate_of(dataset, live_trajectory(input.recording));
   input.ate_final_m = ate_of(dataset, optimized);

@@ -122,9 +122,24 @@ std::vector<StampedPose> optimized_trajectory(const Recording& recording) {
   return poses;
 }
 
-void write_run_files(const Recording& recording, const std::filesystem::path& folder) {
-  write(folder / "trajectory.txt", live_trajectory(recording));
-  write(folder / "trajectory_optimized.txt", optimized_trajectory(recording));
+std::vector<StampedPose> in_first_camera(std::vector<StampedPose> poses, const Recording& recording) {
+  std::map<std::uint64_t, geometry::Pose> first_camera_from_map;  // by epoch
+  for (const auto& [stamp, frame] : recording.frames)
+    if (frame.has_pose) first_camera_from_map.emplace(frame.map_epoch, frame.map_from_camera.inverse());
+  for (StampedPose& pose : poses) {
+    const std::uint64_t epoch = recording.frames.at(pose.stamp_ns).map_epoch;
+    pose.map_from_camera = first_camera_from_map.at(epoch) * pose.map_from_camera;
+  }
+  return poses;
+}
+
+void write_run_files(const Recording& recording, const std::filesystem::path& folder,
+                     bool trajectories_in_map) {
+  const auto framed = [&](std::vector<StampedPose> poses) {
+    return trajectories_in_map ? poses : in_first_camera(std::move(poses), recording);
+  };
+  write(folder / "trajectory.txt", framed(live_trajectory(recording)));
+  write(folder / "trajectory_optimized.txt", framed(optimized_trajectory(recording)));
   write(folder / "keyframes.txt", keyframes(recording));
   write_frames(recording, folder / "frames.csv");
   write_lines(recording.detections, "detections", folder / "detections.jsonl", detection_json);

@@ -37,18 +37,23 @@ struct RunOptions {
   std::filesystem::path map;    // saved map to start from, or an octree alone; empty: none
   bool map_is_octree = false;
   bool localize_only = false;
-  std::optional<int> domain;  // DDS domain, to listen from outside; otherwise one that no other run uses
-  bool network = false;       // seen by everybody in that domain; otherwise by loopback participants alone
+  std::optional<int> domain;   // DDS domain, to listen from outside; otherwise one that no other run uses
+  bool network = false;        // seen by everybody in that domain; otherwise by loopback participants alone
   std::string node_namespace;  // of the services' topics
   std::optional<Placement> here;  // empty: all services, on this machine
   SecureOptions secure{.identities = {"operator"}};
   std::string view;        // where rds-viewer serves its page, ADDRESS:PORT or PORT; empty: nowhere
   bool view_keep = false;  // after the results, until the user stops it
+  std::string frame;       // of trajectory*.txt: camera (the first one's) or map; empty: map if that is given
   bool video = false;
   bool force = false;
   std::string record;  // file that the outputs are kept in; empty: nowhere
 
   [[nodiscard]] bool lockstep() const { return rate == 0; }
+  /// True if trajectory*.txt are in the frame of the map, as everything else is.
+  [[nodiscard]] bool trajectories_in_map() const {
+    return frame.empty() ? !map.empty() || !poses.empty() : frame == "map";
+  }
   [[nodiscard]] bus::Vendor vendor_of(const std::string& process) const {
     const auto found = vendors.find(process);
     return found == vendors.end() ? default_vendor : found->second;

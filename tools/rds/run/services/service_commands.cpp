@@ -62,6 +62,8 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
   if (process == kTracker) node["dynamics"] = options.dynamics;
   if (process == kTracker && !options.poses.empty())
     node["poses_file"] = fs::absolute(options.poses).string();
+  if (process == kMapper && !options.poses.empty() && !node["grid"]["up"])
+    node["grid"]["up"] = "surfaces";  // whoever gave the poses chose the map's frame
   if (process == kMapper) node["expect_boxes"] = options.dynamics;
   const bool keeps_map = process == kTracker || process == kMapper || process == kLoopCloser;
   if (keeps_map && !options.map.empty() && (process == kMapper || !options.map_is_octree))

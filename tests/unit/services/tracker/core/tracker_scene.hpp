@@ -17,6 +17,7 @@ inline TrackerConfig small_config() {
   TrackerConfig config;
   config.extraction.features = 500;
   config.extraction.levels = 4;
+  config.map_frame.level = false;  // truth is told in the first camera's frame
   return config;
 }
 

@@ -22,5 +22,15 @@ TEST(TrackerConfig, NamesWhatIsOutOfRange) {
   }
 }
 
+TEST(TrackerConfig, UpIsADirection) {
+  for (const char* no_direction : {"[1, 2]", "[0, 0, 0]", "[.nan, 0, 1]"}) {
+    config::ConfigReader reader(YAML::Load(std::string("map_frame: {up_in_camera: ") + no_direction + "}"),
+                                "test.yaml");
+    TrackerConfig config;
+    read(reader, config);
+    EXPECT_THROW(reader.finish(), config::ConfigError) << no_direction;
+  }
+}
+
 }  // namespace
 }  // namespace rds::tracker

@@ -37,12 +37,12 @@ set(CPACK_DEBIAN_SERVICES_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SERVICES_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_SERVICES_PACKAGE_SUGGESTS rds-slam-tools)
 set(CPACK_DEBIAN_SERVICES_DESCRIPTION "real-time semantic mapping among moving people: services
- Localises an RGB-D camera, ignores what moves, and keeps a semantic octree map
- that any other program can subscribe to over DDS. These are the services
- (tracker, detector, transformer, mapper, loop closer, viewer) with their
- systemd units and, as private libraries, OpenVINO's runtime for the detector.
- The detector's network is not part of it: rds models fetch, of rds-slam-tools,
- brings one.")
+Localises an RGB-D camera, ignores what moves, and keeps a semantic octree map
+that any other program can subscribe to over DDS. These are the services
+(tracker, detector, transformer, mapper, loop closer, viewer) with their
+systemd units and, as private libraries, OpenVINO's runtime for the detector.
+The detector's network is not part of it: rds models fetch, of rds-slam-tools,
+brings one.")
 set(CPACK_DEBIAN_SERVICES_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/packages/postinst ${PROJECT_SOURCE_DIR}/cmake/packages/prerm ${PROJECT_SOURCE_DIR}/cmake/packages/postrm)
 
@@ -52,16 +52,16 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "rds-slam (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "npm, python3-numpy")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "real-time semantic mapping among moving people: command line
- The program rds: run the services on a recording, record and play topics,
- evaluate results, look at live and saved maps, render recordings of a room
- with people, check recordings and this machine.")
+The program rds: run the services on a recording, record and play topics,
+evaluate results, look at live and saved maps, render recordings of a room
+with people, check recordings and this machine.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librds-slam-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "cyclonedds-dev, libboost-dev, libcli11-dev, libeigen3-dev, libexpected-dev, libfastcdr-dev, libfastrtps-dev, libfmt-dev, liboctomap-dev, libopencv-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libsystemd-dev, libyaml-cpp-dev, libzstd-dev, nlohmann-json3-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "real-time semantic mapping among moving people: reader's library
- For C++ programs that read the live map: a copy that is kept up to date, the
- messages, and a bus over two vendors of DDS, as static libraries that
- find_package(rds) finds; the messages' definitions for ROS 2; examples.")
+For C++ programs that read the live map: a copy that is kept up to date, the
+messages, and a bus over two vendors of DDS, as static libraries that
+find_package(rds) finds; the messages' definitions for ROS 2; examples.")
 
 include(CPack)

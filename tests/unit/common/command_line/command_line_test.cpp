@@ -20,7 +20,7 @@ class CommandLine : public testing::Test {
     auto* show = app_.add_subcommand("show", "Shows a thing: it's [here]");
     show->add_option("--form", form_, "How")->check(CLI::IsMember({"long", "short"}))->default_str("long");
     show->add_option("--file,file", file_, "What to show")->required()->envname("THING_FILE");
-    show->add_flag("-q,--quiet", "Say less");
+    show->add_flag("-q,--quiet", quiet_, "Say less");
     show->add_option("--secret", "Not for you")->group("");
     app_.add_subcommand("old", "Gone")->group("");
     add_document_option(app_, "1.2");
@@ -31,6 +31,7 @@ class CommandLine : public testing::Test {
 
   std::string form_;
   std::string file_;
+  bool quiet_ = false;
   CLI::App app_{"does .things\\ well", "thing"};
   CommandDescription description_ = {};
 };

@@ -3,11 +3,12 @@
 
 add_library(rds_options INTERFACE)
 target_compile_features(rds_options INTERFACE cxx_std_20)
-target_compile_options(rds_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
-target_include_directories(rds_options INTERFACE ${PROJECT_SOURCE_DIR})
+# Warnings are for this tree, not for those who link what is installed of it.
+target_compile_options(rds_options INTERFACE "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>")
+target_include_directories(rds_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/rds-slam>)
 option(RDS_WARNINGS_ARE_ERRORS "Treat warnings as errors" ON)
 if(RDS_WARNINGS_ARE_ERRORS)
-  target_compile_options(rds_options INTERFACE -Werror)
+  target_compile_options(rds_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 set(RDS_SANITIZE "" CACHE STRING "address,undefined or thread")
 if(RDS_SANITIZE)

@@ -11,6 +11,8 @@
 #include "common/bus/names/topic_names.hpp"
 #include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
+#include "common/bus/versions/vendor_versions.hpp"
+#include "common/command_line/document_option.hpp"
 #include "common/concurrency/priority.hpp"
 #include "common/config/overrides.hpp"
 #include "common/service/process/freed_memory.hpp"
@@ -47,7 +49,8 @@ void set_up_log(const std::string& name, const std::string& level) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.set_version_flag("--version", RDS_VERSION);
+  app.set_version_flag("--version", [] { return RDS_VERSION "\n" + bus::vendor_versions(); });
+  command_line::add_document_option(app, RDS_VERSION);
   app.add_option("--bus", options.vendor, bus::kVendorChoice)
       ->check(CLI::IsMember(std::vector<std::string>(bus::kVendorNames.begin(), bus::kVendorNames.end())));
   app.add_option("--domain", options.domain, "domain (default: ROS_DOMAIN_ID or 0)")

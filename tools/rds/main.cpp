@@ -2,12 +2,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/bus/versions/vendor_versions.hpp"
+#include "common/command_line/document_option.hpp"
 #include "tools/rds/cli/commands.hpp"
 
 int main(int argc, char** argv) {
   constexpr int kBadUsage = 2;
-  CLI::App rds{"RDS-SLAM: real-time semantic mapping of places where people walk about"};
-  rds.set_version_flag("--version", RDS_VERSION);
+  CLI::App rds{"RDS-SLAM: real-time semantic mapping of places where people walk about", "rds"};
+  rds.set_version_flag("--version", [] { return RDS_VERSION "\n" + rds::bus::vendor_versions(); });
+  rds::command_line::add_document_option(rds, RDS_VERSION);
   rds.require_subcommand(1);
   rds::run::add_run_command(rds);
   rds::play::add_play_command(rds);

@@ -46,7 +46,7 @@ void add_hosts_command(CLI::App& rds);
 /// `rds map info|save|export|query|diff|list|load`: a map from a file (--map map.ot) or, without it, the live
 /// one.
 void add_map_command(CLI::App& rds);
-/// `rds topic list|echo|hz|bw`: looks at the live bus, whichever process publishes.
+/// `rds topic list|echo|hz|bw`: looks at the live bus, whichever process publishes; `table`: what there can be.
 void add_topic_command(CLI::App& rds);
 /// `rds status`: which services are on the bus and whether they are well.
 void add_status_command(CLI::App& rds);

@@ -28,12 +28,18 @@ TopicChoice TopicChoice::camera() {
                 topics::kStaticTransforms.address()});
 }
 
-TopicChoice TopicChoice::camera_and_outputs() {
-  TopicChoice choice = camera();
+TopicChoice TopicChoice::outputs() {
+  TopicChoice choice;
   for (const auto service :
        {topics::kTracker, topics::kDetector, topics::kTransformer, topics::kMapper, topics::kLoopCloser})
     for (const topics::Row& row : topics::table())
       if (row.is_written_by(service) && !is_internal(row.name)) choice.topics_.insert(row.address());
+  return choice;
+}
+
+TopicChoice TopicChoice::camera_and_outputs() {
+  TopicChoice choice = camera();
+  choice.topics_.merge(outputs().topics_);
   return choice;
 }
 

@@ -13,7 +13,9 @@ class TopicChoice {
  public:
   /// The camera's, and tf_static.
   static TopicChoice camera();
-  /// The camera's and what the services say to others: not what they only tell each other.
+  /// What the services say to others: not what they only tell each other.
+  static TopicChoice outputs();
+  /// Both.
   static TopicChoice camera_and_outputs();
   static TopicChoice all();
   /// @param topics  names; without a leading slash they are below the namespace, if there is one.

@@ -27,6 +27,7 @@ namespace {
 
 constexpr int kBadUsage = 2;
 constexpr const char* kViewPort = "8080";
+constexpr const char* kRecordBeside = "outputs.mcap";  // the results
 const std::set<std::string> kProcesses{kPlayer, kTracker, kDetector, kTransformer, kMapper, kLoopCloser};
 
 /// "fastdds", or "tracker=cyclonedds,mapper=fastdds" for single processes.
@@ -213,6 +214,8 @@ void add_run_command(CLI::App& rds) {
       "serve a page that shows the run: --view=PORT or --view=ADDRESS:PORT (default: 127.0.0.1:8080)");
   command->add_flag("--view-keep", options->view_keep,
                     "as --view, and the page stays after the results, until Ctrl-C");
+  command->add_flag(fmt::format("--record{{{}}}", kRecordBeside), options->record,
+                    "keep all outputs as MCAP, in outputs.mcap beside the results or --record=FILE");
   command
       ->add_option("--frame", options->frame,
                    "of trajectory*.txt: camera, the first one's, or map, level as the other files; default: "

@@ -29,6 +29,14 @@ constexpr seconds kFinishLimit{120};
 const std::string kMapName = "map";
 const std::string kPartsFolder = kMapsFolder + "/.saving";  // of the map, until all are there
 
+/// A plain name is one beside the results.
+std::unique_ptr<RunRecord> make_record(const RunOptions& options, int domain,
+                                       const std::filesystem::path& results) {
+  const std::filesystem::path named = options.record;
+  if (named.empty()) return nullptr;
+  return std::make_unique<RunRecord>(options, domain, named.has_parent_path() ? named : results / named);
+}
+
 }  // namespace
 
 Session::Session(const RunOptions& options, const image::Recording& dataset,
@@ -45,6 +53,7 @@ Session::Session(const RunOptions& options, const image::Recording& dataset,
       services_(options, domain_.domain(), folder_.path(), *bus_, elsewhere),
       overlay_(
           std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),
+      record_(make_record(options, domain_.domain(), folder_.path())),
       progress_(player_.frame_count()) {}
 
 int Session::run(const std::stop_token& stop) {
@@ -61,6 +70,10 @@ int Session::run(const std::stop_token& stop) {
       recorder_.recording();  // what is said after the services have left is nobody's of the run
   const auto usage = services_.stop(stop);
   overlay_->finish();
+  if (record_) {
+    const std::string fault = record_->finish();
+    expect(fault.empty(), fault, stop);
+  }
   if (stop.stop_requested()) {
     fmt::print(stderr, "stopped after {} frames, nothing is written\n", progress_.played());
     return 1;
@@ -83,12 +96,27 @@ void Session::wait_until_connected(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     services_.watch();
     const auto statuses = commander_.ask_status(services, stop, kStatusLimit);
-    missing =
-        missing_links(running, endpoints_of(*bus_, statuses), options_.localize_only, services_.elsewhere());
-    if (missing.empty()) return;
+    const Endpoints endpoints = endpoints_of(*bus_, statuses);
+    missing = missing_links(running, endpoints, options_.localize_only, services_.elsewhere());
+    if (missing.empty()) return record_ ? wait_until_recorded(endpoints, stop) : void();
     if (Clock::now() > deadline)
       throw std::runtime_error(fmt::format("the services did not connect within {} s: {}",
                                            kConnectLimit.count(), fmt::join(missing, "; ")));
+  }
+}
+
+/// Volatile samples that are written before both ends know each other would be missing in the record.
+void Session::wait_until_recorded(const Endpoints& before, const std::stop_token& stop) {
+  const std::size_t services = services_.names().size();
+  const auto deadline = Clock::now() + kConnectLimit;
+  while (!stop.stop_requested()) {
+    services_.watch();
+    record_->look();
+    if (record_->is_heard(before, endpoints_of(*bus_, commander_.ask_status(services, stop, kStatusLimit))))
+      return;
+    if (Clock::now() > deadline)
+      throw std::runtime_error(fmt::format("--record: not all of the services' topics were found within {} s",
+                                           kConnectLimit.count()));
   }
 }
 

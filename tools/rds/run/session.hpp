@@ -15,6 +15,7 @@
 #include "tools/rds/run/progress.hpp"
 #include "tools/rds/run/results/overlay_writer.hpp"
 #include "tools/rds/run/results/recorder.hpp"
+#include "tools/rds/run/run_record.hpp"
 #include "tools/rds/run/run_services.hpp"
 
 namespace rds::run {
@@ -38,6 +39,7 @@ class Session {
     std::uint64_t keyframes_in_map = 0;
   };
   void wait_until_connected(const std::stop_token& stop);
+  void wait_until_recorded(const Endpoints& before, const std::stop_token& stop);
   play::PlayerReport play(const std::stop_token& stop);
   bool after_frame(const image::RgbdFrame& frame, std::size_t index, const std::stop_token& stop);
   Answers drain(const std::stop_token& stop);
@@ -59,6 +61,7 @@ class Session {
   play::Player player_;
   RunServices services_;
   std::unique_ptr<OverlayWriter> overlay_;
+  std::unique_ptr<RunRecord> record_;  // none: nothing is to be kept
   Progress progress_;
   bool complete_ = true;  // nothing timed out
 };

@@ -15,6 +15,7 @@
 #include "tools/rds/cli/wait.hpp"
 #include "tools/rds/topic/topic_reader.hpp"
 #include "tools/rds/topic/topic_report.hpp"
+#include "tools/rds/topic/topic_table.hpp"
 
 namespace rds::tools {
 namespace {
@@ -164,6 +165,9 @@ void add_topic_command(CLI::App& rds) {
   add_echo_command(*topic);
   add_measuring_command(*topic, "hz", "Rate of a topic's messages", rate_report);
   add_measuring_command(*topic, "bw", "Bandwidth of a topic's messages", bandwidth_report);
+  topic->add_subcommand("table", "The topics that RDS-SLAM knows, as a table of Markdown")->callback([] {
+    fmt::print("{}", topic_table());
+  });
 }
 
 }  // namespace rds::tools

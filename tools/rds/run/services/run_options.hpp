@@ -47,6 +47,7 @@ struct RunOptions {
   std::string frame;       // of trajectory*.txt: camera (the first one's) or map; empty: map if that is given
   bool video = false;
   bool force = false;
+  std::string record;  // file that the outputs are kept in; empty: nowhere
 
   [[nodiscard]] bool lockstep() const { return rate == 0; }
   /// True if trajectory*.txt are in the frame of the map, as everything else is.

@@ -18,6 +18,7 @@ SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
 void SemanticMapper::reset(std::uint64_t map_epoch) {
   archive_.clear();
   object_views_.clear();
+  normals_.clear();
   map_.epoch = map_epoch;
   map_.labels = saved_.labels;
   map_.content = std::make_unique<Map>(config_);
@@ -95,31 +96,23 @@ void SemanticMapper::add(const KeyframeRecord& record) {
   is_hidden_ = true;
 }
 
-/// Takes out what a keyframe says. @param record  as it was added.
-void SemanticMapper::remove(const KeyframeRecord& record) {
-  map_.content->evidence.remove(record.id, surfaces_of(record, config_.octree, config_.sampling, scan_));
+/// Takes out what a keyframe says.
+void SemanticMapper::remove(std::uint64_t id) {
+  map_.content->evidence.remove(id);
   are_objects_outdated_ = true;
   is_hidden_ = true;
-}
-
-/// A keyframe's record as it was added; nullopt if it cannot be had any more.
-std::optional<KeyframeRecord> SemanticMapper::as_integrated(std::uint64_t id) const {
-  auto record = archive_.record(id);
-  if (record) record->map_from_camera = archive_.keyframes().at(id).integrated_pose;
-  return record;
 }
 
 /// Takes keyframes out of the evidence and puts them in again with their newest poses.
 void SemanticMapper::move(std::span<const std::uint64_t> keyframes) {
   for (const std::uint64_t id : keyframes) {
     progress_();
-    auto record = as_integrated(id);
+    const auto record = archive_.record(id);
     if (!record) {
       lose(id);
       continue;
     }
-    remove(*record);
-    record->map_from_camera = archive_.keyframes().at(id).pose;
+    remove(id);
     add(*record);
   }
 }
@@ -134,23 +127,19 @@ void SemanticMapper::make_objects_again() {
 
 /// Its part of the map stays as it is, whatever corrections come.
 void SemanticMapper::make_final(std::uint64_t id) {
-  const auto record = as_integrated(id);
-  if (!record) return lose(id);
-  map_.content->evidence.make_final(id, surfaces_of(*record, config_.octree, config_.sampling, scan_));
+  map_.content->evidence.make_final(id);
   are_objects_outdated_ |= id != object_views_.begin()->first;
   final_objects_.integrate(object_views_.at(id), map_.labels);
   object_views_.erase(id);
   has_final_ = true;
-  archive_.make_final(*record);
+  archive_.make_final(id);
 }
 
-/// A keyframe whose record cannot be had any more leaves the map, but for the colours it has given.
+/// A keyframe whose record cannot be had any more leaves the map.
 void SemanticMapper::lose(std::uint64_t id) {
-  map_.content->evidence.remove(id, {});
+  remove(id);
   object_views_.erase(id);
   archive_.lose(id);
-  are_objects_outdated_ = true;
-  is_hidden_ = true;
 }
 
 void SemanticMapper::spill() {
@@ -167,13 +156,13 @@ void SemanticMapper::make_others_final(std::span<const KeyframePose> told) {
 
 bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const LabelledBox> boxes) {
   if (!archive_.keyframes().contains(keyframe_id)) return false;
-  auto record = as_integrated(keyframe_id);
+  auto record = archive_.record(keyframe_id);
   if (!record) {
     lose(keyframe_id);
     return false;
   }
-  remove(*record);
-  record->map_from_camera = archive_.keyframes().at(keyframe_id).pose;
+  remove(keyframe_id);
+  normals_.erase(keyframe_id);
   interpret(*record, boxes, config_, map_.labels);
   archive_.replace(*record);
   add(*record);
@@ -223,7 +212,17 @@ Eigen::Vector3d SemanticMapper::up_in_map() const {
   const auto known = archive_.poses();
   std::vector<geometry::Pose> poses;
   for (const auto& pose : known) poses.push_back(pose.map_from_camera);
-  return estimate_up(poses, [&](std::size_t i) { return archive_.record(known[i].id); });
+  decltype(normals_) asked;
+  const Eigen::Vector3d up = estimate_up(poses, [&](std::size_t i) {
+    const std::uint64_t id = known[i].id;
+    if (auto known_normals = normals_.extract(id))
+      asked.insert(std::move(known_normals));
+    else if (const auto record = archive_.record(id))
+      asked[id] = surface_normals(*record);
+    return std::span<const Eigen::Vector3f>(asked[id]);
+  });
+  normals_ = std::move(asked);
+  return up;
 }
 
 }  // namespace rds::mapper

@@ -82,7 +82,7 @@ class SemanticMapper {
 
  private:
   void add(const KeyframeRecord& record);
-  void remove(const KeyframeRecord& record);
+  void remove(std::uint64_t id);
   void add_all();
   void move(std::span<const std::uint64_t> keyframes);
   [[nodiscard]] std::vector<std::uint64_t> nearest_first(std::vector<std::uint64_t> keyframes) const;
@@ -92,7 +92,6 @@ class SemanticMapper {
   void make_objects_again();
   MapDelta show(bool all = false);
   [[nodiscard]] MapDelta new_delta() const;
-  [[nodiscard]] std::optional<KeyframeRecord> as_integrated(std::uint64_t id) const;
 
   MapperConfig config_;
   SemanticMap map_;
@@ -106,6 +105,7 @@ class SemanticMapper {
   bool has_moves_left_ = false;  // keyframes whose pose is corrected are in the map with another one
   bool is_hidden_ = false;       // the evidence has changed since it was shown
   Scan scan_;                    // scratch
+  mutable std::map<std::uint64_t, std::vector<Eigen::Vector3f>> normals_;  // that up_in_map() asked for last
 };
 
 }  // namespace rds::mapper

@@ -138,7 +138,8 @@ BENCHMARK(correct_all_of_many)->Arg(500)->Arg(5000)->Unit(benchmark::kSecond)->I
 /// The points that the mapper uses, in the map.
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {
   const mapper::SamplingConfig sampling;
-  auto record = mapper::make_record(input, sampling, mapper::sample_rays(input.camera, sampling.stride_px));
+  auto record = mapper::make_record(input, sampling,
+                                    std::make_shared<mapper::SampledRays>(input.camera, sampling.stride_px));
   mapper::classify_by_depth(record, sampling);
   octomap::Pointcloud cloud;
   for (std::size_t i = 0; i < record.size(); ++i) {

@@ -65,49 +65,26 @@ EvidenceBlock& Evidence::touch(BlockKey key) {
   return place.evidence;
 }
 
-/// Calls visit(block, cell, look) for surfaces, and touches their blocks: neighbours mostly lie in one.
-template <class Visit>
-void Evidence::for_each_in_block(std::span<const Contribution::Surface> surfaces, Visit visit) {
-  EvidenceBlock* block = nullptr;
-  BlockKey block_is_of = 0;
-  for (const auto& [key, look] : surfaces) {
-    const BlockKey its_block = packed(block_key(key));
-    if (block == nullptr || its_block != block_is_of) block = &touch(its_block);
-    block_is_of = its_block;
-    visit(*block, cell_of(key), look);
-  }
-}
-
-void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, Contribution contribution) {
-  const auto view = std::make_shared<KeyframeView>(std::move(contribution.view));
+void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, KeyframeView contribution) {
+  const auto view = std::make_shared<KeyframeView>(std::move(contribution));
   const EvidenceTime time = time_of(time_ns);
   for (std::uint32_t i = 0; i < view->size(); ++i) touch(packed(view->key(i))).add({keyframe, time, i, view});
-  for_each_in_block(contribution.surfaces, [](EvidenceBlock& block, std::uint16_t cell,
-                                              const SurfaceLook& look) { block.add_look(cell, look); });
   keyframes_[keyframe] = {time, view};
   new_.push_back(keyframe);
 }
 
-void Evidence::remove(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces) {
+void Evidence::remove(std::uint64_t keyframe) {
   const auto removed = keyframes_.extract(keyframe);
   if (!removed) return;
   const auto& [time, view] = removed.mapped();
   for (std::size_t i = 0; i < view->size(); ++i) touch(packed(view->key(i))).remove({time, keyframe});
-  for_each_in_block(surfaces, [](EvidenceBlock& block, std::uint16_t cell, const SurfaceLook& look) {
-    block.remove_look(cell, look);
-  });
 }
 
-void Evidence::make_final(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces) {
+void Evidence::make_final(std::uint64_t keyframe) {
   const auto removed = keyframes_.extract(keyframe);
   if (!removed) return;
   const auto& [time, view] = removed.mapped();
-  std::unordered_map<BlockKey, std::vector<std::pair<std::uint16_t, SurfaceLook>>> looks;
-  for (const auto& [key, look] : surfaces) looks[packed(block_key(key))].emplace_back(cell_of(key), look);
-  for (std::size_t i = 0; i < view->size(); ++i) {
-    const BlockKey key = packed(view->key(i));
-    touch(key).make_final({time, keyframe}, looks[key]);
-  }
+  for (std::size_t i = 0; i < view->size(); ++i) touch(packed(view->key(i))).make_final({time, keyframe});
 }
 
 /// Decides which surfaces of a keyframe count, by what all keyframes have seen.

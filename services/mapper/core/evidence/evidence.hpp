@@ -4,22 +4,11 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <span>
 #include <unordered_map>
 
 #include "services/mapper/core/evidence/evidence_block.hpp"
 
 namespace rds::mapper {
-
-/// What one keyframe, with one pose, contributes to the map.
-struct Contribution {
-  struct Surface {
-    octomap::OcTreeKey key;
-    SurfaceLook look;
-  };
-  KeyframeView view;
-  std::vector<Surface> surfaces;  // static and doubtful voxels, each once
-};
 
 /// All that keyframes say of space. A map is a function of it: contributions may come, go and come again in
 /// any order, at the cost of the blocks they touch.
@@ -31,11 +20,10 @@ class Evidence {
   void begin_with(const FinalMap& known);
 
   /// @param keyframe  none of those that are there.
-  void add(std::uint64_t keyframe, std::int64_t time_ns, Contribution contribution);
-  /// @param surfaces  as they were added.
-  void remove(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces);
-  /// What a keyframe says stays as it is, before all that is not final. @param surfaces  as they were added.
-  void make_final(std::uint64_t keyframe, std::span<const Contribution::Surface> surfaces);
+  void add(std::uint64_t keyframe, std::int64_t time_ns, KeyframeView contribution);
+  void remove(std::uint64_t keyframe);
+  /// What a keyframe says stays as it is, before all that is not final.
+  void make_final(std::uint64_t keyframe);
 
   using Show = std::function<void(const octomap::OcTreeKey&, const EvidenceBlock&, const BlockMask& changed)>;
   /// Brings the blocks that contributions have touched since the last time up to date, and shows them. Where
@@ -66,8 +54,6 @@ class Evidence {
     std::shared_ptr<KeyframeView> view;
   };
   EvidenceBlock& touch(BlockKey key);
-  template <class Visit>
-  void for_each_in_block(std::span<const Contribution::Surface> surfaces, Visit visit);
   void judge(std::uint64_t id, Keyframe& keyframe);
   void show_touched(std::size_t limit, const Show& show);
   std::size_t catch_up(BlockKey key, const Show& show);

@@ -68,6 +68,10 @@ void EvidenceBlock::change_from(std::size_t entry) {
 void EvidenceBlock::add(Entry entry) {
   const std::size_t at = at_or_after(rank_of(entry));
   if (counts_) count(entry, *counts_);
+  entry.view->for_each_look(entry.block, [&](std::uint16_t cell, const SurfaceLook& look) {
+    looks_.add(cell, look);
+    changed_.insert(cell);
+  });
   const bool is_gap = at < entries_.size() && rank_of(entries_[at]) == rank_of(entry);
   if (at < added_up_) {
     change_from(at);
@@ -88,6 +92,10 @@ void EvidenceBlock::remove(const Rank& rank) {
     counts_->statics.remove(sight.seen_static(), entry.time);
     counts_->dynamics.remove(sight.near_dynamic, entry.time);
   }
+  entry.view->for_each_look(entry.block, [&](std::uint16_t cell, const SurfaceLook& look) {
+    looks_.remove(cell, look);
+    changed_.insert(cell);
+  });
   if (*at < added_up_) change_from(*at);
   entry.view.reset();
   has_gaps_ = true;
@@ -112,15 +120,15 @@ void EvidenceBlock::begin_with(std::shared_ptr<const FinalBlock> known) {
   changed_ = BlockMask::all();
 }
 
-void EvidenceBlock::make_final(const Rank& rank,
-                               const std::vector<std::pair<std::uint16_t, SurfaceLook>>& looks) {
+void EvidenceBlock::make_final(const Rank& rank) {
   const auto at = find(rank);
   if (!at) return;
   const Entry& entry = entries_[*at];
   auto final_now = final_ ? std::make_shared<FinalBlock>(*final_) : std::make_shared<FinalBlock>();
   final_now->occupancy.add(entry.view->step(entry.block));
   count(entry, final_now->counts);
-  for (const auto& [cell, look] : looks) final_now->looks[cell].add(look);
+  entry.view->for_each_look(
+      entry.block, [&](std::uint16_t cell, const SurfaceLook& look) { final_now->looks[cell].add(look); });
   final_ = std::move(final_now);
   if (*at > 0 || added_up_ == 0 || changed_from_) {  // else all is added up in the order in which it was
     change_from(0);

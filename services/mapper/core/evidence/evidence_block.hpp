@@ -37,19 +37,10 @@ class EvidenceBlock {
 
   void add(Entry entry);
   void remove(const Rank& rank);
-  void add_look(std::uint16_t cell, const SurfaceLook& look) {
-    looks_.add(cell, look);
-    changed_.insert(cell);
-  }
-  /// What was added before.
-  void remove_look(std::uint16_t cell, const SurfaceLook& look) {
-    looks_.remove(cell, look);
-    changed_.insert(cell);
-  }
   /// What is known of the block before all keyframes; before any other call.
   void begin_with(std::shared_ptr<const FinalBlock> known);
-  /// What a keyframe said stays as it is now. @param looks  of it, in this block.
-  void make_final(const Rank& rank, const std::vector<std::pair<std::uint16_t, SurfaceLook>>& looks);
+  /// What a keyframe said stays as it is now.
+  void make_final(const Rank& rank);
 
   /// Of all keyframes.
   const BlockCounts& counts();

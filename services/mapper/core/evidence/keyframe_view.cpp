@@ -4,14 +4,20 @@
 #include <algorithm>
 
 namespace rds::mapper {
+
 void KeyframeView::add(const octomap::OcTreeKey& key, const BlockSight& sight,
-                       const std::vector<SurfacePart>& parts) {
+                       std::span<const SurfacePart> parts, std::span<const SurfaceLook> looks) {
   Block block{{key[0], key[1], key[2]},
               {},
               static_cast<std::uint16_t>(parts.size()),
               static_cast<std::uint32_t>(words_.size()),
-              static_cast<std::uint32_t>(parts_.size())};
+              static_cast<std::uint32_t>(parts_.size()),
+              static_cast<std::uint32_t>(rgb_.size())};
   parts_.insert(parts_.end(), parts.begin(), parts.end());
+  for (const SurfaceLook& look : looks) {
+    rgb_.push_back(look.rgb);
+    look_of_voxel_.push_back(index_of(look));
+  }
   const std::array<BlockMask, kPlanes> planes{sight.no_return | sight.unknown | sight.stable,
                                               sight.passed | sight.unknown, sight.doubtful | sight.stable,
                                               sight.near_dynamic};
@@ -27,6 +33,16 @@ void KeyframeView::add(const octomap::OcTreeKey& key, const BlockSight& sight,
     }
   }
   blocks_.push_back(block);
+}
+
+/// In looks_. Neighbours mostly have the same one.
+std::uint16_t KeyframeView::index_of(SurfaceLook look) {
+  look.rgb = {};
+  if (!look_of_voxel_.empty() && looks_[look_of_voxel_.back()] == look) return look_of_voxel_.back();
+  const auto found = std::ranges::find(looks_, look);
+  const auto index = static_cast<std::uint16_t>(found - looks_.begin());
+  if (found == looks_.end()) looks_.push_back(look);
+  return index;
 }
 
 BlockSight KeyframeView::sight(std::size_t at) const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "services/mapper/core/evidence/block_mask.hpp"
+#include "services/mapper/core/evidence/voxel_look.hpp"
 
 namespace rds::mapper {
 
@@ -46,12 +48,15 @@ struct BlockStep {
 };
 
 /// What one keyframe, with one pose, says about space: its observations, packed in bit planes of which those
-/// that are the same all over a block take no room; and its surfaces, which stand or fall as a whole.
+/// that are the same all over a block take no room; its surfaces, which stand or fall as a whole; and how
+/// they look.
 class KeyframeView {
  public:
   /// Appends a block. @param key  of its lowest voxel; each at most once. @param parts  of which surfaces its
-  /// static, doubtful and unknown voxels are, in order of their cells.
-  void add(const octomap::OcTreeKey& key, const BlockSight& sight, const std::vector<SurfacePart>& parts);
+  /// static, doubtful and unknown voxels are, in order of their cells. @param looks  of the static and
+  /// doubtful ones.
+  void add(const octomap::OcTreeKey& key, const BlockSight& sight, std::span<const SurfacePart> parts,
+           std::span<const SurfaceLook> looks);
   /// @param is_large  of each surface, from 0: whether it fills much of the picture.
   void set_surfaces(std::vector<bool> is_large);
 
@@ -68,6 +73,18 @@ class KeyframeView {
   void for_each_surface_voxel(std::size_t block, const BlockMask& surfaces, Visit visit) const {
     const SurfacePart* part = parts_.data() + blocks_[block].first_part;
     surfaces.for_each([&](std::size_t cell) { visit(cell, *part++); });
+  }
+
+  /// Calls visit(cell, look) for the static and doubtful voxels of a block.
+  template <class Visit>
+  void for_each_look(std::size_t block, Visit visit) const {
+    if (!has_surfaces(block)) return;
+    std::size_t look = blocks_[block].first_look;
+    sight(block).seen_static().for_each([&](std::size_t cell) {
+      SurfaceLook its_look = looks_[look_of_voxel_[look]];
+      its_look.rgb = rgb_[look++];
+      visit(static_cast<std::uint16_t>(cell), its_look);
+    });
   }
 
   [[nodiscard]] bool has_surfaces(std::size_t block) const { return blocks_[block].parts > 0; }
@@ -90,10 +107,16 @@ class KeyframeView {
     std::uint16_t parts;
     std::uint32_t first_word;  // of the stored planes, eight words each
     std::uint32_t first_part;
+    std::uint32_t first_look;
   };
+  std::uint16_t index_of(SurfaceLook look);
+
   std::vector<Block> blocks_;
   std::vector<std::uint64_t> words_;
   std::vector<SurfacePart> parts_;
+  std::vector<std::array<std::uint8_t, 3>> rgb_;  // of static and doubtful voxels
+  std::vector<std::uint16_t> look_of_voxel_;      // and the rest of their look, in looks_
+  std::vector<SurfaceLook> looks_;                // without colour, each once: few are different
   std::vector<bool> is_large_;
   std::vector<SurfaceVerdict> verdicts_;
   bool is_decided_ = false;  // some verdict is not kUndecided

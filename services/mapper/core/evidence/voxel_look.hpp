@@ -16,6 +16,8 @@ struct SurfaceLook {
   std::uint16_t label = 0;                // of an object; 0: none
   bool looked_for = false;                // whether a detector has seen the keyframe
   std::array<std::uint16_t, 4> beside{};  // without a label: those of objects found around it; 0: none
+
+  bool operator==(const SurfaceLook&) const = default;
 };
 
 /// Colour and label of a voxel: sums over keyframes, so that a keyframe can be taken out again.

@@ -72,14 +72,15 @@ std::optional<std::uint64_t> KeyframeArchive::spill() {
   return too_many ? std::optional(keyframes_.begin()->first) : std::nullopt;
 }
 
-void KeyframeArchive::make_final(const KeyframeRecord& record) {
-  if (record.id == keyframes_.begin()->first) final_clock_.go_to(record.stamp_ns);
-  const auto keyframe = keyframes_.extract(record.id);
-  has_checkpoint_ = has_checkpoint_ && records_.retire(record.id);
+void KeyframeArchive::make_final(std::uint64_t id) {
+  const bool is_oldest = id == keyframes_.begin()->first;
+  const auto keyframe = keyframes_.extract(id);
+  if (is_oldest) final_clock_.go_to(keyframe.mapped().stamp_ns);
+  has_checkpoint_ = has_checkpoint_ && records_.retire(id);
   if (has_checkpoint_)
-    unsaved_final_[record.id] = keyframe.mapped();  // until a checkpoint has the final map with it
+    unsaved_final_[id] = keyframe.mapped();  // until a checkpoint has the final map with it
   else
-    records_.erase(record.id);
+    records_.erase(id);
   ++final_keyframes_;
 }
 

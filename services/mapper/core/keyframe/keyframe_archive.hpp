@@ -17,9 +17,9 @@ class RayCache {
  public:
   explicit RayCache(int stride_px) : stride_px_(stride_px) {}
 
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> of(const geometry::CameraModel& camera) {
+  std::shared_ptr<const SampledRays> of(const geometry::CameraModel& camera) {
     if (!rays_ || !(camera == camera_)) {
-      rays_ = sample_rays(camera, stride_px_);
+      rays_ = std::make_shared<SampledRays>(camera, stride_px_);
       camera_ = camera;
     }
     return rays_;
@@ -28,7 +28,7 @@ class RayCache {
  private:
   int stride_px_;
   geometry::CameraModel camera_;
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_;
+  std::shared_ptr<const SampledRays> rays_;
 };
 
 /// A keyframe that can still follow corrections; its record lies in the store.
@@ -58,8 +58,7 @@ class KeyframeArchive {
 
   void clear();
   [[nodiscard]] const std::map<std::uint64_t, Keyframe>& keyframes() const { return keyframes_; }
-  [[nodiscard]] std::shared_ptr<const std::vector<Eigen::Vector3f>> rays_of(
-      const geometry::CameraModel& c) const {
+  [[nodiscard]] std::shared_ptr<const SampledRays> rays_of(const geometry::CameraModel& c) const {
     return rays_.of(c);
   }
 
@@ -77,8 +76,8 @@ class KeyframeArchive {
   /// Spills records beyond memory_mb. @return a keyframe that must become final, because the storage is full
   /// or there are more than max_keyframes; nullopt if there is none.
   std::optional<std::uint64_t> spill();
-  /// Forgets a keyframe that the final map has taken in. @param record  of it.
-  void make_final(const KeyframeRecord& record);
+  /// Forgets a keyframe that the final map has taken in.
+  void make_final(std::uint64_t id);
   /// Forgets a keyframe whose record cannot be had any more.
   void lose(std::uint64_t id);
 

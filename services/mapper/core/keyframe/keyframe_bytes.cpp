@@ -15,26 +15,38 @@ constexpr std::uint8_t kWhole = 255;  // a depth as it is follows; else: differe
 constexpr int kMaxSide = 8192;        // sampled pixels
 
 void put_depths(ByteWriter& writer, const std::vector<std::uint16_t>& depths) {
+  map_file::Bytes bytes(3 * depths.size());
+  std::uint8_t* to = bytes.data();
   std::uint16_t last = 0;
   for (const std::uint16_t depth : depths) {
     const int step = depth - last;
     const int folded = step >= 0 ? 2 * step : -2 * step - 1;
-    writer.put(static_cast<std::uint8_t>(std::min<int>(folded, kWhole)));
-    if (folded >= kWhole) writer.put(depth);
+    *to++ = static_cast<std::uint8_t>(std::min<int>(folded, kWhole));
+    if (folded >= kWhole) {
+      *to++ = static_cast<std::uint8_t>(depth);
+      *to++ = static_cast<std::uint8_t>(depth >> 8);
+    }
     last = depth;
   }
+  writer.put_bytes({bytes.data(), to});
 }
 
 void get_depths(ByteReader& reader, std::vector<std::uint16_t>& depths) {
   std::uint16_t last = 0;
-  for (auto& depth : depths) {
-    if (!reader.ok()) return;
-    const auto folded = reader.get<std::uint8_t>();
-    if (folded == kWhole)
-      depth = reader.get<std::uint16_t>();
-    else
-      depth = static_cast<std::uint16_t>(last + ((folded & 1) != 0 ? -(folded + 1) / 2 : folded / 2));
-    last = depth;
+  for (auto depth = depths.begin(); depth != depths.end() && reader.ok();) {
+    const auto bytes = reader.get_bytes(static_cast<std::size_t>(depths.end() - depth));  // one each at least
+    auto byte = bytes.begin();
+    const auto next = [&] { return byte != bytes.end() ? *byte++ : reader.get<std::uint8_t>(); };
+    while (byte != bytes.end()) {
+      const std::uint8_t folded = *byte++;
+      if (folded == kWhole) {
+        last = next();
+        last = static_cast<std::uint16_t>(last | next() << 8);
+      } else {
+        last = static_cast<std::uint16_t>(last + ((folded & 1) != 0 ? -(folded + 1) / 2 : folded / 2));
+      }
+      *depth++ = last;
+    }
   }
 }
 
@@ -157,6 +169,8 @@ tl::expected<KeyframeRecord, std::string> record_from_bytes(std::span<const std:
   const auto rgb = reader.get_bytes(3 * size);
   record.rgb.assign(rgb.begin(), rgb.end());
   record.movable.cells = get_cells(reader);
+  if (reader.ok() && !spread(record.movable, record.grid))
+    reader.refuse("cells that do not cover the picture");
   get_runs(reader, size, record.classes);
   get_runs(reader, size, record.objects.labels);
   record.objects.looked_for = reader.get<std::uint8_t>() != 0;

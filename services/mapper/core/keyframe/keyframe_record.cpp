@@ -15,36 +15,51 @@ int sampled(int pixels, int stride) {
   return (pixels + stride - 1) / stride;
 }
 
-void sample_pixels(const KeyframeInput& input, KeyframeRecord& record) {
-  const int first = input.color.order == image::ChannelOrder::kRgb ? 0 : 2;
-  for (int row = 0, i = 0; row < record.grid.height; ++row)
-    for (int column = 0; column < record.grid.width; ++column, ++i) {
-      const int x = column * record.grid.stride;
-      const int y = row * record.grid.stride;
-      const auto index = static_cast<std::size_t>(i);
-      record.depth_tenth_mm[index] = to_tenth_mm(input.depth.at(x, y));
-      const auto& pixel = input.color.pixels.at<cv::Vec3b>(y, x);
-      record.rgb[3 * index] = pixel[first];
-      record.rgb[3 * index + 1] = pixel[1];
-      record.rgb[3 * index + 2] = pixel[2 - first];
+/// @tparam Value  of the depth picture.
+template <class Value>
+void sample_depths(const image::DepthImage& depth, KeyframeRecord& record) {
+  std::uint16_t* to = record.depth_tenth_mm.data();
+  for (int row = 0; row < record.grid.height; ++row) {
+    const Value* from = depth.values.ptr<Value>(row * record.grid.stride);
+    for (int column = 0; column < record.grid.width; ++column, from += record.grid.stride) {
+      const auto raw = static_cast<float>(*from);
+      *to++ = std::isfinite(raw) && raw > 0 ? to_tenth_mm(raw * depth.metres_per_unit) : std::uint16_t{0};
     }
+  }
+}
+
+void sample_colors(const image::ColorImage& color, KeyframeRecord& record) {
+  const int first = color.order == image::ChannelOrder::kRgb ? 0 : 2;
+  std::uint8_t* to = record.rgb.data();
+  for (int row = 0; row < record.grid.height; ++row) {
+    const std::uint8_t* from = color.pixels.ptr(row * record.grid.stride);
+    for (int column = 0; column < record.grid.width; ++column, from += 3 * record.grid.stride) {
+      *to++ = from[first];
+      *to++ = from[1];
+      *to++ = from[2 - first];
+    }
+  }
 }
 
 }  // namespace
 
 std::uint16_t to_tenth_mm(float depth_m) {
-  return static_cast<std::uint16_t>(std::min(65535.0F, std::round(depth_m * kTenthMmPerM)));
+  const float scaled = std::min(65535.0F, depth_m * kTenthMmPerM);
+  const auto below = static_cast<std::uint16_t>(scaled);
+  return static_cast<std::uint16_t>(below + (scaled - below >= 0.5F ? 1 : 0));  // std::round() is a call
 }
 
-std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
-                                                                int stride_px) {
-  auto rays = std::make_shared<std::vector<Eigen::Vector3f>>();
-  rays->reserve(
+SampledRays::SampledRays(const geometry::CameraModel& camera, int stride_px) {
+  rays_.reserve(
       static_cast<std::size_t>(sampled(camera.width, stride_px) * sampled(camera.height, stride_px)));
   for (int y = 0; y < camera.height; y += stride_px)
-    for (int x = 0; x < camera.width; x += stride_px)
-      rays->push_back(camera.ray(Eigen::Vector2d(x, y)).cast<float>());
-  return rays;
+    for (int x = 0; x < camera.width; x += stride_px) {
+      const Eigen::Vector3f& ray = rays_.emplace_back(camera.ray(Eigen::Vector2d(x, y)).cast<float>());
+      if (is_used(ray))
+        longest_ = std::max(longest_, ray.squaredNorm());
+      else
+        are_all_used_ = false;
+    }
 }
 
 std::optional<std::string> check(const KeyframeInput& input) {
@@ -70,7 +85,7 @@ std::optional<std::string> check(const KeyframeInput& input) {
 }
 
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
-                           std::shared_ptr<const std::vector<Eigen::Vector3f>> rays) {
+                           std::shared_ptr<const SampledRays> rays) {
   KeyframeRecord record;
   record.id = input.id;
   record.stamp_ns = record.time_ns = input.stamp_ns;
@@ -88,15 +103,30 @@ KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& con
   record.depth_tenth_mm.resize(count);
   record.rgb.resize(3 * count);
   record.classes.resize(count);
-  sample_pixels(input, record);
+  (void)spread(record.movable, record.grid);  // check() has seen that the cells cover the picture
+  if (input.depth.values.type() == CV_16UC1)
+    sample_depths<std::uint16_t>(input.depth, record);
+  else
+    sample_depths<float>(input.depth, record);
+  sample_colors(input.color, record);
   return record;
 }
 
-bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
-  if (record.movable.side_px == 0) return false;
-  const int row = record.grid.row(pixel) * record.grid.stride / record.movable.side_px;
-  const int column = record.grid.column(pixel) * record.grid.stride / record.movable.side_px;
-  return record.movable.cells(row, column) != 0;
+bool spread(MovableCells& movable, const PixelGrid& grid) {
+  const cv::Mat1b& cells = movable.cells;
+  movable.pixels.clear();
+  if (movable.side_px == 0) return true;
+  const auto cell = [&](int pixel) { return pixel * grid.stride / movable.side_px; };
+  if (cell(grid.width - 1) >= cells.cols || cell(grid.height - 1) >= cells.rows) return false;
+  if (cv::countNonZero(cells) == 0) return true;
+  std::vector<int> cell_of_column;
+  for (int column = 0; column < grid.width; ++column) cell_of_column.push_back(cell(column));
+  movable.pixels.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  for (int row = 0; row < grid.height; ++row) {
+    const std::uint8_t* row_of_cells = cells.ptr(cell(row));
+    for (const int of_column : cell_of_column) movable.pixels.push_back(row_of_cells[of_column]);
+  }
+  return true;
 }
 
 }  // namespace rds::mapper

@@ -9,26 +9,64 @@
 
 namespace rds::mapper {
 
+/// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
+class SampledRays {
+ public:
+  SampledRays(const geometry::CameraModel& camera, int stride_px);
+
+  const Eigen::Vector3f& operator[](std::size_t pixel) const { return rays_[pixel]; }
+  /// False at the edge of a fisheye, where points are farther than kMaxObliqueness × their depth: they are
+  /// left out of the map.
+  [[nodiscard]] bool is_used(std::size_t pixel) const { return are_all_used_ || is_used(rays_[pixel]); }
+  /// Square of the longest ray that is used.
+  [[nodiscard]] float longest() const { return longest_; }
+
+ private:
+  static constexpr float kMaxObliqueness = 2;
+  static bool is_used(const Eigen::Vector3f& ray) {
+    return ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness;
+  }
+
+  std::vector<Eigen::Vector3f> rays_;
+  float longest_ = 0;
+  bool are_all_used_ = true;
+};
+
 /// The sampled pixels of a picture: every stride-th one of every stride-th row. Counted row by row.
 struct PixelGrid {
   geometry::CameraModel camera;  // of the full picture
   int stride = 1;
-  int width = 0;                                             // sampled columns
-  int height = 0;                                            // sampled rows
-  std::shared_ptr<const std::vector<Eigen::Vector3f>> rays;  // (x, y, 1)
+  int width = 0;   // sampled columns
+  int height = 0;  // sampled rows
+  std::shared_ptr<const SampledRays> rays;
 
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row * width + column);
   }
   [[nodiscard]] int column(std::size_t pixel) const { return static_cast<int>(pixel) % width; }
   [[nodiscard]] int row(std::size_t pixel) const { return static_cast<int>(pixel) / width; }
+
+  /// Calls visit(pixel, column, row) for ascending pixels: without a division for each.
+  template <class Visit>
+  void for_each(const std::vector<std::size_t>& pixels, Visit visit) const {
+    int row = 0;
+    std::size_t first = 0;  // of the row
+    for (const std::size_t pixel : pixels) {
+      for (; pixel >= first + static_cast<std::size_t>(width); first += static_cast<std::size_t>(width))
+        ++row;
+      visit(pixel, static_cast<int>(pixel - first), row);
+    }
+  }
 };
 
 /// Square cells of the full picture in which the tracker found motion: not 0.
 struct MovableCells {
   cv::Mat1b cells;
-  int side_px = 0;  // 0: there are none
+  int side_px = 0;                   // 0: there are none
+  std::vector<std::uint8_t> pixels;  // of each sampled pixel, what its cell says; empty if all say 0
 };
+/// Fills `pixels`. @return false if the cells do not cover the picture.
+bool spread(MovableCells& movable, const PixelGrid& grid);
 
 /// Part of the picture that shows one object: at most kMaxPoints of its points, enough to move its boundary
 /// with the pose.
@@ -47,10 +85,6 @@ struct ObjectsInView {
   std::vector<std::uint16_t> labels;  // of each pixel, empty while no object is labelled; 0 = none
   std::vector<ObjectSighting> sightings;
 };
-
-/// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
-std::shared_ptr<const std::vector<Eigen::Vector3f>> sample_rays(const geometry::CameraModel& camera,
-                                                                int stride_px);
 
 /// A keyframe in the form in which it can be integrated again and again: strided, in camera coordinates.
 /// Vectors have width × height entries, row by row.
@@ -75,7 +109,9 @@ struct KeyframeRecord {
 std::optional<std::string> check(const KeyframeInput& input);
 
 /// True if the tracker found something that moves there.
-bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel);
+inline bool is_in_movable_cell(const KeyframeRecord& record, std::size_t pixel) {
+  return !record.movable.pixels.empty() && record.movable.pixels[pixel] != 0;
+}
 
 /// True if boxes or the tracker know the pixel as dynamic.
 inline bool is_dynamic(const KeyframeRecord& record, std::size_t pixel) {
@@ -89,6 +125,6 @@ std::uint16_t to_tenth_mm(float depth_m);
 /// Samples a checked keyframe. Classes are left invalid, and boxes are not looked at.
 /// @param rays  of this camera and stride, shared between records.
 KeyframeRecord make_record(const KeyframeInput& input, const SamplingConfig& config,
-                           std::shared_ptr<const std::vector<Eigen::Vector3f>> rays);
+                           std::shared_ptr<const SampledRays> rays);
 
 }  // namespace rds::mapper

@@ -25,13 +25,15 @@ inline octomap::OcTreeKey unpacked(std::uint64_t key) {
           static_cast<std::uint16_t>(key)};
 }
 
-/// Of a voxel in its block; only the lowest bits of the coordinates count.
-inline std::uint16_t cell_of(unsigned x, unsigned y, unsigned z) {
-  constexpr std::array<std::uint16_t, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};  // to every third bit
-  return static_cast<std::uint16_t>(kSpread[x & 7U] | kSpread[y & 7U] << 1U | kSpread[z & 7U] << 2U);
+/// What one coordinate adds to a cell; only its lowest bits count. Not local to cell_of(): a compiler may
+/// copy a local table to the stack each time.
+inline constexpr std::array<std::uint16_t, 8> kSpread = {0, 1, 8, 9, 64, 65, 72, 73};  // to every third bit
+inline std::uint16_t cell_along(unsigned axis, unsigned coordinate) {
+  return static_cast<std::uint16_t>(kSpread[coordinate & 7U] << axis);
 }
+/// Of a voxel in its block.
 inline std::uint16_t cell_of(const octomap::OcTreeKey& key) {
-  return cell_of(key[0], key[1], key[2]);
+  return static_cast<std::uint16_t>(cell_along(0, key[0]) | cell_along(1, key[1]) | cell_along(2, key[2]));
 }
 
 /// Of the lowest voxel of the block around a voxel.

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
 #include "services/mapper/core/keyframe/voxel_key.hpp"
 
 namespace rds::mapper {
-
-/// Voxel of a point in voxel units (inside the key range).
-inline octomap::OcTreeKey key_at(const Eigen::Vector3d& p) {
-  return {static_cast<std::uint16_t>(p.x()), static_cast<std::uint16_t>(p.y()),
-          static_cast<std::uint16_t>(p.z())};
-}
 
 /// Tells where the voxel changes from pixel to pixel: neighbours mostly fall into one, which is looked up
 /// once.
@@ -26,46 +22,71 @@ class VoxelRun {
   std::uint64_t last_ = 0;  // packed; no key that can hold a point is 0
 };
 
-/// Where the octree can hold a point; false for NaN.
-inline bool in_key_range(const Eigen::Vector3d& p) {
-  constexpr double kLowestKey = 8;
-  constexpr double kHighestKey = 65536 - 8;
-  const auto fits = [](double x) { return x >= kLowestKey && x < kHighestKey; };
-  return fits(p.x()) && fits(p.y()) && fits(p.z());
-}
+/// A point in voxel units, and its voxel.
+struct VoxelPoint {
+  Eigen::Vector4d at;  // the last coordinate means nothing: four are added as fast as three
+  octomap::OcTreeKey key;
+};
 
 /// Pixels of a keyframe as points in voxel units; far ones and those without return end at
 /// max_range_m.
-struct VoxelProjector {
-  VoxelProjector(const KeyframeRecord& keyframe, double resolution_m, double range_m)
-      : record(keyframe),
-        rotation(keyframe.map_from_camera.linear() / resolution_m),
-        origin(keyframe.map_from_camera.translation() / resolution_m + Eigen::Vector3d::Constant(kKeyOffset)),
-        max_range_m(static_cast<float>(range_m)) {}
-
-  /// @param its_class  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
-  [[nodiscard]] bool point(std::size_t pixel, PixelClass its_class, Eigen::Vector3d& at) const {
-    if (its_class == PixelClass::kInvalid) return false;
-    const Eigen::Vector3f& ray = (*record.grid.rays)[pixel];
-    if (!(ray.squaredNorm() <= kMaxObliqueness * kMaxObliqueness)) return false;
-    const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
-    const float depth = measured ? record.depth_m(pixel) : max_range_m;
-    const double x = double{ray.x()} * double{depth};  // written out: this is where a keyframe's time goes
-    const double y = double{ray.y()} * double{depth};
-    const double z = double{ray.z()} * double{depth};
-    at = {rotation(0, 0) * x + rotation(0, 1) * y + rotation(0, 2) * z + origin.x(),
-          rotation(1, 0) * x + rotation(1, 1) * y + rotation(1, 2) * z + origin.y(),
-          rotation(2, 0) * x + rotation(2, 1) * y + rotation(2, 2) * z + origin.z()};
-    return in_key_range(at);
+class VoxelProjector {
+ public:
+  VoxelProjector(const KeyframeRecord& record, double resolution_m, double range_m)
+      : record_(record), max_range_m_(static_cast<float>(range_m)) {
+    const Eigen::Matrix3d rotation = record.map_from_camera.linear() / resolution_m;
+    for (int axis = 0; axis < 3; ++axis) columns_[axis] << rotation.col(axis), 0;
+    origin_ << record.map_from_camera.translation() / resolution_m + Eigen::Vector3d::Constant(kKeyOffset), 0;
+    reach_ = std::sqrt(double{record.grid.rays->longest()}) * max_range_m_ / resolution_m;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const auto inside = [&](double at) {
+        return static_cast<int>(std::clamp(at, kLowestKey, kHighestKey));
+      };
+      first_[axis] = inside(origin_[axis] - reach_ - 1);
+      end_[axis] = inside(origin_[axis] + reach_ + 2);
+    }
   }
 
+  [[nodiscard]] const KeyframeRecord& record() const { return record_; }
+  /// Of the camera.
+  [[nodiscard]] Eigen::Vector3d origin() const { return origin_.head<3>(); }
+  /// Where the octree can hold the camera.
+  [[nodiscard]] bool is_inside() const {
+    const auto fits = [](double x) { return x >= kLowestKey && x < kHighestKey; };
+    return fits(origin_.x()) && fits(origin_.y()) && fits(origin_.z());
+  }
+  /// No point is farther from the origin.
+  [[nodiscard]] double reach() const { return reach_; }
+
+  /// @param its_class  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
+  [[nodiscard]] bool project(std::size_t pixel, PixelClass its_class, VoxelPoint& point) const {
+    const SampledRays& rays = *record_.grid.rays;
+    if (its_class == PixelClass::kInvalid || !rays.is_used(pixel)) return false;
+    const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
+    const double depth = measured ? record_.depth_m(pixel) : max_range_m_;
+    const Eigen::Vector3f& ray = rays[pixel];
+    point.at = columns_[0] * (double{ray.x()} * depth) + columns_[1] * (double{ray.y()} * depth) +
+               columns_[2] * (double{ray.z()} * depth) + origin_;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const int key = static_cast<int>(point.at[axis]);
+      if (key < first_[axis] || key >= end_[axis]) return false;
+      point.key[axis] = static_cast<std::uint16_t>(key);
+    }
+    return true;
+  }
+
+ private:
   static constexpr double kKeyOffset = 32768;  // key of coordinate 0
-  static constexpr float kMaxObliqueness = 2;  // a point farther than this × its depth is at the edge of a
-                                               // fisheye: left out
-  const KeyframeRecord& record;
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d origin;
-  float max_range_m;
+  static constexpr double kLowestKey = 8;
+  static constexpr double kHighestKey = 65536 - 8;
+
+  const KeyframeRecord& record_;
+  std::array<Eigen::Vector4d, 3> columns_;
+  Eigen::Vector4d origin_;
+  double reach_;
+  float max_range_m_;
+  std::array<int, 3> first_{};  // keys that the octree can hold and that are in reach
+  std::array<int, 3> end_{};
 };
 
 }  // namespace rds::mapper

@@ -11,20 +11,29 @@ namespace {
 constexpr double kLargeSurface = 0.1;            // of the picture
 constexpr std::uint16_t kMostSurfaces = 0x7FFF;  // those beyond are none
 
-Contribution::Surface surface_of(const SurfaceVoxel& voxel, const KeyframeRecord& record) {
-  Contribution::Surface surface{voxel.key, {{}, voxel.label, record.objects.looked_for, voxel.beside}};
-  const std::uint32_t pixels = voxel.static_pixels + voxel.doubtful_pixels;
-  for (std::size_t c = 0; c < 3; ++c)
-    surface.look.rgb[c] = static_cast<std::uint8_t>((voxel.rgb_sum[c] + pixels / 2) / pixels);
-  return surface;
+/// Labels, each once, of objects of which the pixel is within half a box's size; 0: none.
+std::array<std::uint16_t, 4> objects_around(const KeyframeRecord& record, std::size_t pixel) {
+  std::array<std::uint16_t, 4> labels{};
+  auto next = labels.begin();
+  const double x = record.grid.column(pixel) * record.grid.stride;
+  const double y = record.grid.row(pixel) * record.grid.stride;
+  for (const ObjectSighting& sighting : record.objects.sightings) {
+    const geometry::Box2& box = sighting.box_px;
+    const double dx = box.width() / 2;
+    const double dy = box.height() / 2;
+    const bool is_around = geometry::Box2{box.x0 - dx, box.y0 - dy, box.x1 + dx, box.y1 + dy}.contains(x, y);
+    if (is_around && next != labels.end() && std::find(labels.begin(), next, sighting.label) == next)
+      *next++ = sighting.label;
+  }
+  return labels;
 }
 
-std::vector<Contribution::Surface> surfaces_in(const Scan& scan, const KeyframeRecord& record) {
-  std::vector<Contribution::Surface> surfaces;
-  surfaces.reserve(scan.surfaces.size());
-  for (const SurfaceVoxel& voxel : scan.surfaces)
-    if (voxel.observation() >= Observation::kDoubtful) surfaces.push_back(surface_of(voxel, record));
-  return surfaces;
+SurfaceLook look_of(const SurfaceVoxel& voxel, const KeyframeRecord& record) {
+  SurfaceLook look{{}, voxel.label, record.objects.looked_for, objects_around(record, voxel.first_pixel)};
+  const std::uint32_t pixels = voxel.static_pixels + voxel.doubtful_pixels;
+  for (std::size_t c = 0; c < 3; ++c)
+    look.rgb[c] = static_cast<std::uint8_t>((voxel.rgb_sum[c] + pixels / 2) / pixels);
+  return look;
 }
 
 SurfacePart part_of(const SurfaceVoxel& voxel) {
@@ -59,48 +68,51 @@ BlockMask& cells_with(Observation observation, BlockSight& sight) {
   }
 }
 
+/// What a scan says of one block.
+struct ScannedBlock {
+  BlockSight sight;
+  std::vector<SurfacePart> parts;  // of the surfaces' voxels
+  std::vector<SurfaceLook> looks;  // of the static and doubtful ones
+};
+
 /// A ray passes only where no surface of the same picture is next: depth and pose are known to about a voxel,
 /// and rays along a floor go through voxels of it that lie between its pixels.
-/// @param parts  of the surfaces' voxels.
-BlockSight sight_of(const ScanGrid::Block& block, const Scan& scan, std::vector<SurfacePart>& parts) {
-  const BlockMask surfaces = block.cells(kSurface);
-  BlockSight sight;
-  sight.passed = block.cells(kFreeSpace) & ~(surfaces | block.cells(kBesideSurface));
-  sight.no_return = block.cells(kNoReturnRay) & ~(surfaces | sight.passed);
-  sight.near_dynamic = block.cells(kDynamicPlace);
+/// @param scanned  its memory is reused.
+void look_at(std::size_t block, const Scan& scan, const KeyframeRecord& record, ScannedBlock& scanned) {
+  const FlaggedCells cells(scan.grid.blocks()[block].flags);
+  const BlockMask& surfaces = cells.with(kSurface);
+  auto& [sight, parts, looks] = scanned;
+  sight = {};
+  sight.passed = cells.with(kFreeSpace) & ~(surfaces | cells.with(kBesideSurface));
+  sight.no_return = cells.with(kNoReturnRay) & ~(surfaces | sight.passed);
+  sight.near_dynamic = cells.with(kDynamicPlace);
   parts.clear();
+  looks.clear();
   surfaces.for_each([&](std::size_t cell) {
-    const SurfaceVoxel& voxel = scan.surfaces[block.slot[cell]];
+    const SurfaceVoxel& voxel = scan.surfaces[scan.slots[block][cell]];
     const Observation observation = voxel.observation();
     cells_with(observation, sight).insert(cell);
     if (observation >= Observation::kUnknown) parts.push_back(part_of(voxel));
+    if (observation >= Observation::kDoubtful) looks.push_back(look_of(voxel, record));
   });
-  return sight;
 }
 
 }  // namespace
 
-Contribution contribution_of(const KeyframeRecord& record, const OctreeConfig& octree,
+KeyframeView contribution_of(const KeyframeRecord& record, const OctreeConfig& octree,
                              const SamplingConfig& sampling, Scan& scan) {
   scan.surfaces_of_picture = find_surfaces(record, scan.surface_of_pixel);
   find_surface_voxels(record, octree, sampling, scan);
   cast_rays(record, octree, sampling, scan);
-  Contribution contribution;
-  contribution.surfaces = surfaces_in(scan, record);
-  contribution.view.set_surfaces(large_surfaces(scan));
-  std::vector<SurfacePart> parts;
-  for (const auto& block : scan.grid.blocks()) {
-    const BlockSight sight = sight_of(block, scan, parts);
-    if (!sight.empty()) contribution.view.add(block.key, sight, parts);
+  KeyframeView view;
+  view.set_surfaces(large_surfaces(scan));
+  ScannedBlock scanned;
+  for (std::size_t block = 0; block < scan.grid.blocks().size(); ++block) {
+    look_at(block, scan, record, scanned);
+    if (!scanned.sight.empty())
+      view.add(scan.grid.blocks()[block].key, scanned.sight, scanned.parts, scanned.looks);
   }
-  return contribution;
-}
-
-std::vector<Contribution::Surface> surfaces_of(const KeyframeRecord& record, const OctreeConfig& octree,
-                                               const SamplingConfig& sampling, Scan& scan) {
-  scan.surface_of_pixel.clear();
-  find_surface_voxels(record, octree, sampling, scan);
-  return surfaces_in(scan, record);
+  return view;
 }
 
 }  // namespace rds::mapper

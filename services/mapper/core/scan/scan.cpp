@@ -14,23 +14,6 @@ unsigned cube_bits(double resolution_m) {
   return static_cast<unsigned>(std::max(0L, std::lround(std::log2(kDynamicCubeM / resolution_m))));
 }
 
-/// Labels, each once, of objects of which the pixel is within half a box's size; 0: none.
-std::array<std::uint16_t, 4> objects_around(const KeyframeRecord& record, std::size_t pixel) {
-  std::array<std::uint16_t, 4> labels{};
-  auto next = labels.begin();
-  const double x = record.grid.column(pixel) * record.grid.stride;
-  const double y = record.grid.row(pixel) * record.grid.stride;
-  for (const ObjectSighting& sighting : record.objects.sightings) {
-    const geometry::Box2& box = sighting.box_px;
-    const double dx = box.width() / 2;
-    const double dy = box.height() / 2;
-    const bool is_around = geometry::Box2{box.x0 - dx, box.y0 - dy, box.x1 + dx, box.y1 + dy}.contains(x, y);
-    if (is_around && next != labels.end() && std::find(labels.begin(), next, sighting.label) == next)
-      *next++ = sighting.label;
-  }
-  return labels;
-}
-
 void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pixel) {
   switch (record.classes[pixel]) {
     case PixelClass::kDynamic:
@@ -54,42 +37,42 @@ void add_pixel(SurfaceVoxel& voxel, const KeyframeRecord& record, std::size_t pi
 }
 
 /// Index of a voxel's surface, made if there is none yet.
-std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, const KeyframeRecord& record,
-                      Scan& scan) {
-  auto& block = scan.grid.block_of(key);
-  const auto cell = cell_of(key);
-  if ((block.flags[cell] & kSurface) == 0) {
-    block.flags[cell] |= kSurface;
-    block.slot[cell] = static_cast<std::uint32_t>(scan.surfaces.size());
-    auto& voxel = scan.surfaces.emplace_back();
-    voxel.key = key;
-    voxel.beside = objects_around(record, pixel);
+std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, Scan& scan) {
+  const std::size_t block = scan.grid.block_of(key);
+  if (block >= scan.slots.size()) scan.slots.resize(block + 1);
+  std::uint32_t& slot = scan.slots[block][cell_of(key)];
+  std::uint8_t& flags = scan.grid.flags_of(key);
+  if ((flags & kSurface) == 0) {
+    flags |= kSurface;
+    slot = static_cast<std::uint32_t>(scan.surfaces.size());
+    scan.surfaces.push_back({.key = key, .first_pixel = static_cast<std::uint32_t>(pixel)});
   }
-  return block.slot[cell];
+  return slot;
 }
 
 /// Casts a ray to a pixel's point, one per voxel in which rays end.
-void cast_to(std::size_t pixel, const VoxelProjector& project, ScanFlag flag, VoxelRun& run, ScanGrid& grid) {
-  Eigen::Vector3d at;
-  if (!project.point(pixel, project.record.classes[pixel], at)) return;
-  const auto key = key_at(at);
-  if (!run.begins_with(key)) return;
-  auto& flags = grid.block_of(key).flags[cell_of(key)];
+void cast_to(std::size_t pixel, const VoxelProjector& projector, ScanFlag flag, VoxelRun& run,
+             ScanGrid& grid) {
+  VoxelPoint point;
+  if (!projector.project(pixel, projector.record().classes[pixel], point)) return;
+  if (!run.begins_with(point.key)) return;
+  std::uint8_t& flags = grid.flags_of(point.key);
   if ((flags & kRayCast) != 0) return;
   flags |= kRayCast;
-  grid.cast_ray(project.origin, at, flag);
+  grid.cast_ray(projector.origin(), point.at.head<3>(), flag);
 }
 
 /// Rays to static and doubtful surfaces, to what is far, and to what is not measured.
-void carve(const VoxelProjector& project, Scan& scan) {
+void carve(const VoxelProjector& projector, Scan& scan) {
   VoxelRun run;
   for (const SurfaceVoxel& voxel : scan.surfaces)
-    if (voxel.ray_end != SurfaceVoxel::kNoPixel) cast_to(voxel.ray_end, project, kFreeSpace, run, scan.grid);
-  const PixelClasses& classes = project.record.classes;
+    if (voxel.ray_end != SurfaceVoxel::kNoPixel)
+      cast_to(voxel.ray_end, projector, kFreeSpace, run, scan.grid);
+  const PixelClasses& classes = projector.record().classes;
   for (const auto& [its_class, flag] :
        {std::pair(PixelClass::kFar, kFreeSpace), std::pair(PixelClass::kNoReturn, kNoReturnRay)})
     for (std::size_t i = 0; i < classes.size(); ++i)
-      if (classes[i] == its_class) cast_to(i, project, flag, run, scan.grid);
+      if (classes[i] == its_class) cast_to(i, projector, flag, run, scan.grid);
 }
 
 /// Marks the cubes within half a cube of a voxel.
@@ -101,41 +84,37 @@ void mark_around(const octomap::OcTreeKey& key, unsigned bits, ScanGrid& grid) {
     };
     const auto at = [](int k) { return static_cast<std::uint16_t>(k); };
     const octomap::OcTreeKey lowest(at(first(0)), at(first(1)), at(first(2)));
-    if ((grid.block_of(lowest).flags[cell_of(lowest)] & kDynamicPlace) != 0) continue;
+    if ((grid.flags_of(lowest) & kDynamicPlace) != 0) continue;
     for (int z = 0; z < side; ++z)
       for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-          const octomap::OcTreeKey voxel(at(lowest[0] + x), at(lowest[1] + y), at(lowest[2] + z));
-          grid.block_of(voxel).flags[cell_of(voxel)] |= kDynamicPlace;
-        }
+        for (int x = 0; x < side; ++x)
+          grid.flags_of({at(lowest[0] + x), at(lowest[1] + y), at(lowest[2] + z)}) |= kDynamicPlace;
   }
 }
 
-void mark_dynamic_places(const VoxelProjector& project, const SamplingConfig& sampling, unsigned bits,
+void mark_dynamic_places(const VoxelProjector& projector, const SamplingConfig& sampling, unsigned bits,
                          ScanGrid& grid) {
-  const KeyframeRecord& record = project.record;
+  const KeyframeRecord& record = projector.record();
   const auto nearest = static_cast<float>(sampling.min_range_m);
   const auto farthest = static_cast<float>(sampling.max_range_m);
   VoxelRun run;
-  Eigen::Vector3d at;
+  VoxelPoint point;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!is_dynamic(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
-    if (!project.point(i, PixelClass::kDynamic, at)) continue;
-    if (const auto key = key_at(at); run.begins_with(key)) mark_around(key, bits, grid);
+    if (projector.project(i, PixelClass::kDynamic, point) && run.begins_with(point.key))
+      mark_around(point.key, bits, grid);
   }
 }
 
 /// Makes the grid cover all that the record can show, and the cubes around it.
-void cover(const VoxelProjector& project, const OctreeConfig& octree, ScanGrid& grid) {
-  constexpr float kLongest = VoxelProjector::kMaxObliqueness * VoxelProjector::kMaxObliqueness;
-  float longest = 0;
-  for (const Eigen::Vector3f& ray : *project.record.grid.rays)
-    if (const float length = ray.squaredNorm(); length <= kLongest) longest = std::max(longest, length);
-  const double reach = std::sqrt(double{longest}) * project.max_range_m / octree.resolution_m +
-                       (2 << cube_bits(octree.resolution_m));
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
-  grid.reset(key_at((project.origin - around).cwiseMax(0)),
-             key_at((project.origin + around).cwiseMin(Eigen::Vector3d::Constant(65535))));
+void cover(const VoxelProjector& projector, double resolution_m, ScanGrid& grid) {
+  const Eigen::Vector3d around =
+      Eigen::Vector3d::Constant(projector.reach() + (2 << cube_bits(resolution_m)));
+  const auto key_at = [](const Eigen::Vector3d& p) {
+    const auto key = p.cwiseMax(0).cwiseMin(65535).cast<std::uint16_t>();
+    return octomap::OcTreeKey(key.x(), key.y(), key.z());
+  };
+  grid.reset(key_at(projector.origin() - around), key_at(projector.origin() + around));
 }
 
 }  // namespace
@@ -149,32 +128,33 @@ Observation SurfaceVoxel::observation() const {
 
 void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octree,
                          const SamplingConfig& sampling, Scan& scan) {
-  const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
+  const VoxelProjector projector(record, octree.resolution_m, sampling.max_range_m);
   scan.surfaces.clear();
-  if (!in_key_range(project.origin)) return scan.grid.reset({0, 0, 0}, {0, 0, 0});
-  cover(project, octree, scan.grid);
+  scan.slots.clear();
+  if (!projector.is_inside()) return scan.grid.reset({0, 0, 0}, {0, 0, 0});
+  cover(projector, octree.resolution_m, scan.grid);
   VoxelRun run;
   std::uint32_t slot = 0;
-  Eigen::Vector3d at;
+  VoxelPoint point;
   for (std::size_t i = 0; i < record.size(); ++i) {
     const PixelClass its_class = record.classes[i];
     if (its_class == PixelClass::kFar || its_class == PixelClass::kNoReturn ||
-        !project.point(i, its_class, at))
+        !projector.project(i, its_class, point))
       continue;
-    if (const auto key = key_at(at); run.begins_with(key)) slot = slot_of(key, i, record, scan);
+    if (run.begins_with(point.key)) slot = slot_of(point.key, i, scan);
     SurfaceVoxel& voxel = scan.surfaces[slot];
-    if (voxel.surface == 0 && !scan.surface_of_pixel.empty()) voxel.surface = scan.surface_of_pixel[i];
+    if (voxel.surface == 0) voxel.surface = scan.surface_of_pixel[i];
     add_pixel(voxel, record, i);
   }
 }
 
 void cast_rays(const KeyframeRecord& record, const OctreeConfig& octree, const SamplingConfig& sampling,
                Scan& scan) {
-  const VoxelProjector project(record, octree.resolution_m, sampling.max_range_m);
-  if (!in_key_range(project.origin)) return;
-  mark_dynamic_places(project, sampling, cube_bits(octree.resolution_m), scan.grid);
+  const VoxelProjector projector(record, octree.resolution_m, sampling.max_range_m);
+  if (!projector.is_inside()) return;
+  mark_dynamic_places(projector, sampling, cube_bits(octree.resolution_m), scan.grid);
   if (!octree.carve_rays) return;
-  carve(project, scan);
+  carve(projector, scan);
   for (const SurfaceVoxel& voxel : scan.surfaces)
     if (voxel.observation() >= Observation::kUnknown) scan.grid.mark_beside(voxel.key);
 }

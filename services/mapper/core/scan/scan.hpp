@@ -15,12 +15,12 @@ struct SurfaceVoxel {
   std::uint32_t doubtful_pixels = 0;
   std::uint32_t unknown_pixels = 0;
   std::uint32_t dynamic_pixels = 0;
+  std::uint32_t first_pixel = kNoPixel;
   std::uint32_t ray_end = kNoPixel;        // its first static or doubtful pixel
   std::array<std::uint32_t, 3> rgb_sum{};  // of the static and doubtful pixels
   std::uint16_t surface = 0;               // of the picture: its first pixel's that is of one
   std::uint16_t label = 0;                 // majority candidate of these (Boyer–Moore)
   std::uint32_t label_balance = 0;
-  std::array<std::uint16_t, 4> beside{};  // labels of static objects around its first pixel; 0: none
 
   /// The paper's rule per voxel: static pixels insert it unless dynamic ones outnumber them.
   [[nodiscard]] Observation observation() const;
@@ -30,7 +30,9 @@ struct SurfaceVoxel {
 struct Scan {
   ScanGrid grid;
   std::vector<SurfaceVoxel> surfaces;
-  std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them; empty: it was not asked
+  std::vector<std::array<std::uint32_t, kBlockCells>>
+      slots;                                    // of the grid's blocks that have some: their places
+  std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them
   std::uint16_t surfaces_of_picture = 0;
 };
 

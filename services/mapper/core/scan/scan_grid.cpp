@@ -2,7 +2,6 @@
 #include "services/mapper/core/scan/scan_grid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -10,107 +9,107 @@
 namespace rds::mapper {
 namespace {
 
-/// One coordinate of a voxel on a ray; no branches, as nobody can predict which one is next to change.
-struct RayAxis {
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr int kSide = 1 << kBlockBits;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-  RayAxis(double from, double to)
-      : key(static_cast<int>(std::floor(from))), left(static_cast<int>(std::floor(to)) - key) {
-    step = left < 0 ? -1 : 1;
-    left = std::abs(left);
-    delta = 1 / std::abs(to - from);
-    next = left == 0 ? kNever : std::abs(key + (step > 0 ? 1 : 0) - from) * delta;
-  }
-  void advance(bool go) {
-    key += go ? step : 0;
-    left -= go ? 1 : 0;
-    next = left == 0 ? kNever : next + (go ? delta : 0);
-  }
-
-  int key;
-  int left;      // steps
-  int step;      // +1 or −1
-  double delta;  // share of the ray from border to border
-  double next;   // share of the ray up to the next border
-};
+/// Of an 8×8 matrix of bits, a byte for each row.
+std::uint64_t transposed(std::uint64_t rows) {
+  const auto swap = [&](unsigned shift, std::uint64_t mask) {
+    const std::uint64_t bits = (rows ^ rows >> shift) & mask;
+    rows ^= bits ^ bits << shift;
+  };
+  swap(7, 0x00AA00AA00AA00AA);
+  swap(14, 0x0000CCCC0000CCCC);
+  swap(28, 0x00000000F0F0F0F0);
+  return rows;
+}
 
 }  // namespace
 
-BlockMask ScanGrid::Block::cells(ScanFlag flag) const {
+FlaggedCells::FlaggedCells(const std::array<std::uint8_t, kBlockCells>& flags) {
   static_assert(std::endian::native == std::endian::little);
-  constexpr std::uint64_t kLowBits = 0x0101010101010101U;
-  constexpr std::uint64_t kGather =
-      0x0102040810204080U;  // brings the low bits of eight bytes into the highest
-  const int bit = std::countr_zero(static_cast<unsigned>(flag));
-  BlockMask cells;
-  for (std::size_t i = 0; i < kBlockCells; i += 8) {
+  for (std::size_t cell = 0; cell < kBlockCells; cell += 8) {
     std::uint64_t eight = 0;
-    std::memcpy(&eight, &flags[i], 8);
-    cells.word(i / 64) |= ((eight >> bit & kLowBits) * kGather >> 56U) << (i % 64);
+    std::memcpy(&eight, &flags[cell], 8);
+    if (eight == 0) continue;
+    eight = transposed(eight);
+    for (std::size_t bit = 0; bit < by_bit_.size(); ++bit)
+      by_bit_[bit].word(cell / 64) |= (eight >> 8 * bit & 0xFFU) << cell % 64;
   }
-  return cells;
 }
 
 void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest) {
-  std::size_t count = 1;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    first_block_[axis] = lowest[axis] >> kBlockBits;
-    size_[axis] = (highest[axis] >> kBlockBits) - first_block_[axis] + 1;
-    count *= static_cast<std::size_t>(size_[axis]);
+  std::size_t blocks = 1;
+  for (unsigned i = 0; i < 3; ++i) {
+    Axis& axis = axes_[i];
+    axis.first = lowest[i] / kSide * kSide;
+    axis.size = (highest[i] / kSide + 1) * kSide - axis.first;
+    const auto size = static_cast<std::size_t>(axis.size);
+    axis.places.resize(size);
+    for (std::size_t at = 0; at < size; ++at)
+      axis.places[at] = at / kSide * blocks * kBlockCells + cell_along(i, static_cast<unsigned>(at));
+    axis.crossings.resize(size + 1);
+    blocks *= size / kSide;
   }
-  index_.assign(count, -1);
+  index_.assign(blocks, -1);
   blocks_.clear();
 }
 
-ScanGrid::Block& ScanGrid::block_of(const octomap::OcTreeKey& key) {
-  auto& index = index_[place_of(key[0], key[1], key[2])];
-  if (index < 0) {
-    index = static_cast<std::int32_t>(blocks_.size());
-    auto& block = blocks_.emplace_back();
-    block.key = block_key(key);
+std::size_t ScanGrid::add_block(std::size_t at) {
+  index_[at] = static_cast<std::int32_t>(blocks_.size());
+  auto& block = blocks_.emplace_back();
+  for (unsigned i = 0; i < 3; ++i) {
+    const auto along = static_cast<std::size_t>(axes_[i].size / kSide);
+    block.key[i] = static_cast<std::uint16_t>(axes_[i].first + static_cast<int>(at % along) * kSide);
+    at /= along;
   }
-  return blocks_[static_cast<std::size_t>(index)];
+  return blocks_.size() - 1;
 }
 
 void ScanGrid::mark_beside(const octomap::OcTreeKey& key) {
-  const auto from = [&](unsigned axis) { return std::max(key[axis] - 1, first_block_[axis] << kBlockBits); };
-  const auto to = [&](unsigned axis) {
-    return std::min(key[axis] + 1, ((first_block_[axis] + size_[axis]) << kBlockBits) - 1);
-  };
-  for (int z = from(2); z <= to(2); ++z)
-    for (int y = from(1); y <= to(1); ++y)
-      for (int x = from(0); x <= to(0); ++x) {
-        const std::int32_t block = index_[place_of(x, y, z)];
-        if (block < 0) continue;
-        blocks_[static_cast<std::size_t>(block)]
-            .flags[cell_of(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z))] |=
-            kBesideSurface;
+  std::array<std::array<Place, 3>, 3> places;  // by axis
+  std::array<std::size_t, 3> count{};
+  for (unsigned i = 0; i < 3; ++i)
+    for (int at = std::max(key[i] - 1, axes_[i].first); at <= key[i] + 1; ++at)
+      if (at < axes_[i].first + axes_[i].size) places[i][count[i]++] = axes_[i].place(at);
+  for (std::size_t z = 0; z < count[2]; ++z)
+    for (std::size_t y = 0; y < count[1]; ++y)
+      for (std::size_t x = 0; x < count[0]; ++x) {
+        const Place place = places[0][x] + places[1][y] + places[2][z];
+        const std::int32_t block = index_[place / kBlockCells];
+        if (block >= 0) blocks_[static_cast<std::size_t>(block)].flags[place % kBlockCells] |= kBesideSurface;
       }
 }
 
+/// Finds the crossings of a ray along the axis; after the last one there is one that comes never.
+/// @return how many there are.
+int ScanGrid::Axis::cross(double from, double to) {
+  int at = static_cast<int>(from);  // floor: keys are not negative
+  const int steps = static_cast<int>(to) - at;
+  const int step = steps < 0 ? -1 : 1;
+  const double delta = 1 / std::abs(to - from);  // share of the ray from border to border
+  double share = std::abs(at + (step > 0 ? 1 : 0) - from) * delta;
+  Crossing* crossing = crossings.data();
+  for (int left = std::abs(steps); left > 0; --left, at += step, share += delta)
+    *crossing++ = {std::bit_cast<std::int64_t>(share), place(at)};
+  *crossing = {kNever, place(at)};
+  return std::abs(steps);
+}
+
 void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
-  RayAxis x(from.x(), to.x());
-  RayAxis y(from.y(), to.y());
-  RayAxis z(from.z(), to.z());
-  Block* block = nullptr;
-  int block_x = -1;  // a voxel of the block
-  int block_y = -1;
-  int block_z = -1;
-  for (int steps = x.left + y.left + z.left; steps > 0; --steps) {
-    if (((x.key ^ block_x) | (y.key ^ block_y) | (z.key ^ block_z)) >> kBlockBits != 0) {
-      block_x = x.key;
-      block_y = y.key;
-      block_z = z.key;
-      block = &block_of({static_cast<std::uint16_t>(x.key), static_cast<std::uint16_t>(y.key),
-                         static_cast<std::uint16_t>(z.key)});
-    }
-    block->flags[cell_of(static_cast<unsigned>(x.key), static_cast<unsigned>(y.key),
-                         static_cast<unsigned>(z.key))] |= flag;
-    const bool go_x = (x.next <= y.next) & (x.next <= z.next);
-    const bool go_y = !go_x & (y.next <= z.next);
-    x.advance(go_x);
-    y.advance(go_y);
-    z.advance(!(go_x | go_y));
+  int steps = 0;
+  for (unsigned i = 0; i < 3; ++i) steps += axes_[i].cross(from[i], to[i]);
+  const Crossing* x = axes_[0].crossings.data();
+  const Crossing* y = axes_[1].crossings.data();
+  const Crossing* z = axes_[2].crossings.data();
+  for (; steps > 0; --steps) {
+    flags_at(x->place + y->place + z->place) |= flag;
+    // No branches, as nobody can predict which coordinate is next to change.
+    const auto go_x = static_cast<int>(x->share <= y->share) & static_cast<int>(x->share <= z->share);
+    const auto go_y = (1 - go_x) & static_cast<int>(y->share <= z->share);
+    x += go_x;
+    y += go_y;
+    z += 1 - go_x - go_y;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,18 @@ enum ScanFlag : std::uint8_t {
   kBesideSurface = 32,
 };
 
+/// Cells of a block by their flags.
+class FlaggedCells {
+ public:
+  explicit FlaggedCells(const std::array<std::uint8_t, kBlockCells>& flags);
+  [[nodiscard]] const BlockMask& with(ScanFlag flag) const {
+    return by_bit_[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(flag)))];
+  }
+
+ private:
+  std::array<BlockMask, 8> by_bit_;
+};
+
 /// Scratch volume of one keyframe: sparse blocks of 8×8×8 voxels, cells of a block in the octree's child
 /// order, so that eight siblings are eight neighbouring bytes. Each voxel is marked once, however many pixels
 /// and rays touch it.
@@ -29,10 +42,6 @@ class ScanGrid {
   struct Block {
     octomap::OcTreeKey key;  // of the block's lowest voxel
     std::array<std::uint8_t, kBlockCells> flags{};
-    std::array<std::uint32_t, kBlockCells> slot;  // index of a surface voxel; valid where kSurface is set
-
-    /// Cells that have a flag.
-    [[nodiscard]] BlockMask cells(ScanFlag flag) const;
   };
 
   /// Empties the grid and makes it cover the keys from `lowest` to `highest`, both included.
@@ -45,7 +54,9 @@ class ScanGrid {
   /// away.
   void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag = kFreeSpace);
 
-  Block& block_of(const octomap::OcTreeKey& key);
+  /// Of a voxel's block, in blocks(); made if there is none yet.
+  std::size_t block_of(const octomap::OcTreeKey& key) { return block_at(place_of(key)); }
+  std::uint8_t& flags_of(const octomap::OcTreeKey& key) { return flags_at(place_of(key)); }
 
   /// Marks a voxel and its 26 neighbours, as far as they are in touched blocks, with kBesideSurface.
   void mark_beside(const octomap::OcTreeKey& key);
@@ -54,18 +65,37 @@ class ScanGrid {
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
  private:
-  /// Of a voxel's block, in index_.
-  [[nodiscard]] std::size_t place_of(int x, int y, int z) const {
-    const auto along = [&](int key, unsigned axis) {
-      return static_cast<std::size_t>((key >> kBlockBits) - first_block_[axis]);
-    };
-    return (along(z, 2) * static_cast<std::size_t>(size_[1]) + along(y, 1)) *
-               static_cast<std::size_t>(size_[0]) +
-           along(x, 0);
-  }
+  /// Of a voxel: its block in index_ × kBlockCells + its cell. A sum over the axes of what each coordinate
+  /// adds.
+  using Place = std::size_t;
+  /// Where a ray goes from voxel to voxel along one axis.
+  struct Crossing {
+    std::int64_t share;  // of the ray up to there, as the bits of a double: positive ones have their order
+    Place place;         // what the coordinate before it adds
+  };
+  struct Axis {
+    int first = 0;              // coordinate
+    int size = 0;               // a multiple of a block's side
+    std::vector<Place> places;  // of coordinates from the first on
+    std::vector<Crossing> crossings;
 
-  std::array<int, 3> first_block_{};
-  std::array<int, 3> size_{};
+    [[nodiscard]] Place place(int coordinate) const {
+      return places[static_cast<std::size_t>(coordinate - first)];
+    }
+    int cross(double from, double to);
+  };
+
+  [[nodiscard]] Place place_of(const octomap::OcTreeKey& key) const {
+    return axes_[0].place(key[0]) + axes_[1].place(key[1]) + axes_[2].place(key[2]);
+  }
+  std::size_t block_at(Place place) {
+    const std::int32_t block = index_[place / kBlockCells];
+    return block >= 0 ? static_cast<std::size_t>(block) : add_block(place / kBlockCells);
+  }
+  std::uint8_t& flags_at(Place place) { return blocks_[block_at(place)].flags[place % kBlockCells]; }
+  std::size_t add_block(std::size_t at);
+
+  std::array<Axis, 3> axes_;
   std::vector<std::int32_t> index_;  // of a block in blocks_, -1 if untouched
   std::vector<Block> blocks_;
 };

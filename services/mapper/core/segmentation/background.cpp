@@ -15,28 +15,30 @@ constexpr double kWiderThanAPersonM = 0.16;  // standard deviation along the nar
 constexpr float kParallel = 0.9F;            // cosine between a pixel's normal and its plane's
 constexpr int kToNeighbour = 3;              // sampled pixels, between which a normal is measured
 
-bool is_in_a_box(const KeyframeRecord& record, std::size_t pixel, std::span<const geometry::Box2> boxes) {
-  const auto width = static_cast<std::size_t>(record.grid.width);
-  const auto x = static_cast<double>(pixel % width) * record.grid.stride;
-  const auto y = static_cast<double>(pixel / width) * record.grid.stride;
-  return std::ranges::any_of(boxes, [&](const geometry::Box2& box) { return box.contains(x, y); });
+/// 1 for each pixel in one of the boxes.
+std::vector<std::uint8_t> pixels_in(std::span<const geometry::Box2> boxes, const PixelGrid& grid) {
+  std::vector<std::uint8_t> inside;
+  inside.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  for (int row = 0; row < grid.height; ++row)
+    for (int column = 0; column < grid.width; ++column)
+      inside.push_back(std::ranges::any_of(boxes, [&](const geometry::Box2& box) {
+        return box.contains(column * grid.stride, row * grid.stride);
+      }));
+  return inside;
 }
 
 bool goes_on_outside(const FlatSurface& surface, const KeyframeRecord& record,
-                     std::span<const geometry::Box2> movable) {
+                     const std::vector<std::uint8_t>& in_boxes) {
   PointSums outside;
   for (const auto i : surface.pixels)
-    if (!is_dynamic(record, i) && !is_in_a_box(record, i, movable))
-      outside.add(record.point_in_camera(i).cast<double>());
+    if (in_boxes[i] == 0 && !is_dynamic(record, i)) outside.add(record.point_in_camera(i).cast<double>());
   return outside.count() >= kMinPlaneShare * static_cast<double>(record.size()) &&
          outside.narrow_deviation_m() >= kWiderThanAPersonM;
 }
 
 /// True where the normal at a pixel is that of the plane: the plane's pixels include those of a person who
 /// stands in it.
-bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel) {
-  const int column = record.grid.column(pixel);
-  const int row = record.grid.row(pixel);
+bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pixel, int column, int row) {
   if (std::min(column, row) < kToNeighbour || column + kToNeighbour >= record.grid.width ||
       row + kToNeighbour >= record.grid.height)
     return false;
@@ -54,14 +56,17 @@ bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pi
 
 }  // namespace
 
-std::vector<bool> find_background(const KeyframeRecord& record, std::span<const geometry::Box2> movable,
-                                  const SegmentationConfig& config) {
+std::vector<std::uint8_t> find_background(const KeyframeRecord& record,
+                                          std::span<const geometry::Box2> movable,
+                                          const SegmentationConfig& config) {
   if (movable.empty()) return {};
-  std::vector<bool> background(record.size(), false);
+  const auto in_boxes = pixels_in(movable, record.grid);
+  std::vector<std::uint8_t> background(record.size(), 0);
   for (const FlatSurface& surface : find_planes(record, config)) {
-    if (!goes_on_outside(surface, record, movable)) continue;
-    for (const auto i : surface.pixels)
-      if (lies_along(surface.plane, record, i)) background[i] = true;
+    if (!goes_on_outside(surface, record, in_boxes)) continue;
+    record.grid.for_each(surface.pixels, [&](std::size_t i, int column, int row) {
+      if (lies_along(surface.plane, record, i, column, row)) background[i] = 1;
+    });
   }
   return background;
 }

@@ -13,8 +13,9 @@ namespace rds::mapper {
 ///
 /// @param record   with classes by depth.
 /// @param movable  boxes [px of the full picture], rims included.
-/// @return per pixel; empty without boxes.
-std::vector<bool> find_background(const KeyframeRecord& record, std::span<const geometry::Box2> movable,
-                                  const SegmentationConfig& config);
+/// @return 1 for each such pixel, 0 for others; empty without boxes.
+std::vector<std::uint8_t> find_background(const KeyframeRecord& record,
+                                          std::span<const geometry::Box2> movable,
+                                          const SegmentationConfig& config);
 
 }  // namespace rds::mapper

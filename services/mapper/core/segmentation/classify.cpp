@@ -53,13 +53,14 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
       const auto i = record.grid.index(column, row);
       const auto depth = record.depth_tenth_mm[i];
       auto& its_class = record.classes[i];
-      its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;  // rule 1
+      its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;      // rule 1
       if (depth == 0 || depth < nearest || !is_on_surface(record, column, row, config)) continue;  // rule 2
-      its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                  // rule 3
+      its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                      // rule 3
     }
 }
 
 void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
+  if (masks.empty() && record.movable.pixels.empty()) return;  // rules 4 to 8 have nothing to say
   for (std::size_t i = 0; i < record.size(); ++i) record.classes[i] = class_of(i, record, masks);
   doubt_near_dynamic(record, masks, config);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -15,11 +15,14 @@ constexpr int kNoReturnRadius = 4;  // sampled pixels
 constexpr std::uint32_t kMinPixels = 8;
 constexpr int kOneMetre = 10000;  // in depth_tenth_mm
 
-/// Disjoint sets of pixels; the lowest one stands for its set.
-class PixelSets {
+/// Disjoint sets of runs; the lowest one stands for its set.
+class RunSets {
  public:
-  explicit PixelSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
+  /// @return a set of its own.
+  std::uint32_t add() {
+    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    return parent_.back();
+  }
   std::uint32_t root(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -38,32 +41,77 @@ bool may_be_static(PixelClass c) {
   return looks_static(c) || c == PixelClass::kUnknown;
 }
 
-PixelSets join_neighbours(const KeyframeRecord& record) {
-  PixelSets sets(record.size());
-  constexpr auto kStepAt1m = static_cast<int>(kSurfaceStepM * kOneMetre);
-  const auto width = static_cast<std::size_t>(record.grid.width);
-  const auto try_join = [&](std::size_t a, std::size_t b) {
-    if (!may_be_static(record.classes[b])) return;
-    const int depth = record.depth_tenth_mm[a];
-    const int step = depth <= kOneMetre ? kStepAt1m : depth / 100 * kStepAt1m / 100;
-    if (std::abs(record.depth_tenth_mm[b] - depth) <= step)
-      sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-  };
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    if (!may_be_static(record.classes[i])) continue;
-    if (i % width != 0) try_join(i, i - 1);
-    if (i >= width) try_join(i, i - width);
+/// Pixels of a row that are connected one by one.
+struct Run {
+  std::uint32_t first;
+  std::uint32_t end;
+};
+
+/// The runs of a picture in order, and which of them are connected.
+class Runs {
+ public:
+  explicit Runs(const KeyframeRecord& record) : record_(record), above_(width()), row_(width()) {
+    for (std::size_t first = 0; first < record.size(); first += width()) {
+      add_row(static_cast<std::uint32_t>(first));
+      std::swap(above_, row_);
+    }
   }
-  return sets;
-}
+  /// Calls visit(run, the first run of its surface) for each run.
+  template <class Visit>
+  void for_each(Visit visit) {
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) visit(i, sets_.root(i));
+  }
+  [[nodiscard]] std::size_t size() const { return runs_.size(); }
+  [[nodiscard]] const Run& operator[](std::size_t run) const { return runs_[run]; }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFF'FFFF;
+
+  [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(record_.grid.width); }
+
+  void add_row(std::uint32_t first) {
+    constexpr auto kStepAt1m = static_cast<int>(kSurfaceStepM * kOneMetre);
+    const std::uint16_t* depths = &record_.depth_tenth_mm[first];
+    const PixelClass* classes = &record_.classes[first];
+    const std::size_t width = this->width();
+    std::uint32_t run = kNone;
+    std::uint32_t joined = kNone;  // the run above that it was joined with last
+    for (std::uint32_t x = 0; x < width; ++x) {
+      if (!may_be_static(classes[x])) {
+        row_[x] = run = kNone;
+        continue;
+      }
+      const int depth = depths[x];
+      const int step = depth <= kOneMetre ? kStepAt1m : depth / 100 * kStepAt1m / 100;
+      const auto is_connected = [&](int other) { return std::abs(other - depth) <= step; };
+      if (run == kNone || !is_connected(depths[x - 1])) {
+        run = sets_.add();
+        runs_.push_back({first + x, first + x});
+        joined = kNone;
+      }
+      row_[x] = run;
+      ++runs_[run].end;
+      if (first == 0 || above_[x] == kNone || above_[x] == joined) continue;
+      if (!is_connected(*(depths + x - width))) continue;
+      joined = above_[x];
+      sets_.join(run, joined);
+    }
+  }
+
+  const KeyframeRecord& record_;
+  RunSets sets_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> above_;  // the run of each pixel in the row before
+  std::vector<std::uint32_t> row_;
+};
 
 }  // namespace
 
 cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
   cv::Mat1b none(record.grid.height, record.grid.width);
-  for (int row = 0; row < record.grid.height; ++row)
-    for (int column = 0; column < record.grid.width; ++column)
-      none(row, column) = record.depth_tenth_mm[record.grid.index(column, row)] == 0 ? 255 : 0;
+  std::ranges::transform(record.depth_tenth_mm, none.begin(), [](std::uint16_t depth) {
+    return depth == 0 ? std::uint8_t{255} : std::uint8_t{0};
+  });
   const int side = 2 * kNoReturnRadius + 1;
   cv::erode(none, none, cv::getStructuringElement(cv::MORPH_RECT, {side, side}), {-1, -1}, 1,
             cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -72,32 +120,41 @@ cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
 
 bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config) {
   constexpr float kToleranceAt1m = static_cast<float>(kSurfaceStepM) * kTenthMmPerM;
+  const int width = record.grid.width;
   const std::uint16_t* middle = &record.depth_tenth_mm[record.grid.index(column, row)];
   const int depth = *middle;
   const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
   const auto tolerance = static_cast<int>(kToleranceAt1m * scale);
-  const int left = column > 0 ? -1 : 0;
-  const int right = column + 1 < record.grid.width ? 1 : 0;
+  const auto near = [&](int r, int c) {
+    return std::abs(middle[r * width + c] - depth) <= tolerance ? 1 : 0;
+  };
+  const bool has_all = column > 0 && row > 0 && column + 1 < width && row + 1 < record.grid.height;
+  if (has_all) {
+    int count = near(0, -1) + near(0, 1) + near(-1, 0);  // mostly enough
+    if (count >= config.edge_support) return true;
+    count += near(1, 0) + near(-1, -1) + near(-1, 1) + near(1, -1) + near(1, 1);
+    return count >= config.edge_support;
+  }
   int count = -1;  // itself
-  for (int r = row > 0 ? -1 : 0; r <= (row + 1 < record.grid.height ? 1 : 0) && count < config.edge_support;
-       ++r)
-    for (int c = left; c <= right; ++c)
-      count += std::abs(middle[r * record.grid.width + c] - depth) <= tolerance ? 1 : 0;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, record.grid.height - 1); ++r)
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, width - 1); ++c)
+      count += near(r - row, c - column);
   return count >= config.edge_support;
 }
 
 std::uint16_t find_surfaces(const KeyframeRecord& record, std::vector<std::uint16_t>& surface) {
-  PixelSets sets = join_neighbours(record);
-  std::vector<std::uint32_t> pixels(record.size(), 0);
-  for (std::uint32_t i = 0; i < record.size(); ++i) ++pixels[sets.root(i)];
-  surface.assign(record.size(), 0);
+  Runs runs(record);
+  std::vector<std::uint32_t> pixels(runs.size(), 0);  // of the surface that begins with a run
+  runs.for_each(
+      [&](std::uint32_t run, std::uint32_t first) { pixels[first] += runs[run].end - runs[run].first; });
+  std::vector<std::uint16_t> numbers(runs.size(), 0);
   std::uint16_t surfaces = 0;
-  for (std::uint32_t i = 0; i < record.size(); ++i) {
-    const std::uint32_t root = sets.root(i);
-    if (pixels[root] < kMinPixels || !may_be_static(record.classes[i])) continue;
-    if (root == i && surfaces < std::numeric_limits<std::uint16_t>::max()) surface[i] = ++surfaces;
-    surface[i] = surface[root];
-  }
+  surface.assign(record.size(), 0);
+  runs.for_each([&](std::uint32_t run, std::uint32_t first) {
+    if (run == first && pixels[run] >= kMinPixels && surfaces < std::numeric_limits<std::uint16_t>::max())
+      numbers[run] = ++surfaces;
+    std::fill(surface.begin() + runs[run].first, surface.begin() + runs[run].end, numbers[first]);
+  });
   return surfaces;
 }
 

@@ -9,14 +9,15 @@ namespace rds::mapper {
 
 /// What the boxes of movable objects tell of a keyframe's sampled pixels. All empty without such boxes.
 struct DynamicMasks {
-  std::vector<std::uint8_t> object;  // 1 in the depth cut of an object
-  std::vector<std::uint8_t> beside;  // 1 in the rim around a cut, and in small parts apart from it
-  std::vector<bool> background;      // on a plane that goes on outside of all boxes
+  std::vector<std::uint8_t> object;      // 1 in the depth cut of an object
+  std::vector<std::uint8_t> beside;      // 1 in the rim around a cut, and in small parts apart from it
+  std::vector<std::uint8_t> background;  // 1 on a plane that goes on outside of all boxes
 
+  [[nodiscard]] bool empty() const { return object.empty(); }
   [[nodiscard]] bool is_object(std::size_t pixel) const { return !object.empty() && object[pixel] != 0; }
   [[nodiscard]] bool is_beside(std::size_t pixel) const { return !beside.empty() && beside[pixel] != 0; }
   [[nodiscard]] bool is_background(std::size_t pixel) const {
-    return !background.empty() && background[pixel];
+    return !background.empty() && background[pixel] != 0;
   }
 };
 

@@ -9,8 +9,8 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kInnerShare = 0.6;  // part of the box, about its centre, in which the object surely lies
-constexpr int kStaticMarginPx = 4;   // narrow: nothing may be added to a static object
+constexpr double kInnerShare = 0.6;     // part of the box, about its centre, in which the object surely lies
+constexpr int kStaticMarginPx = 4;      // narrow: nothing may be added to a static object
 constexpr double kStaticBefore = 0.4;   // share of kHalfDepthM: things stand before tables
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 constexpr double kMinInside = 0.05;     // share of a connected part that lies in the box as it was detected
@@ -69,8 +69,11 @@ DepthInterval depth_limits(const LabelledBox& box, const KeyframeRecord& record)
 /// Depth of the object's visible side [m]; 0 if too little was measured.
 float object_depth(std::vector<float> depths) {
   if (depths.size() < kMinDepths) return 0;
-  std::ranges::sort(depths);
-  return (depths[depths.size() / 2] + depths[depths.size() / 3]) / 2;
+  const auto median = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  const auto third = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 3);
+  std::nth_element(depths.begin(), median, depths.end());
+  std::nth_element(depths.begin(), third, median);
+  return (*median + *third) / 2;
 }
 
 /// Depth of the object in a box, from the box's inner part if that shows enough [m]; 0 if unknown.
@@ -138,17 +141,6 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   if (!box.box_in_map || !box.box_in_map->min.allFinite() || !box.box_in_map->max.allFinite())
     return std::nullopt;
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
-}
-
-bool ObjectPlace::is_in_box(const KeyframeRecord& record, std::size_t pixel) const {
-  const int column = record.grid.column(pixel);
-  const int row = record.grid.row(pixel);
-  return box_px.contains(column * record.grid.stride, row * record.grid.stride);
-}
-
-bool ObjectPlace::contains(const KeyframeRecord& record, std::size_t pixel) const {
-  const float depth = record.depth_m(pixel);
-  return is_in_box(record, pixel) && depth >= min_depth_m && depth <= max_depth_m;
 }
 
 std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const LabelledBox& box) {

@@ -37,8 +37,13 @@ struct ObjectPlace {
   float min_depth_m = 0;
   float max_depth_m = 0;
 
-  [[nodiscard]] bool is_in_box(const KeyframeRecord& record, std::size_t pixel) const;
-  [[nodiscard]] bool contains(const KeyframeRecord& record, std::size_t pixel) const;
+  /// @param column, row  of a sampled pixel.
+  [[nodiscard]] bool is_in_box(const PixelGrid& grid, int column, int row) const {
+    return box_px.contains(column * grid.stride, row * grid.stride);
+  }
+  [[nodiscard]] bool is_at_depth(float depth_m) const {
+    return depth_m >= min_depth_m && depth_m <= max_depth_m;
+  }
 };
 
 /// The place of an object: its 3-D box if known, else its depth in the picture give or take kHalfDepthM.

@@ -22,12 +22,14 @@ class PointSums {
   void add(const Eigen::Vector3d& p) {
     ++count_;
     sum_ += p;
-    products_ += p * p.transpose();
+    squares_ += p.cwiseProduct(p);
+    mixed_ += Eigen::Vector3d(p.x() * p.y(), p.x() * p.z(), p.y() * p.z());
   }
   void add(const PointSums& other) {
     count_ += other.count_;
     sum_ += other.sum_;
-    products_ += other.products_;
+    squares_ += other.squares_;
+    mixed_ += other.mixed_;
   }
 
   [[nodiscard]] double count() const { return count_; }
@@ -55,12 +57,17 @@ class PointSums {
     return solver;
   }
   [[nodiscard]] Eigen::Matrix3d covariance() const {
-    return products_ / count_ - mean() * mean().transpose();
+    Eigen::Matrix3d products;
+    products << squares_.x(), mixed_[0], mixed_[1],  //
+        mixed_[0], squares_.y(), mixed_[2],          //
+        mixed_[1], mixed_[2], squares_.z();
+    return products / count_ - mean() * mean().transpose();
   }
 
   double count_ = 0;
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();  // Σ x², y², z²
+  Eigen::Vector3d mixed_ = Eigen::Vector3d::Zero();    // Σ xy, xz, yz
 };
 
 }  // namespace rds::mapper

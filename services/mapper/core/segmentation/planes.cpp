@@ -2,23 +2,31 @@
 #include "services/mapper/core/segmentation/planes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <utility>
 
 namespace rds::mapper {
 namespace {
 
-constexpr double kPlaneDistanceM = 0.01;  // relief of walls and table tops, beside the noise of depth
-constexpr int kCellPx = 8;                // side of a cell in sampled pixels
-constexpr double kMinMeasured = 0.5;      // share of a cell's pixels
-constexpr std::size_t kBlock = 9;         // cells, 3×3, that a plane begins with
+constexpr int kCellPx = 8;            // side of a cell in sampled pixels
+constexpr double kMinMeasured = 0.5;  // share of a cell's pixels
+constexpr std::size_t kBlock = 9;     // cells, 3×3, that a plane begins with
 
 using CellIndices = std::vector<std::size_t>;
 
-/// Of a pixel from its plane at this depth.
-double tolerance_m(double depth_m, const SegmentationConfig& config) {
-  return kPlaneDistanceM + config.plane_noise * depth_m * depth_m;
-}
+/// Up to kBlock cells.
+class Block {
+ public:
+  void push_back(std::size_t cell) { cells_[size_++] = cell; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const std::size_t* begin() const { return cells_.data(); }
+  [[nodiscard]] const std::size_t* end() const { return cells_.data() + size_; }
+
+ private:
+  std::array<std::size_t, kBlock> cells_{};
+  std::size_t size_ = 0;
+};
 
 /// The cells of a picture; free are those that are no part of a plane yet.
 class Cells {
@@ -30,8 +38,11 @@ class Cells {
         rows_((record.grid.height + kCellPx - 1) / kCellPx),
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
-    for (std::size_t i = 0; i < record.size(); ++i)
-      if (looks_static(record.classes[i])) sums_[cell_of(i)].add(record.point_in_camera(i).cast<double>());
+    for (std::size_t cell = 0; cell < sums_.size(); ++cell)
+      for (int row = 0; row < rows_in(cell); ++row)
+        for_row_of(cell, row, [&](std::size_t i) {
+          if (looks_static(record.classes[i])) sums_[cell].add(record.point_in_camera(i).cast<double>());
+        });
     for (std::size_t i = 0; i < sums_.size(); ++i)
       free_[i] = sums_[i].count() >= kMinMeasured * kCellPx * kCellPx;
   }
@@ -40,7 +51,7 @@ class Cells {
   [[nodiscard]] CellIndices seeds() const {
     std::vector<std::pair<double, std::size_t>> flat;
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const auto block = free_around(i);
+      const Block block = free_around(i);
       if (block.size() < kBlock) continue;
       const PointSums points = sum(block);
       const double share = points.deviation_m(points.plane()) / limit_m(points);
@@ -54,8 +65,9 @@ class Cells {
 
   /// Takes the cells that are connected with a seed's block in one plane; none where other planes have some.
   CellIndices take_region(std::size_t seed) {
-    CellIndices region = free_around(seed);
-    if (region.size() < kBlock) return {};
+    const Block block = free_around(seed);
+    if (block.size() < kBlock) return {};
+    CellIndices region(block.begin(), block.end());
     PointSums points = sum(region);
     for (const auto i : region) free_[i] = false;
     Plane plane = points.plane();
@@ -81,25 +93,38 @@ class Cells {
   /// A region's plane with all its pixels; takes the free cells that lie on it, too.
   FlatSurface take_surface(const CellIndices& region) {
     FlatSurface surface{sum(region).plane(), {}};
-    std::vector<bool> near(sums_.size(), false);
+    std::vector<std::uint8_t> near(sums_.size(), 0);
     const auto take = [&](std::size_t cell) {
       free_[cell] = false;
-      for_block(cell, [&](std::size_t i) { near[i] = true; });
+      for_block(cell, [&](std::size_t i) { near[i] = 1; });
     };
     for (const auto i : region) take(i);
     for (std::size_t i = 0; i < sums_.size(); ++i)
       if (free_[i] && is_on(surface.plane, sums_[i])) take(i);
-    for (std::size_t i = 0; i < record_.size(); ++i)
-      if (near[cell_of(i)] && looks_static(record_.classes[i]) &&
-          lies_on(surface.plane, record_.point_in_camera(i), config_))
-        surface.pixels.push_back(i);
+    for (int row = 0; row < record_.grid.height; ++row)
+      for (int column = 0; column < columns_; ++column) {
+        const auto cell = static_cast<std::size_t>(row / kCellPx * columns_ + column);
+        if (near[cell] == 0) continue;
+        for_row_of(cell, row % kCellPx, [&](std::size_t i) {
+          if (looks_static(record_.classes[i]) && lies_on(surface.plane, record_.point_in_camera(i), config_))
+            surface.pixels.push_back(i);
+        });
+      }
     return surface;
   }
 
  private:
-  [[nodiscard]] std::size_t cell_of(std::size_t pixel) const {
-    const auto width = static_cast<std::size_t>(record_.grid.width);
-    return pixel / width / kCellPx * static_cast<std::size_t>(columns_) + pixel % width / kCellPx;
+  [[nodiscard]] int rows_in(std::size_t cell) const {
+    return std::min(kCellPx, record_.grid.height - static_cast<int>(cell) / columns_ * kCellPx);
+  }
+  /// Calls visit(pixel) for one row of a cell's pixels.
+  template <class Visit>
+  void for_row_of(std::size_t cell, int row, Visit visit) const {
+    const int x = static_cast<int>(cell) % columns_ * kCellPx;
+    const int y = static_cast<int>(cell) / columns_ * kCellPx + row;
+    const std::size_t first = record_.grid.index(x, y);
+    const auto count = static_cast<std::size_t>(std::min(kCellPx, record_.grid.width - x));
+    for (std::size_t i = first; i < first + count; ++i) visit(i);
   }
 
   template <class Visit>
@@ -110,15 +135,16 @@ class Cells {
       for (int u = std::max(0, x - 1); u <= std::min(columns_ - 1, x + 1); ++u)
         visit(static_cast<std::size_t>(v * columns_ + u));
   }
-  [[nodiscard]] CellIndices free_around(std::size_t middle) const {
-    CellIndices cells;
+  [[nodiscard]] Block free_around(std::size_t middle) const {
+    Block cells;
     for_block(middle, [&](std::size_t i) {
       if (free_[i]) cells.push_back(i);
     });
     return cells;
   }
 
-  [[nodiscard]] PointSums sum(const CellIndices& cells) const {
+  template <class CellList>
+  [[nodiscard]] PointSums sum(const CellList& cells) const {
     PointSums points;
     for (const auto i : cells) points.add(sums_[i]);
     return points;
@@ -140,10 +166,6 @@ class Cells {
 };
 
 }  // namespace
-
-bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const SegmentationConfig& config) {
-  return std::abs(plane.distance_m(point.cast<double>())) < tolerance_m(double{point.z()}, config);
-}
 
 std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const SegmentationConfig& config) {
   Cells cells(record, config);

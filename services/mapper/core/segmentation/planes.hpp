@@ -15,8 +15,15 @@ struct FlatSurface {
 /// Share of the picture that a plane fills at least: 10 000 px of 640×480.
 inline constexpr double kMinPlaneShare = 0.033;
 
+/// How far from its plane a point is measured at most, at this depth [m].
+inline double tolerance_m(double depth_m, const SegmentationConfig& config) {
+  constexpr double kReliefM = 0.01;  // of walls and table tops, beside the noise of depth
+  return kReliefM + config.plane_noise * depth_m * depth_m;
+}
 /// True for a point in the camera's frame that is measured as well as on the plane.
-bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const SegmentationConfig& config);
+inline bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const SegmentationConfig& config) {
+  return std::abs(plane.distance_m(point.cast<double>())) < tolerance_m(double{point.z()}, config);
+}
 
 /// Splits the picture into square cells, fits planes to their points, and joins the cells that deviate from a
 /// common plane no more than depth is noisy: neighbours first, then all others wherever they are, such as the

@@ -40,12 +40,14 @@ class NearInSpace : public pcl::Comparator<Point> {
 };
 
 /// The static points that are on no plane, NaN for all others.
-Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<bool>& on_plane, int stride) {
+Cloud::Ptr organised_cloud(const KeyframeRecord& record, const std::vector<std::uint8_t>& on_plane,
+                           int stride) {
   auto cloud = pcl::make_shared<Cloud>();
+  cloud->reserve(record.size() / static_cast<std::size_t>(stride));
   for (int y = 0; y < record.grid.height; y += stride)
     for (int x = 0; x < record.grid.width; x += stride) {
       const auto i = record.grid.index(x, y);
-      const bool used = looks_static(record.classes[i]) && !on_plane[i];
+      const bool used = looks_static(record.classes[i]) && on_plane[i] == 0;
       const Eigen::Vector3f p = used ? record.point_in_camera(i) : Eigen::Vector3f::Constant(kNan);
       cloud->push_back(Point(p.x(), p.y(), p.z()));
     }
@@ -71,7 +73,7 @@ std::vector<pcl::PointIndices> find_clusters(const Cloud::Ptr& cloud) {
 /// All sampled pixels that the points of a cluster, which are every `stride`-th of every `stride`-th row,
 /// stand for.
 std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, const KeyframeRecord& record,
-                                   const std::vector<bool>& on_plane) {
+                                   const std::vector<std::uint8_t>& on_plane) {
   const int columns = (record.grid.width + stride - 1) / stride;
   std::vector<std::size_t> pixels;
   for (const int index : indices) {
@@ -81,7 +83,7 @@ std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, cons
     for (int y = y0; y < std::min(record.grid.height, y0 + stride); ++y)
       for (int x = x0; x < std::min(record.grid.width, x0 + stride); ++x) {
         const auto i = record.grid.index(x, y);
-        if (!on_plane[i] && std::abs(record.depth_tenth_mm[i] - depth) <= kSameSurfaceTenthMm)
+        if (on_plane[i] == 0 && std::abs(record.depth_tenth_mm[i] - depth) <= kSameSurfaceTenthMm)
           pixels.push_back(i);
       }
   }
@@ -92,12 +94,10 @@ std::vector<std::size_t> pixels_of(const pcl::Indices& indices, int stride, cons
 geometry::Box2 box_around(const std::vector<std::size_t>& pixels, const KeyframeRecord& record) {
   geometry::Box2 box{1e9, 1e9, -1e9, -1e9};
   const double s = record.grid.stride;
-  for (const auto i : pixels) {
-    const auto x = static_cast<double>(i % static_cast<std::size_t>(record.grid.width));
-    const auto y = static_cast<double>(i / static_cast<std::size_t>(record.grid.width));
+  record.grid.for_each(pixels, [&](std::size_t, int x, int y) {
     box = {std::min(box.x0, x * s), std::min(box.y0, y * s), std::max(box.x1, (x + 1) * s),
            std::max(box.y1, (y + 1) * s)};
-  }
+  });
   return box;
 }
 
@@ -105,9 +105,9 @@ geometry::Box2 box_around(const std::vector<std::size_t>& pixels, const Keyframe
 
 std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationConfig& config) {
   std::vector<Segment> segments;
-  std::vector<bool> on_plane(record.size(), false);
+  std::vector<std::uint8_t> on_plane(record.size(), 0);
   for (auto& surface : find_planes(record, config)) {
-    for (const auto i : surface.pixels) on_plane[i] = true;
+    for (const auto i : surface.pixels) on_plane[i] = 1;
     const auto box = box_around(surface.pixels, record);
     segments.push_back({box, std::move(surface.pixels), surface.plane});
   }

@@ -15,9 +15,11 @@ bool overlap(const geometry::Box2& a, const geometry::Box2& b) {
 }
 
 bool lies_in(const ObjectPlace& place, const Segment& segment, const KeyframeRecord& record) {
-  const auto inside =
-      std::ranges::count_if(segment.pixels, [&](std::size_t i) { return place.contains(record, i); });
-  return static_cast<double>(inside) >= kMostly * static_cast<double>(segment.pixels.size());
+  double inside = 0;
+  record.grid.for_each(segment.pixels, [&](std::size_t i, int column, int row) {
+    inside += place.is_at_depth(record.depth_m(i)) && place.is_in_box(record.grid, column, row) ? 1 : 0;
+  });
+  return inside >= kMostly * static_cast<double>(segment.pixels.size());
 }
 
 /// Takes the pixels on a plane away, if the others lie on one side of it: a plane that passes through an
@@ -52,21 +54,23 @@ StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
                            std::span<const Segment> segments, const MapperConfig& config) {
   const auto place = object_place(record, box);
   if (!place) return {};
-  std::vector<bool> is_object(record.size(), false);
+  std::vector<std::uint8_t> is_object(record.size(), 0);
   const auto region = object_region(record, box).pixels;
-  for (const auto i : region) is_object[i] = true;
+  for (const auto i : region) is_object[i] = 1;
   std::vector<Plane> elsewhere;
   for (const auto& segment : segments) {
     if (!overlap(segment.box_px, place->box_px)) continue;
     const bool own = lies_in(*place, segment, record);
-    for (const auto i : segment.pixels) is_object[i] = own && place->is_in_box(record, i);
+    record.grid.for_each(segment.pixels, [&](std::size_t i, int column, int row) {
+      is_object[i] = own && place->is_in_box(record.grid, column, row);
+    });
     if (!own && segment.plane) elsewhere.push_back(*segment.plane);
   }
   StaticObject object{{}, is_flush(region, elsewhere, record, config.segmentation)};
   if (object.flush)
-    for (const auto i : region) is_object[i] = true;
+    for (const auto i : region) is_object[i] = 1;
   for (std::size_t i = 0; i < is_object.size(); ++i)
-    if (is_object[i] && looks_static(record.classes[i])) object.pixels.push_back(i);
+    if (is_object[i] != 0 && looks_static(record.classes[i])) object.pixels.push_back(i);
   for (const auto& plane : elsewhere) remove_support(plane, record, config.segmentation, object.pixels);
   return object;
 }

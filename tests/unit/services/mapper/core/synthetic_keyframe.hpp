@@ -60,7 +60,7 @@ class SyntheticKeyframe {
 
 /// A keyframe with classes by depth alone.
 inline KeyframeRecord measured(const KeyframeInput& input, const SamplingConfig& config = {}) {
-  auto record = make_record(input, config, sample_rays(input.camera, config.stride_px));
+  auto record = make_record(input, config, std::make_shared<SampledRays>(input.camera, config.stride_px));
   classify_by_depth(record, config);
   return record;
 }
@@ -68,7 +68,8 @@ inline KeyframeRecord measured(const KeyframeInput& input, const SamplingConfig&
 /// What the mapper makes of a keyframe and its boxes.
 inline KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels,
                                 const MapperConfig& config = {}) {
-  auto record = make_record(input, config.sampling, sample_rays(input.camera, config.sampling.stride_px));
+  auto record = make_record(input, config.sampling,
+                            std::make_shared<SampledRays>(input.camera, config.sampling.stride_px));
   interpret(record, input.boxes, config, labels);
   return record;
 }

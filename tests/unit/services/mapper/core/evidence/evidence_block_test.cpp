@@ -20,7 +20,7 @@ std::shared_ptr<KeyframeView> random_view(std::mt19937& random) {
   const BlockSight sight = test::random_sight(random);
   auto view = std::make_shared<KeyframeView>();
   view->set_surfaces({false, false});
-  view->add({0, 0, 0}, sight, test::parts_of(sight));
+  view->add({0, 0, 0}, sight, test::parts_of(sight), test::looks_of(sight, random));
   return view;
 }
 
@@ -60,6 +60,12 @@ class Told {
     };
     expect_same(block_.counts().statics, fresh.counts().statics);
     expect_same(block_.counts().dynamics, fresh.counts().dynamics);
+    for (std::uint16_t cell = 0; cell < kBlockCells; ++cell) {
+      ASSERT_EQ(block_.look(cell) != nullptr, fresh.look(cell) != nullptr);
+      if (fresh.look(cell) == nullptr) continue;
+      EXPECT_EQ(block_.look(cell)->color(), fresh.look(cell)->color());
+      EXPECT_EQ(block_.look(cell)->label(), fresh.look(cell)->label());
+    }
   }
   EvidenceBlock& block() { return block_; }
   [[nodiscard]] bool has(std::uint64_t keyframe) const { return entries_.contains(keyframe); }
@@ -118,7 +124,7 @@ TEST(EvidenceBlock, WhatBecomesFinalStaysAsItIs) {
   told.block().update();
   const BlockOccupancy before = told.block().occupancy();
   for (std::uint64_t keyframe = 0; keyframe < kMany; ++keyframe) {
-    told.block().make_final({static_cast<EvidenceTime>(100 * (keyframe / 2)), keyframe}, {});
+    told.block().make_final({static_cast<EvidenceTime>(100 * (keyframe / 2)), keyframe});
     EXPECT_EQ(told.block().not_added_up(), 0U) << "nothing to add up again";
     if (keyframe % 37U != 0) continue;
     told.block().update();

@@ -52,9 +52,7 @@ class ShownEvidence {
     evidence_.add(record.id, record.time_ns,
                   contribution_of(record, all_.config.octree, all_.config.sampling, scan_));
   }
-  void remove(const KeyframeRecord& record) {
-    evidence_.remove(record.id, surfaces_of(record, all_.config.octree, all_.config.sampling, scan_));
-  }
+  void remove(const KeyframeRecord& record) { evidence_.remove(record.id); }
   void show() { evidence_.update(shown()); }
   std::vector<std::uint8_t> bytes() {
     evidence_.update_all(shown());
@@ -120,9 +118,6 @@ TEST(Evidence, WithoutKeyframesThereIsNoMap) {
 
 TEST(Evidence, FinalKeyframesOutlastTheirBytes) {
   const Records all(3);
-  const auto surfaces = [&](std::size_t i, Scan& scan) {
-    return surfaces_of(all.records[i], all.config.octree, all.config.sampling, scan);
-  };
   const auto show = [&](Evidence& from, SemanticOctree& octree) {
     from.update_all([&](const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& changed) {
       MapDelta unused;
@@ -138,7 +133,7 @@ TEST(Evidence, FinalKeyframesOutlastTheirBytes) {
                  contribution_of(record, all.config.octree, all.config.sampling, scan));
   const auto before = show(evidence, octree);
   EXPECT_GT(before.size(), 1000U);
-  for (std::size_t i = 0; i < kKeyframes; ++i) evidence.make_final(i, surfaces(i, scan));
+  for (std::size_t i = 0; i < kKeyframes; ++i) evidence.make_final(i);
   EXPECT_TRUE(show(evidence, octree) == before);
   map_file::ByteWriter writer;
   evidence.final_map().put(writer);

@@ -24,12 +24,21 @@ TEST(KeyframeView, GivesBackWhatItWasGiven) {
   blocks[2].passed = blocks[2].near_dynamic = BlockMask::all();
   for (int i = 0; i < 20; ++i) blocks.push_back(test::random_sight(random));
   KeyframeView view;
-  for (std::uint16_t i = 0; i < blocks.size(); ++i)
-    view.add({static_cast<std::uint16_t>(8 * i), 16, 24}, blocks[i], test::parts_of(blocks[i]));
+  std::vector<std::vector<SurfaceLook>> looks;
+  for (std::uint16_t i = 0; i < blocks.size(); ++i) {
+    looks.push_back(test::looks_of(blocks[i], random));
+    view.add({static_cast<std::uint16_t>(8 * i), 16, 24}, blocks[i], test::parts_of(blocks[i]), looks[i]);
+  }
   ASSERT_EQ(view.size(), blocks.size());
   for (std::uint16_t i = 0; i < blocks.size(); ++i) {
     expect_same(view.sight(i), blocks[i]);
     EXPECT_EQ(view.key(i)[0], 8 * i);
+    auto look = looks[i].begin();
+    view.for_each_look(i, [&](std::uint16_t cell, const SurfaceLook& its_look) {
+      EXPECT_TRUE(blocks[i].seen_static().has(cell));
+      EXPECT_EQ(its_look, *look++);
+    });
+    EXPECT_EQ(look, looks[i].end());
   }
 }
 
@@ -42,7 +51,7 @@ TEST(KeyframeView, VerdictsDecideWhatSurfacesCount) {
   sight.passed = ~sight.surfaces();
   KeyframeView view;
   view.set_surfaces({false, false});
-  view.add({0, 0, 0}, sight, test::parts_of(sight));
+  view.add({0, 0, 0}, sight, test::parts_of(sight), std::vector<SurfaceLook>(2));
   const auto hits = [&](SurfaceVerdict verdict) {
     view.set_verdicts({SurfaceVerdict::kUndecided, verdict});
     const BlockStep step = view.step(0);

@@ -27,4 +27,15 @@ inline std::vector<SurfacePart> parts_of(const BlockSight& sight) {
   return parts;
 }
 
+/// One of four kinds in any colour for each static or doubtful voxel.
+inline std::vector<SurfaceLook> looks_of(const BlockSight& sight, std::mt19937& random) {
+  std::vector<SurfaceLook> looks;
+  sight.seen_static().for_each([&](std::size_t) {
+    const auto label = static_cast<std::uint16_t>(random() % 3U);
+    const auto beside = static_cast<std::uint16_t>(label == 0 ? random() % 2U : 0U);
+    looks.push_back({{static_cast<std::uint8_t>(random()), 10, 20}, label, true, {beside}});
+  });
+  return looks;
+}
+
 }  // namespace rds::mapper::test

@@ -126,10 +126,16 @@ TEST(Gravity, IsFoundFromTheFloorOfATiltedCamera) {
       const double slope = -keyframe.camera.ray({double{1} * x, double{1} * y}).dot(up_in_camera);
       keyframe.depth.values.at<float>(y, x) = slope > 0.3 ? static_cast<float>(1.2 / slope) : 0.0F;
     }
-  SemanticMapper mapper(MapperConfig{});
+  MapperConfig config;
+  config.grid.up = "surfaces";
+  SemanticMapper mapper(config);
   mapper.integrate(keyframe);
   const Eigen::Vector3d expected = map_from_camera.linear() * up_in_camera;
   EXPECT_GT(mapper.up_in_map().dot(expected), std::cos(0.02));
+}
+
+TEST(Gravity, IsAlongZOfTheMapThatATrackerMakes) {
+  EXPECT_EQ(SemanticMapper(MapperConfig{}).up_in_map(), Eigen::Vector3d::UnitZ());
 }
 
 TEST(Gravity, FallsBackToTheCamerasOwnUpAndToTheConfiguredAxis) {

@@ -46,6 +46,7 @@ void KeyframeRecords::set_anchor(KeyframeId id, KeyframeId anchor, const Pose& a
   if (KeyframeRecord* record = records_.find(id)) {
     record->anchor = anchor;
     record->anchor_from_camera = anchor_from_camera;
+    record->saved_pose.reset();
   }
 }
 

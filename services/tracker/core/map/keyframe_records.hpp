@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 
 #include "services/tracker/core/map/id_table.hpp"
 #include "services/tracker/core/map/keyframe.hpp"
@@ -17,6 +18,8 @@ struct KeyframeRecord {
   KeyframeId anchor = kNoId;  // kNoId while the map holds the keyframe
   Pose anchor_from_camera = Pose::Identity();
   bool pose_only = false;  // never was in the map: no other pose is relative to it
+  std::optional<Pose> saved_pose =
+      std::nullopt;  // map_from_camera to the bit, of one whose anchor never moves
 };
 
 /// The records of every keyframe that ever was. Gives keyframes their ids, none of them twice.
@@ -28,9 +31,11 @@ class KeyframeRecords {
 
   /// A record of a keyframe that the map holds from now on. @return its id.
   KeyframeId add(std::int64_t stamp_ns) { return add({kNoId, stamp_ns, kNoId, Pose::Identity(), false}); }
-  /// Of one that was culled.
-  KeyframeId add_culled(std::int64_t stamp_ns, KeyframeId anchor, const Pose& anchor_from_camera) {
-    return add({kNoId, stamp_ns, anchor, anchor_from_camera, false});
+  /// Of one that was culled in a saved map, whose keyframes never move. @param anchor_from_camera  where
+  /// map_from_camera is in the anchor.
+  KeyframeId add_saved(std::int64_t stamp_ns, KeyframeId anchor, const Pose& anchor_from_camera,
+                       const Pose& map_from_camera) {
+    return add({kNoId, stamp_ns, anchor, anchor_from_camera, false, map_from_camera});
   }
   /// Of one that never was in the map.
   KeyframeId add_pose_only(std::int64_t stamp_ns, KeyframeId anchor, const Pose& anchor_from_camera);

@@ -32,12 +32,12 @@ bool are_in_order(std::span<const KeyframePose> poses) {
 }
 
 /// Takes the poses of culled keyframes below this id from the front of the list.
-void add_culled(std::span<const KeyframePose>& poses, KeyframeId end, MapContents& contents) {
+void add_saved(std::span<const KeyframePose>& poses, KeyframeId end, MapContents& contents) {
   for (; !poses.empty() && poses.front().id < end; poses = poses.subspan(1)) {
     contents.records.skip_ids(poses.front().id);
-    contents.records.add_culled(
-        poses.front().stamp_ns, 0,
-        contents.keyframes.find(0)->map_from_camera.inverse() * poses.front().map_from_camera);
+    const Pose& pose = poses.front().map_from_camera;
+    contents.records.add_saved(poses.front().stamp_ns, 0,
+                               contents.keyframes.find(0)->map_from_camera.inverse() * pose, pose);
   }
   contents.records.skip_ids(end);
 }
@@ -59,7 +59,7 @@ void get_keyframe(ByteReader& reader, std::span<const KeyframePose>& poses, int 
   const bool in_order = is_known && id >= next && (id == 0 || contents.records.contains(0));
   if (!in_order) reader.refuse(fmt::format("keyframe {} where {} was expected", id, next));
   if (!reader.ok()) return;
-  add_culled(poses, id, contents);
+  add_saved(poses, id, contents);
   Keyframe keyframe;
   keyframe.id = contents.records.add(poses.front().stamp_ns);
   keyframe.stamp_ns = keyframe.time_ns = poses.front().stamp_ns;
@@ -129,7 +129,7 @@ tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t>
   for (std::size_t i = 0; i < keyframes && reader.ok(); ++i)
     get_keyframe(reader, poses, extraction.levels, contents);
   if (contents.keyframes.size() > 0 && !poses.empty())
-    add_culled(poses, poses.back().id + 1, contents);
+    add_saved(poses, poses.back().id + 1, contents);
   else if (!poses.empty())
     reader.refuse("poses of keyframes that are not there");
   const std::size_t points = reader.get_count(kPointBytes);

@@ -92,6 +92,7 @@ void SlamMap::cull_keyframe(KeyframeId id) {
 }
 
 Pose SlamMap::pose_of(KeyframeId id) const {
+  if (const auto& saved = records()[id].saved_pose) return *saved;
   const auto [anchor, anchor_from_camera] = records().anchor_of(id);
   return keyframe(anchor)->map_from_camera * anchor_from_camera;
 }

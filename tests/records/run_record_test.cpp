@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/integration/run_support.hpp"
-#include "tests/support/small_dataset.hpp"
+#include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/recording/bag/bag.hpp"
 
@@ -33,10 +33,10 @@ std::map<std::string, int> counted(const fs::path& file) {
 
 class RunRecord : public testing::TestWithParam<const char*> {
  protected:
-  RunRecord() { make_small_dataset(data(), kFrames); }
-  [[nodiscard]] fs::path data() const { return place_ / "data"; }
   [[nodiscard]] ProcessResult run_with(const std::string& record) const {
-    return run(data(), place_ / "out", {"--rate", "max", "--no-dynamics", "--bus", GetParam(), record},
+    return run(recording_of_a_room().folder, place_ / "out",
+               {"--rate", "max", "--no-dynamics", "--frames", std::to_string(kFrames), "--bus", GetParam(),
+                record},
                std::chrono::seconds(120));
   }
   TemporaryFolder place_;

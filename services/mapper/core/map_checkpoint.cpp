@@ -75,7 +75,6 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
 /// Adds the keyframes of the archive to a map that has none of them.
 void SemanticMapper::add_all() {
   object_views_.clear();
-  normals_.clear();
   archive_.set_times();
   std::vector<std::uint64_t> ids;
   for (const auto& [id, keyframe] : archive_.keyframes()) ids.push_back(id);

@@ -18,7 +18,6 @@ SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
 void SemanticMapper::reset(std::uint64_t map_epoch) {
   archive_.clear();
   object_views_.clear();
-  normals_.clear();
   map_.epoch = map_epoch;
   map_.labels = saved_.labels;
   map_.content = std::make_unique<Map>(config_);
@@ -162,7 +161,6 @@ bool SemanticMapper::set_boxes(std::uint64_t keyframe_id, std::span<const Labell
     return false;
   }
   remove(keyframe_id);
-  normals_.erase(keyframe_id);
   interpret(*record, boxes, config_, map_.labels);
   archive_.replace(*record);
   add(*record);
@@ -212,17 +210,7 @@ Eigen::Vector3d SemanticMapper::up_in_map() const {
   const auto known = archive_.poses();
   std::vector<geometry::Pose> poses;
   for (const auto& pose : known) poses.push_back(pose.map_from_camera);
-  decltype(normals_) asked;
-  const Eigen::Vector3d up = estimate_up(poses, [&](std::size_t i) {
-    const std::uint64_t id = known[i].id;
-    if (auto known_normals = normals_.extract(id))
-      asked.insert(std::move(known_normals));
-    else if (const auto record = archive_.record(id))
-      asked[id] = surface_normals(*record);
-    return std::span<const Eigen::Vector3f>(asked[id]);
-  });
-  normals_ = std::move(asked);
-  return up;
+  return estimate_up(poses, [&](std::size_t i) { return archive_.record(known[i].id); });
 }
 
 }  // namespace rds::mapper

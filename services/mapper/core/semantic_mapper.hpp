@@ -105,7 +105,6 @@ class SemanticMapper {
   bool has_moves_left_ = false;  // keyframes whose pose is corrected are in the map with another one
   bool is_hidden_ = false;       // the evidence has changed since it was shown
   Scan scan_;                    // scratch
-  mutable std::map<std::uint64_t, std::vector<Eigen::Vector3f>> normals_;  // that up_in_map() asked for last
 };
 
 }  // namespace rds::mapper

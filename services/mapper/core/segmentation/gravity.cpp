@@ -18,6 +18,32 @@ constexpr int kStep = 8;          // sampled pixels between two normals
 constexpr int kReach = 3;         // sampled pixels from a normal's centre to its neighbours
 constexpr float kMaxStep = 0.1F;  // neighbours farther apart than this share of depth straddle an edge
 
+/// Appends the normals [map frame, on guess's side] of a keyframe that lie near the guess.
+void append_normals(const KeyframeRecord& record, const Eigen::Vector3d& guess,
+                    std::vector<Eigen::Vector3d>& normals) {
+  const auto point = [&](int x, int y, Eigen::Vector3f& p) {
+    const auto i = record.grid.index(x, y);
+    p = record.point_in_camera(i);
+    return looks_static(record.classes[i]);
+  };
+  Eigen::Vector3f left;
+  Eigen::Vector3f right;
+  Eigen::Vector3f above;
+  Eigen::Vector3f below;
+  for (int y = kReach; y + kReach < record.grid.height; y += kStep)
+    for (int x = kReach; x + kReach < record.grid.width; x += kStep) {
+      if (!point(x - kReach, y, left) || !point(x + kReach, y, right) || !point(x, y - kReach, above) ||
+          !point(x, y + kReach, below))
+        continue;
+      const float limit = kMaxStep * left.z();
+      if ((right - left).norm() > limit || (below - above).norm() > limit) continue;
+      Eigen::Vector3d normal =
+          record.map_from_camera.linear() * (right - left).cross(below - above).normalized().cast<double>();
+      if (normal.dot(guess) < 0) normal = -normal;
+      if (normal.dot(guess) > std::cos(kMaxTilt)) normals.push_back(normal);
+    }
+}
+
 std::size_t votes_for(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& normals,
                       Eigen::Vector3d& mean) {
   std::size_t votes = 0;
@@ -39,30 +65,8 @@ Eigen::Vector3d axis_of(const std::string& name) {
   return Eigen::Vector3d::Unit(axis[0] - 'x') * (negative ? -1 : 1);
 }
 
-std::vector<Eigen::Vector3f> surface_normals(const KeyframeRecord& record) {
-  const auto point = [&](int x, int y, Eigen::Vector3f& p) {
-    const auto i = record.grid.index(x, y);
-    p = record.point_in_camera(i);
-    return looks_static(record.classes[i]);
-  };
-  std::vector<Eigen::Vector3f> normals;
-  Eigen::Vector3f left;
-  Eigen::Vector3f right;
-  Eigen::Vector3f above;
-  Eigen::Vector3f below;
-  for (int y = kReach; y + kReach < record.grid.height; y += kStep)
-    for (int x = kReach; x + kReach < record.grid.width; x += kStep) {
-      if (!point(x - kReach, y, left) || !point(x + kReach, y, right) || !point(x, y - kReach, above) ||
-          !point(x, y + kReach, below))
-        continue;
-      const float limit = kMaxStep * left.z();
-      if ((right - left).norm() > limit || (below - above).norm() > limit) continue;
-      normals.emplace_back((right - left).cross(below - above).normalized());
-    }
-  return normals;
-}
-
-Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses, const NormalsOf& normals_of) {
+Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses,
+                            const std::function<std::optional<KeyframeRecord>(std::size_t)>& record_of) {
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();
   for (const auto& pose : poses) guess -= pose.linear().col(1);
   if (guess.norm() < 1e-3) return -Eigen::Vector3d::UnitY();
@@ -71,11 +75,7 @@ Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses, const Normals
   std::vector<Eigen::Vector3d> normals;
   const std::size_t step = poses.size() / kMaxKeyframes + 1;
   for (std::size_t i = 0; i < poses.size(); i += step)
-    for (const Eigen::Vector3f& in_camera : normals_of(i)) {
-      Eigen::Vector3d normal = poses[i].linear() * in_camera.cast<double>();
-      if (normal.dot(guess) < 0) normal = -normal;
-      if (normal.dot(guess) > std::cos(kMaxTilt)) normals.push_back(normal);
-    }
+    if (const auto record = record_of(i)) append_normals(*record, guess, normals);
 
   Eigen::Vector3d up = guess;
   Eigen::Vector3d mean;

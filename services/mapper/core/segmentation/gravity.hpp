@@ -12,18 +12,16 @@ namespace rds::mapper {
 /// Unit vector of "x", "-x", … "-z". @throws std::invalid_argument for another word.
 Eigen::Vector3d axis_of(const std::string& name);
 
-/// Normals of a keyframe's surfaces, in its camera's frame, every few pixels.
-std::vector<Eigen::Vector3f> surface_normals(const KeyframeRecord& record);
-/// surface_normals() of the keyframe with that index; none if they cannot be had.
-using NormalsOf = std::function<std::span<const Eigen::Vector3f>(std::size_t)>;
-
 /// Estimates the direction against gravity from what the keyframes see.
 ///
 /// A handheld or mounted camera is roughly upright: the mean of −y of the cameras is a first guess. Surface
 /// normals within 40° of it (floor, table tops, and ceilings seen from below) vote; the densest 5° cone wins
 /// and is refined to its mean. Without enough such normals the first guess stands.
-/// @param poses  of the keyframes: map_from_camera. @param normals_of  is asked for a few of them only.
+/// @param poses      of the keyframes: map_from_camera.
+/// @param record_of  the keyframe with that index and its pose; nullopt if it cannot be had. Asked for a few
+/// only.
 /// @return unit vector in the map frame; (0, −1, 0) without keyframes.
-Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses, const NormalsOf& normals_of);
+Eigen::Vector3d estimate_up(std::span<const geometry::Pose> poses,
+                            const std::function<std::optional<KeyframeRecord>(std::size_t)>& record_of);
 
 }  // namespace rds::mapper

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/image/tum_dataset.hpp"
+#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/level/plane_normals.hpp"
 #include "services/tracker/core/level/up_direction.hpp"
 

@@ -102,6 +102,12 @@ void DiagnosticsPublisher::tell_supervisor(const WorkerState& worker, const Heal
   told_ = std::move(status);
 }
 
+void DiagnosticsPublisher::finish() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+  publish();
+}
+
 double DiagnosticsPublisher::silent_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - published_.load()).count();
 }

@@ -24,6 +24,9 @@ class DiagnosticsPublisher {
  public:
   DiagnosticsPublisher(ServiceContext& context, Presence& presence, const ServiceSlot& service);
 
+  /// Ends the reports with a last one, of all that was counted; once, at the end of the process.
+  void finish();
+
   /// Since the last report [s]; any thread. Much more than a second if the bus hangs.
   [[nodiscard]] double silent_s() const;
 

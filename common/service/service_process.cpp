@@ -43,6 +43,7 @@ int ServiceProcess::run() {
   }
   sd_notify(0, "STOPPING=1");
   stand_by();
+  publisher_.finish();
   presence_.say_goodbye();
   return failed_ ? 1 : 0;
 }

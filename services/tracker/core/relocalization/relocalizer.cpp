@@ -12,6 +12,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr std::size_t kCandidates = 4;  // keyframes tried per frame
+constexpr std::size_t kCandidatesElsewhere = 2;  // keyframes of other submaps tried per keyframe
 constexpr int kRansacIterations = 200;
 constexpr float kRansacErrorPx = 6;
 constexpr double kRansacConfidence = 0.995;
@@ -86,6 +87,29 @@ bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) 
   return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
     return localize_against(context, candidate.id, frame);
   });
+}
+
+std::optional<geometry::LoopMatch> Relocalizer::find_in_others(SlamMap& map, const PoseSettings& settings,
+                                                               KeyframeId id) const {
+  const Keyframe* keyframe = std::as_const(map).keyframe(id);
+  if (keyframe == nullptr) return std::nullopt;
+  image::RgbdFrame no_picture;
+  no_picture.camera = keyframe->features->camera();
+  const TrackingContext context{
+      map, settings, no_picture, ObservationModel(no_picture.camera, settings.depth), {}, {}};
+  TrackedFrame frame;
+  frame.features = keyframe->features;
+  frame.time_ns = keyframe->time_ns;
+  const Submaps& submaps = map.records().submaps();
+  std::size_t tried = 0;
+  for (const auto& place : places_.query(static_descriptors(*keyframe->features), places_.size())) {
+    if (submaps.of(place.id) == submaps.of(id)) continue;
+    if (tried++ == kCandidatesElsewhere) break;
+    if (!localize_against(context, place.id, frame)) continue;
+    const Pose found_from_map = std::as_const(map).keyframe(place.id)->map_from_camera.inverse();
+    return geometry::LoopMatch{id, place.id, found_from_map * frame.camera_from_map.inverse()};
+  }
+  return std::nullopt;
 }
 
 bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
+#include "common/geometry/loop_match.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 
@@ -18,6 +21,10 @@ class Relocalizer {
   /// @return true if at least kMinInliers map points agree; then frame.points and camera_from_map hold
   /// the result.
   bool localize(const TrackingContext& context, TrackedFrame& frame) const;
+  /// Looks for the place that a keyframe shows among the keyframes of other submaps.
+  /// @return nullopt if fewer than kMinInliers map points agree.
+  std::optional<geometry::LoopMatch> find_in_others(SlamMap& map, const PoseSettings& settings,
+                                                    KeyframeId keyframe) const;
   /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
   /// centimetres and degrees: frame.points and camera_from_map hold the result.
   static void localize_near(const TrackingContext& context, const Keyframe& keyframe, TrackedFrame& frame);

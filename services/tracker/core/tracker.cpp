@@ -266,7 +266,7 @@ bool Tracker::apply_adjustment(const LocalMappingResult& result) {
   return true;
 }
 
-std::optional<SubmapId> Tracker::join_submaps() {
+std::optional<JoinedSubmap> Tracker::join_submaps() {
   SlamMap& map = mapper_.map();
   const KeyframeId newest = keyframes_.newest_in_map();
   if (map.records().submaps().is_whole() || std::exchange(searched_, newest) == newest) return std::nullopt;
@@ -277,13 +277,18 @@ std::optional<SubmapId> Tracker::join_submaps() {
   if (agreeing.empty()) return std::nullopt;
   const Pose before = last_map_from_camera();
   const SubmapMove move = move_of(map, *seen);
+  JoinedSubmap joined{move.moved, {}};
+  if (move.into == Submaps::kMap)
+    std::as_const(map).keyframes().for_each([&](const Keyframe& k) {
+      if (map.records().submaps().of(k.id) == move.moved) joined.placed.push_back(k.id);
+    });
   const auto replaced = mapper_.join(move, agreeing);
   if (!replaced) return std::nullopt;
   sightings_.clear();
   submap_ = map.records().submaps().of(localizer_.features().reference());
   localizer_.features().replace_points(*replaced);
   forget_depth_where_moved(before);
-  return move.moved;
+  return joined;
 }
 
 void Tracker::forget_depth() {

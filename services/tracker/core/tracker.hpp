@@ -24,6 +24,12 @@ namespace rds::tracker {
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 
+/// A submap that is part of an older one from now on.
+struct JoinedSubmap {
+  SubmapId submap = 0;
+  std::vector<KeyframeId> placed;  // its keyframes, by id, if the older one is the map; but for culled ones
+};
+
 /// RGB-D tracking against a map of ORB features that it builds.
 ///
 /// Owned by one thread. Local mapping is a pure function on a snapshot: take_mapping_job() after a keyframe,
@@ -73,8 +79,8 @@ class Tracker {
   /// Looks for the newest keyframe in other submaps, while there are any. Where enough keyframes agree on how
   /// two submaps lie to each other, the younger one becomes part of the older one; then a global adjustment
   /// is due. Takes some 20 ms; best called after the frame's result was sent.
-  /// @return the submap that has been joined; nullopt if none has.
-  std::optional<SubmapId> join_submaps();
+  /// @return what has been joined; nullopt if nothing has.
+  std::optional<JoinedSubmap> join_submaps();
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
@@ -89,8 +95,8 @@ class Tracker {
   /// @return or why not; then everything is as before.
   tl::expected<void, std::string> resume(const ReadRows& read);
 
-  /// Every keyframe of the map since the last reset, by id, also those that are culled, and of those that never were in
-  /// the map the newer ones; without those of a map that it started from.
+  /// Every keyframe of the map since the last reset, by id, also those that are culled, and of those that
+  /// never were in the map the newer ones; without those of a map that it started from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return mapper_.keyframe_poses(); }
   /// Those of a submap.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses(SubmapId submap) const {
@@ -99,6 +105,8 @@ class Tracker {
   /// A keyframe of the map as other services see it. @throws std::out_of_range if it is not there.
   [[nodiscard]] KeyframeData keyframe_data(KeyframeId id) const { return mapper_.keyframe_data(id); }
   [[nodiscard]] const SlamMap& map() const { return mapper_.map(); }
+  /// That the camera is, or was last, in.
+  [[nodiscard]] SubmapId submap() const { return submap_; }
   /// Keyframes that a lost camera can find itself by.
   [[nodiscard]] std::size_t known_places() const { return localizer_.relocalizer().places(); }
   /// What is known of the camera beyond what it was given with.

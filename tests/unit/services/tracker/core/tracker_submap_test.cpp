@@ -29,7 +29,7 @@ struct Walk {
     at = from;
     const FrameResult result = tracker.track(picture_of_wall(from, time_ns), {});
     map_locally();
-    if (const auto submap = tracker.join_submaps()) joined = submap;
+    if (const auto now = tracker.join_submaps()) joined = now;
     if (auto job = tracker.take_adjustment_job())
       if (const auto adjusted = run_global_adjustment(*job, {})) tracker.apply_adjustment(*adjusted);
     time_ns += kFrameNs;
@@ -57,7 +57,7 @@ struct Walk {
   Tracker tracker{config()};
   std::int64_t time_ns = 0;
   Pose at = Pose::Identity();
-  std::optional<SubmapId> joined;
+  std::optional<JoinedSubmap> joined;
 };
 
 TEST(TrackerSubmap, BeginsWhereNothingIsKnownAndIsJoinedWhereTheMapIsSeenAgain) {
@@ -82,7 +82,10 @@ TEST(TrackerSubmap, BeginsWhereNothingIsKnownAndIsJoinedWhereTheMapIsSeenAgain) 
   EXPECT_LT(walk.tracker.keyframe_poses().back().id, walk.tracker.keyframe_poses(1).front().id);
 
   const FrameResult back = walk.go(kFarX - 0.5, 0, 80);
-  EXPECT_EQ(walk.joined, 1U);
+  ASSERT_TRUE(walk.joined);
+  EXPECT_EQ(walk.joined->submap, 1U);
+  EXPECT_GT(walk.joined->placed.size(), 1U);
+  EXPECT_EQ(walk.joined->placed.front(), first.keyframe->id);
   EXPECT_EQ(back.submap, Submaps::kMap);
   EXPECT_TRUE(walk.tracker.keyframe_poses(1).empty());
   EXPECT_GE(walk.tracker.keyframe_poses().size(), in_map + in_submap);
@@ -104,7 +107,8 @@ TEST(TrackerSubmap, IsLeftWhereTheCameraFindsItselfInTheMapAndJoinedLater) {
   EXPECT_EQ(found.submap, Submaps::kMap);
   EXPECT_LT(walk.error_m(), 0.02);
   EXPECT_EQ(walk.go(0.2, kFarX, 80).submap, Submaps::kMap);
-  EXPECT_EQ(walk.joined, 1U) << "the map moves nowhere, the submap goes to it";
+  ASSERT_TRUE(walk.joined);
+  EXPECT_EQ(walk.joined->submap, 1U) << "the map moves nowhere, the submap goes to it";
   EXPECT_LT(walk.error_m(), 0.05);
 }
 
@@ -118,14 +122,14 @@ TEST(TrackerSubmap, IsNotSavedButGoesOnAfterARestart) {
   const auto saved = map_from_bytes(to_bytes(walk.tracker.map(), {}, config().extraction),
                                     walk.tracker.keyframe_poses(), config().extraction);
   ASSERT_TRUE(saved) << saved.error();
-  saved->map.keyframes().for_each([&](const Keyframe& k) {
-    EXPECT_TRUE(walk.tracker.map().records().is_placed(k.id)) << k.id;
-  });
+  saved->map.keyframes().for_each(
+      [&](const Keyframe& k) { EXPECT_TRUE(walk.tracker.map().records().is_placed(k.id)) << k.id; });
 
   std::map<std::string, std::map<std::uint64_t, map_file::Bytes>> rows;
   for (auto& row : walk.tracker.checkpoint())
     if (row.bytes) rows[row.kind][row.id] = std::move(*row.bytes);
-  const ReadRows read = [&](const std::string& kind, const VisitRow& visit) -> tl::expected<void, std::string> {
+  const ReadRows read = [&](const std::string& kind,
+                            const VisitRow& visit) -> tl::expected<void, std::string> {
     for (const auto& [id, bytes] : rows[kind]) visit(id, bytes);
     return {};
   };

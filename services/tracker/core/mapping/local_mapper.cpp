@@ -8,6 +8,7 @@
 #include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/map_building.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/mapping/submap_fit.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -139,7 +140,7 @@ ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
 std::optional<ReplacedPoints> LocalMapper::join(const SubmapMove& move,
                                                 std::span<const LoopMatch> sightings) {
   const auto is_confirmed = [&](const LoopMatch& seen) { return confirms(map_, seen, settings_.depth); };
-  if (std::ranges::none_of(sightings, is_confirmed)) return std::nullopt;
+  if (std::ranges::none_of(sightings, is_confirmed) || !fits(map_, move)) return std::nullopt;
   move_submap(map_, move);
   ++revision_;
   return join(sightings);

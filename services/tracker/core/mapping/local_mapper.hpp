@@ -38,7 +38,8 @@ class LocalMapper {
   KeyframePose insert_pose_only(const TrackedFrame& frame, KeyframeId anchor);
   /// A keyframe of the map as other services see it. @throws std::out_of_range if it is not there.
   [[nodiscard]] KeyframeData keyframe_data(KeyframeId id) const;
-  /// Every keyframe made here that is in the map, by id, also those that are culled; of those for other services the newer ones.
+  /// Every keyframe made here that is in the map, by id, also those that are culled; of those for other
+  /// services the newer ones.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   /// Depth of a keyframe whose boxes may still come; null if unknown or too old.
   [[nodiscard]] const PictureCells* cells_of(KeyframeId keyframe) const;
@@ -58,7 +59,7 @@ class LocalMapper {
   std::optional<ReplacedPoints> correct(std::span<const KeyframePose> corrected,
                                         std::span<const LoopMatch> loops);
   /// Puts a submap into an older one and joins what the sightings say is one place; then a global adjustment
-  /// is due. @return as correct().
+  /// is due. @return as correct(); nullopt, too, if what the two measured contradicts each other.
   std::optional<ReplacedPoints> join(const SubmapMove& move, std::span<const LoopMatch> sightings);
   /// Snapshot of the whole map; nullopt where no global adjustment is due.
   std::optional<LocalMappingJob> take_adjustment(const SelfCalibration& calibration);

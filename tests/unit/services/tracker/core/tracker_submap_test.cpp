@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/tracker/core/mapping/global_adjustment.hpp"
+#include "services/tracker/core/mapping/submap_fit.hpp"
 #include "tests/unit/services/tracker/core/tracker_scene.hpp"
 
 namespace rds::tracker {
@@ -12,7 +13,8 @@ namespace {
 using namespace test;
 
 constexpr double kFarX = 2.7;  // along the wall, where nothing shows that the map has
-constexpr int kCovered = 10;   // frames of a covered lens
+constexpr double kReliefM = 0.6;
+constexpr int kCovered = 10;  // frames of a covered lens
 
 TrackerConfig config() {
   TrackerConfig config = small_config();
@@ -27,7 +29,7 @@ struct Walk {
 
   FrameResult look(const Pose& from) {
     at = from;
-    const FrameResult result = tracker.track(picture_of_wall(from, time_ns), {});
+    const FrameResult result = tracker.track(picture_of_wall(from, time_ns, small_camera(), relief_m), {});
     map_locally();
     if (const auto now = tracker.join_submaps()) joined = now;
     if (auto job = tracker.take_adjustment_job())
@@ -54,6 +56,7 @@ struct Walk {
     return (tracker.last_map_from_camera().translation() - expected.translation()).norm();
   }
 
+  double relief_m = kReliefM;
   Tracker tracker{config()};
   std::int64_t time_ns = 0;
   Pose at = Pose::Identity();
@@ -110,6 +113,35 @@ TEST(TrackerSubmap, IsLeftWhereTheCameraFindsItselfInTheMapAndJoinedLater) {
   ASSERT_TRUE(walk.joined);
   EXPECT_EQ(walk.joined->submap, 1U) << "the map moves nowhere, the submap goes to it";
   EXPECT_LT(walk.error_m(), 0.05);
+}
+
+TEST(TrackerSubmap, IsNotJoinedByWhatLiesInOnePlane) {
+  Walk walk;
+  walk.relief_m = 0;
+  walk.look(walk.pose_at(0));
+  walk.go(0, 0.5, 20);
+  walk.cover();
+  walk.look(walk.pose_at(kFarX));
+  EXPECT_EQ(walk.go(kFarX, 0, 100).submap, 1U);
+  EXPECT_FALSE(walk.joined);
+}
+
+TEST(TrackerSubmap, WhatWasMeasuredContradictsAWrongPlace) {
+  Walk walk;
+  walk.relief_m = 0;  // so that it is not joined
+  walk.look(walk.pose_at(0));
+  walk.go(0, 0.5, 20);
+  walk.cover();
+  walk.look(walk.pose_at(kFarX));
+  walk.go(kFarX, 0, 100);
+  const SubmapMove right{1, Submaps::kMap, walk.pose_at(0).inverse() * walk.pose_at(kFarX)};
+  const SubmapFit fit = fit_of(walk.tracker.map(), right);
+  EXPECT_GT(fit.agree, 1000);
+  EXPECT_TRUE(fits(walk.tracker.map(), right)) << fit.contradict;
+  SubmapMove wrong = right;
+  wrong.into_from_moved = test::pose(0, 0, 0.5) * right.into_from_moved;
+  EXPECT_GT(fit_of(walk.tracker.map(), wrong).contradict, 500);
+  EXPECT_FALSE(fits(walk.tracker.map(), wrong));
 }
 
 TEST(TrackerSubmap, IsNotSavedButGoesOnAfterARestart) {

@@ -20,6 +20,7 @@ constexpr double kMaxExistence = 3.5;   // as P = .97 of a voxel: what was remov
 constexpr double kBorderWeight = 0.25;  // of a sighting that the picture's border cuts
 constexpr double kMinOverlap = 0.3;  // 3-D IoU that makes two sightings one object whatever the class radius
 constexpr double kSamePlace = 0.5;  // … whatever their labels: two things share less than half of their room
+constexpr double kThinnestM = 0.05;           // as a voxel
 constexpr std::size_t kMostBeliefs = 4;       // labels that are told of an object
 constexpr std::size_t kMostSightings = 1024;  // remembered of an object
 constexpr double kOutward = 4;                // a view that shows more of the object counts so often
@@ -33,6 +34,13 @@ double iou(const geometry::Box3& a, const geometry::Box3& b) {
   const double common = overlap.prod();
   const double all = a.size().prod() + b.size().prod() - common;
   return all > 0 ? common / all : 0;
+}
+
+/// Share of the room of two things that is of both. What was seen from one side alone has no depth yet; it
+/// gets some.
+double common_room(const geometry::Box3& a, const geometry::Box3& b) {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kThinnestM / 2);
+  return iou({a.min - margin, a.max + margin}, {b.min - margin, b.max + margin});
 }
 
 /// What the depth picture says about the place of an object.
@@ -111,13 +119,13 @@ ObjectDatabase::Entry* ObjectDatabase::object_of(const std::string& label, const
       nearest = &entry;
       distance = off;
     }
-    if (entry.object.label != label && iou(known, box) > overlap) {
+    if (entry.object.label != label && common_room(known, box) > overlap) {
       in_its_place = &entry;
-      overlap = iou(known, box);
+      overlap = common_room(known, box);
     }
   }
-  const bool is_nearest =
-      in_its_place == nullptr || (nearest != nullptr && iou({nearest->min, nearest->max}, box) >= overlap);
+  const bool is_nearest = in_its_place == nullptr ||
+                          (nearest != nullptr && common_room({nearest->min, nearest->max}, box) >= overlap);
   return is_nearest ? nearest : in_its_place;
 }
 
@@ -132,7 +140,7 @@ void ObjectDatabase::merge_duplicates() {
       const geometry::Box3 box_a{a.min, a.max};
       const geometry::Box3 box_b{b.min, b.max};
       const bool one = a.object.label == b.object.label ? is_same(a.object.label, box_a, box_b)
-                                                        : iou(box_a, box_b) > kSamePlace;
+                                                        : common_room(box_a, box_b) > kSamePlace;
       if (!one) continue;
       merge(entries_[i], b);
       entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(j));

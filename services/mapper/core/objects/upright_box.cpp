@@ -31,8 +31,9 @@ Interval extent(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& 
   const auto low = values.begin() + cut;
   const auto high = values.end() - 1 - cut;
   std::nth_element(values.begin(), low, values.end());
+  const double lowest = *low;
   std::nth_element(low, high, values.end());
-  return {*low, *high};
+  return {lowest, *high};
 }
 
 Eigen::Vector3d direction_at(double angle_rad, const Eigen::Matrix3d& map_from_level) {

@@ -143,7 +143,7 @@ TEST(ObjectDatabase, TwoKindsOfThingInOnePlaceThatGrewTogetherAreOne) {
   const cv::Rect part(100, 80, 80, 30);
   std::uint64_t id = 0;
   for (; id < 3; ++id)  // the upper part is seen as one thing, the whole as another one
-    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("sofa", part, false, 0.5F));
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("sofa", part, false, 0.8F));
   for (; id < 6; ++id) mapper.integrate(with_chair(id, 0.9F));
   EXPECT_EQ(mapper.map().objects().size(), 2U) << "a third of its room may be another thing";
   for (; id < 14; ++id)

@@ -55,7 +55,7 @@ TEST(ReadThings, TakesTheOrientedBoxWhereThereIsOneAndLeavesOutWhatHasGone) {
   ASSERT_TRUE(things) << things.error();
   ASSERT_EQ(things->size(), 3U);
   EXPECT_EQ(things->at(0).box.center(), Eigen::Vector3d(1, 2, 3));
-  EXPECT_TRUE(things->at(1).box.map_from_box.isApprox(box_at({1, 0, 0}, {}, 0.5).map_from_box));
+  EXPECT_TRUE(things->at(1).box.map_from_box.isApprox(box_at({1, 0, 0}, {1, 1, 1}, 0.5).map_from_box));
   EXPECT_NEAR(things->at(2).box.map_from_box.linear()(1, 0), 0.96, 1e-12);
   EXPECT_EQ(things->at(2).box.size, Eigen::Vector3d(2, 1, 1));
   test::write_text(folder / "objects.json", R"([{"label": "chair", "center": [1, 2]}])");

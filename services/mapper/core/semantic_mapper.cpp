@@ -116,10 +116,12 @@ void SemanticMapper::move(std::span<const std::uint64_t> keyframes) {
   }
 }
 
-/// Objects are few, so that all views are seen again.
+/// Objects are few, so that all views are seen again. They keep their ids.
 void SemanticMapper::make_objects_again() {
   ObjectDatabase objects = final_objects_;
+  objects.reserve_ids_of(map_.content->objects);
   for (const auto& [id, view] : object_views_) objects.integrate(view, map_.labels);
+  objects.take_ids_from(map_.content->objects);
   map_.content->objects = std::move(objects);
   are_objects_outdated_ = false;
 }
@@ -128,7 +130,10 @@ void SemanticMapper::make_objects_again() {
 void SemanticMapper::make_final(std::uint64_t id) {
   map_.content->evidence.make_final(id);
   are_objects_outdated_ |= id != object_views_.begin()->first;
+  final_objects_.reserve_ids_of(map_.content->objects);
   final_objects_.integrate(object_views_.at(id), map_.labels);
+  final_objects_.take_ids_from(map_.content->objects);
+  map_.content->objects.reserve_ids_of(final_objects_);
   object_views_.erase(id);
   has_final_ = true;
   archive_.make_final(id);

@@ -13,8 +13,8 @@ namespace rds::mapper {
 
 /// The parts of a checkpoint, apart because they change at different times.
 struct MapCheckpoint {
-  map_file::Bytes state;                     // epoch, labels, what the epoch began with
-  KeyframeBlocks keyframes;                  // stamps and poses
+  map_file::Bytes state;     // epoch, labels, what the epoch began with, which object is which
+  KeyframeBlocks keyframes;  // stamps and poses
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
 };
 
@@ -83,7 +83,7 @@ class SemanticMapper {
  private:
   void add(const KeyframeRecord& record);
   void remove(std::uint64_t id);
-  void add_all();
+  void add_all(const ObjectDatabase& identities);
   void move(std::span<const std::uint64_t> keyframes);
   [[nodiscard]] std::vector<std::uint64_t> nearest_first(std::vector<std::uint64_t> keyframes) const;
   void make_final(std::uint64_t id);

@@ -258,7 +258,7 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   if (!detections)
     return context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
-  for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
+  for (const auto& d : *detections) observations.push_back({d.box, d.label, d.score});
   const auto keyframe = answers_.take_snapshot(stamp);
   if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
   const auto& [id, camera_from_map, camera, place] = *keyframe;

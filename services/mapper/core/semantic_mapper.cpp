@@ -61,7 +61,7 @@ MapDelta SemanticMapper::show(bool all) {
     map.evidence.update_all(show_block);
   else
     map.evidence.update(show_block);
-  if (are_objects_outdated_ && !has_moves_left_) make_objects_again();
+  if (are_objects_outdated_ && !has_moves_left_) make_objects_again(true);
   is_hidden_ = false;
   delta.revision = ++map_.revision;
   return delta;
@@ -116,12 +116,13 @@ void SemanticMapper::move(std::span<const std::uint64_t> keyframes) {
   }
 }
 
-/// Objects are few, so that all views are seen again. They keep their ids.
-void SemanticMapper::make_objects_again() {
+/// Objects are few, so that all views are seen again. They keep their ids, unless these are to be a function of
+/// the views, too, whatever came before.
+void SemanticMapper::make_objects_again(bool keep_ids) {
   ObjectDatabase objects = final_objects_;
-  objects.reserve_ids_of(map_.content->objects);
+  if (keep_ids) objects.reserve_ids_of(map_.content->objects);
   for (const auto& [id, view] : object_views_) objects.integrate(view, map_.labels);
-  objects.take_ids_from(map_.content->objects);
+  if (keep_ids) objects.take_ids_from(map_.content->objects);
   map_.content->objects = std::move(objects);
   are_objects_outdated_ = false;
 }
@@ -204,6 +205,7 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
   archive_.set_times();
   move(archive_.moved());
   has_moves_left_ = false;
+  make_objects_again(false);
   return show(true);
 }
 

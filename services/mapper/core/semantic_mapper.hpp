@@ -54,7 +54,7 @@ class SemanticMapper {
   /// move them any more.
   void make_others_final(std::span<const KeyframePose> told);
 
-  /// Makes the map that of exactly these poses.
+  /// Makes the map that of exactly these poses, and counts the ids of objects anew.
   MapDelta settle(std::span<const KeyframePose> poses);
 
   /// Is called between the keyframes of whatever takes long; it must not use the mapper.
@@ -89,7 +89,7 @@ class SemanticMapper {
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
   void spill();
-  void make_objects_again();
+  void make_objects_again(bool keep_ids);
   MapDelta show(bool all = false);
   [[nodiscard]] MapDelta new_delta() const;
 

@@ -113,7 +113,7 @@ class Schedule {
     bare_.pop_back();
     const auto boxes = *keyframe(id, true).boxes;
     mapper_->set_boxes(id, boxes);
-    mapper_->settle({});
+    mapper_->apply_poses({});
   }
   void cull() {
     auto poses = mapper_->archive().poses();

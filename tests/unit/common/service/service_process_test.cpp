@@ -3,6 +3,7 @@
 // fails.
 #include "common/service/service_process.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <map>
@@ -121,8 +122,13 @@ class OnTheBus : public ::testing::Test {
     goes_on = true;
     goes_on.notify_all();
   }
+  /// Whether a process hears commands, and has a worker for them by now.
   bool connected() {
-    return holds_within(10s, [this] { return commands_.matched() > 0 && subscription_.matched() > 0; });
+    const auto is_active = [](const Peer& peer) { return peer.status.role() == Role::ACTIVE; };
+    return holds_within(10s, [&] {
+      const std::vector<Peer> peers = peers_.present();
+      return commands_.matched() > 0 && subscription_.matched() > 0 && std::ranges::any_of(peers, is_active);
+    });
   }
 
   std::unique_ptr<bus::Participant> bus_ = join("observer");
@@ -185,7 +191,8 @@ TEST_F(OnTheBus, AWorkerThatHangsIsAnError) {
   const Running probe(1);
   ASSERT_TRUE(connected());
   send(1, "hang");
-  EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kError; })) << "while it hangs: " << message_of(1);
+  EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kError; }))
+      << "while it hangs: " << message_of(1);
   go_on();
   EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kOk; })) << "when it goes on: " << message_of(1);
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxEvents = 64;
 constexpr timespec kSignalPoll{.tv_sec = 0, .tv_nsec = 100'000'000};
 constexpr std::chrono::milliseconds kRoleCheck{1000};  // a peer that went without a word makes no event
 
-constexpr std::chrono::seconds kStopLimit{20};      // for a worker to end
+constexpr std::chrono::seconds kStopLimit{20};  // for a worker to end
 
 }  // namespace
 
@@ -27,12 +27,12 @@ ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, 
       factory_(std::move(factory)),
       events_(mailbox_, kMaxEvents),
       presence_(context, [this] { events_.push(Event::kPeersChanged); }),
-      commands_(context, presence_, service_),
       publisher_(context, presence_, service_),
       hang_watch_(exit_when_hung_s) {}
 
 int ServiceProcess::run() {
   activate();
+  commands_.emplace(context_, presence_, service_);
   sd_notify(0, "READY=1");  // where nobody supervises the process, nothing happens
   std::jthread watcher([this](const std::stop_token& stop) { watch(stop); });
   while (true) {

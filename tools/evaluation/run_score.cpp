@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/run_score.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -130,10 +131,11 @@ Result add_objects(const RunScoreInput& input, Figures& figures) {
   figures["objects_wanted"] = score->wanted;
   figures["objects_found"] = score->found;
   figures["objects_wrong"] = score->wrong;
-  figures["object_f1"] = score->f1;
-  figures["object_iou"] = score->iou;
-  figures["object_labelled"] = score->labelled;
-  figures["object_label_true"] = score->label_true;
+  for (const auto& [name, share] : {std::pair{"object_f1", score->f1},
+                                    {"object_iou", score->iou},
+                                    {"object_labelled", score->labelled},
+                                    {"object_label_true", score->label_true}})
+    if (std::isfinite(share)) figures[name] = share;
   return {};
 }
 

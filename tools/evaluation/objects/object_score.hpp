@@ -34,7 +34,7 @@ struct ObjectScore {
   std::size_t wanted =
       0;  // true objects that showed in enough frames, of a label that the detector named at all
   std::size_t found = 0;  // of them: an object of their label has its centre within 0.15 m, each once
-  std::size_t wrong = 0;  // objects that are none of the true ones
+  std::size_t wrong = 0;  // objects that are none of the true ones, of labels that the simulator names
   double f1 = 0;
   double iou = 0;       // of the upright boxes of true objects and those that found them, mean
   double labelled = 0;  // of the occupied voxels in the true boxes of what was found, what it stands on left

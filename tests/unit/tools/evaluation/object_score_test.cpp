@@ -127,6 +127,13 @@ TEST_F(ScoreObjects, CountsWhatIsMissingAndWhatIsWrong) {
   EXPECT_DOUBLE_EQ(score.f1, 0);
 }
 
+TEST_F(ScoreObjects, OfWhatTheTruthHasNoNameNothingIsSaid) {
+  found(R"({"label": "book", "center": [-2.5, 0, 0], "size": [1, 1, 1]})");
+  EXPECT_EQ(score().wrong, 0U);
+  found(R"({"label": "bottle", "center": [-2.5, 0, 0], "size": [1, 1, 1]})");
+  EXPECT_EQ(score().wrong, 1U) << "it names bottles, and there is none";
+}
+
 TEST_F(ScoreObjects, WhatIsFoundOfAThingThatHardlyShowedIsNeitherRightNorWrong) {
   std::string one_line = R"({"stamp": 1, "detections": [{"label": "chair", "box": [0, 0, 9, 9]}, )";
   one_line += R"({"label": "sofa", "box": [0, 0, 9, 9]}]})";

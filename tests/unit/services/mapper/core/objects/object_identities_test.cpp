@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 
 #include "services/mapper/core/objects/object_json.hpp"
+#include "tests/unit/services/mapper/core/lasting_storage.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
 namespace {
 
+using test::LastingStorage;
 using test::SyntheticKeyframe;
 using Ids = std::map<std::string, std::uint64_t>;  // by label: each thing has its own
 
@@ -20,25 +22,6 @@ struct Thing {
 };
 const std::array<Thing, 3> kThings{
     {{"chair", {10, 60, 70, 90}}, {"sofa", {120, 90, 80, 70}}, {"tvmonitor", {240, 60, 60, 60}}}};
-
-class MemoryStorage : public SpillStorage {
- public:
-  using Rows = std::map<std::uint64_t, map_file::Bytes>;
-  explicit MemoryStorage(Rows& rows) : rows_(rows) {}
-  bool put(std::uint64_t id, std::span<const std::uint8_t> bytes) override {
-    rows_[id] = {bytes.begin(), bytes.end()};
-    return true;
-  }
-  std::optional<map_file::Bytes> get(std::uint64_t id) override {
-    const auto row = rows_.find(id);
-    return row == rows_.end() ? std::nullopt : std::optional(row->second);
-  }
-  void erase(std::uint64_t id) override { rows_.erase(id); }
-  void clear() override { rows_.clear(); }
-
- private:
-  Rows& rows_;
-};
 
 MapperConfig coarse() {
   MapperConfig config;
@@ -127,15 +110,15 @@ class Schedule {
     ASSERT_TRUE(newer);
     if (!newer->final_map) newer->final_map = std::move(checkpoint_.final_map);
     checkpoint_ = std::move(*newer);
-    mapper_ = std::make_unique<SemanticMapper>(coarse(), 1, std::make_unique<MemoryStorage>(rows_));
+    mapper_ = std::make_unique<SemanticMapper>(coarse(), 1, std::make_unique<LastingStorage>(rows_));
     const auto restored = mapper_->restore(checkpoint_);
     ASSERT_TRUE(restored) << restored.error();
   }
 
   std::mt19937 random_;
-  MemoryStorage::Rows rows_;
+  LastingStorage::Rows rows_;
   std::unique_ptr<SemanticMapper> mapper_ =
-      std::make_unique<SemanticMapper>(coarse(), 1, std::make_unique<MemoryStorage>(rows_));
+      std::make_unique<SemanticMapper>(coarse(), 1, std::make_unique<LastingStorage>(rows_));
   MapCheckpoint checkpoint_;
   std::uint64_t next_ = 0;
   std::vector<std::uint64_t> bare_;

@@ -8,6 +8,9 @@
 namespace diagnostic_msgs::msg {
 class DiagnosticArray;
 }
+namespace geometry_msgs::msg {
+class PoseWithCovarianceStamped;
+}
 namespace nav_msgs::msg {
 class OccupancyGrid;
 class Odometry;
@@ -35,6 +38,7 @@ namespace sensor_msgs::msg {
 class CameraInfo;
 class CompressedImage;
 class Image;
+class Imu;
 class PointCloud2;
 }  // namespace sensor_msgs::msg
 namespace tf2_msgs::msg {
@@ -71,6 +75,15 @@ inline constexpr Topic<sensor_msgs::msg::CompressedImage> kDepthCompressed{
     "camera/aligned_depth_to_color/image_raw/compressedDepth", {}, {{kTracker, bus::kSensor}}};
 inline constexpr Topic<sensor_msgs::msg::CameraInfo> kDepthInfo{
     "camera/aligned_depth_to_color/camera_info", {}, {{kTracker, bus::kSensor}}};
+
+// What else a robot may sense. Names as robots have them; the tracker reads what its settings name (tracker:
+// inputs).
+inline constexpr Topic<nav_msgs::msg::Odometry> kRobotOdometry{
+    "odom", {{kPlayer, bus::kMotion}}, {{kTracker, bus::kMotion}}};
+inline constexpr Topic<sensor_msgs::msg::Imu> kImu{
+    "imu", {{kPlayer, bus::kMotion}}, {{kTracker, bus::kMotion}}};
+inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{
+    "initialpose", {}, {{kTracker, bus::kStream}}};
 
 // Each frame.
 inline constexpr Topic<nav_msgs::msg::Odometry> kOdometry{"rds/odometry", {{kTracker, bus::kStream}}, {}};
@@ -179,6 +192,9 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kColorCompressed,
                                        kDepthCompressed,
                                        kDepthInfo,
+                                       kRobotOdometry,
+                                       kImu,
+                                       kInitialPose,
                                        kOdometry,
                                        kTransforms,
                                        kStaticTransforms,

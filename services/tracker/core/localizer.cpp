@@ -67,6 +67,7 @@ void Localizer::search_early(TrackingContext& context, State before, const std::
 }
 
 PoseEstimate Localizer::localize(TrackingContext& context, State before, const KeyframeSelector& keyframes) {
+  if (before != State::kLost) sought_.reset();
   auto followed = follower_.estimate(context);
   if (!followed) return match(context, before, keyframes);
   PoseEstimate estimate{std::move(followed->frame), State::kTracking, true, false, nullptr, 0};
@@ -87,8 +88,8 @@ PoseEstimate Localizer::localize(TrackingContext& context, State before, const K
 
 bool Localizer::can_begin_map(const TrackedFrame& frame) const {
   if (config_.localize_only || !frame.features) return false;
-  const auto with_depth = std::ranges::count_if(
-      frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
+  const auto with_depth = std::ranges::count_if(frame.features->all(),
+                                                [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
   return with_depth >= kMinFeaturesToStart;
 }
 
@@ -147,7 +148,8 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
   const bool was_lost = before == State::kLost;
   const int inliers = features_.track(context, frame);
   const bool jumped = context.motion.is_jump(frame.camera_from_map);
-  if (was_lost && inliers >= Relocalizer::kMinInliers) return State::kRelocalised;
+  if (was_lost && (inliers >= Relocalizer::kMinInliers || find_carried(context, keyframes, frame)))
+    return State::kRelocalised;
   if (!was_lost && inliers >= kMinInliers && sees_enough(frame))
     return jumped ? State::kRelocalised : State::kTracking;
   const auto by_depth = was_lost || context.motion.gap_s() > kByDepthS
@@ -167,8 +169,27 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
   return State::kWeak;
 }
 
+/// Looks for the points of the map around the pose that odometry has carried a lost camera on to.
+bool Localizer::find_carried(const TrackingContext& context, const KeyframeSelector& keyframes,
+                             TrackedFrame& frame) {
+  if (!context.carried || frame.features->size() < std::size_t{Relocalizer::kMinInliers}) return false;
+  TrackedFrame found = frame;
+  found.camera_from_map = context.carried->map_from_camera.inverse();
+  found.clear_matches();
+  const auto view = keyframes.nearest_view(context.map, found, features_.reference());
+  const Keyframe* keyframe = context.map.keyframe(view.keyframe);
+  if (keyframe == nullptr) return false;
+  Relocalizer::localize_near(context, *keyframe, found);
+  if (found.static_matches() < Relocalizer::kMinInliers) return false;
+  frame = std::move(found);
+  features_.refine(context, frame, FeatureTracker::kUsualWindow);
+  return frame.static_matches() >= Relocalizer::kMinInliers;
+}
+
 bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {
-  if (!relocalizer_.localize(context, frame)) return false;
+  const bool is_found = (sought_ && relocalizer_.localize_around(context, *sought_, frame)) ||
+                        relocalizer_.localize(context, frame);
+  if (!is_found) return false;
   features_.refine(context, frame, FeatureTracker::kLostWindow);
   return frame.static_matches() >= Relocalizer::kMinInliers;
 }

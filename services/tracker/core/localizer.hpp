@@ -51,6 +51,9 @@ class Localizer {
   /// @return false if too few match: then it stays as it is.
   bool match_features(const TrackingContext& context, PoseEstimate& estimate);
 
+  /// A lost camera is looked for around this place, too, until it is found.
+  void seek(const SoughtPlace& place) { sought_ = place; }
+
   /// True if the share of the expected points that is found has dropped since the last keyframe.
   [[nodiscard]] bool scene_changed();
   /// A keyframe was made.
@@ -71,6 +74,7 @@ class Localizer {
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                  TrackedFrame& frame);
   bool relocalize(const TrackingContext& context, TrackedFrame& frame);
+  bool find_carried(const TrackingContext& context, const KeyframeSelector& keyframes, TrackedFrame& frame);
   bool find_near(const TrackingContext& context, const Pose& by_depth, const KeyframeSelector& keyframes,
                  TrackedFrame& frame);
   std::int64_t extract(const TrackingContext& context, TrackedFrame& frame);
@@ -84,6 +88,7 @@ class Localizer {
   FeatureTracker features_;
   DepthAligner depth_aligner_;
   Relocalizer relocalizer_;
+  std::optional<SoughtPlace> sought_;
   std::int64_t weak_since_ns_ = 0;  // time of the first of the weak frames in a row
 };
 

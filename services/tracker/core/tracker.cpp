@@ -43,18 +43,20 @@ void describe(const TrackedFrame& frame, FrameResult& result) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, Executor executor, Stopwatch now_us)
+Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, Executor executor, Stopwatch now_us,
+                 RobotOdometry odometry)
     : config_(config),
-      ports_{std::move(given_poses), std::move(executor), std::move(now_us)},
+      ports_{std::move(given_poses), std::move(executor), std::move(now_us), std::move(odometry)},
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth.max_depth_m),
+      odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
       keyframes_(config.keyframe, config.localize_only),
       mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
 
 void Tracker::reset() {
-  *this =
-      Tracker(config_, std::move(ports_.given_poses), std::move(ports_.executor), std::move(ports_.now_us));
+  *this = Tracker(config_, std::move(ports_.given_poses), std::move(ports_.executor),
+                  std::move(ports_.now_us), std::move(ports_.odometry));
 }
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
@@ -73,9 +75,11 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   prepare(given, regions, context);
   PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
   TrackedFrame& frame = estimate.frame;
-  if (estimate.state == State::kLost && is_submap_due(frame.time_ns))
+  const bool is_carried = estimate.state == State::kLost && context.carried;
+  if (estimate.state == State::kLost && !is_carried && is_submap_due(frame.time_ns))
     result.begins_submap = localizer_.begin_submap(context, estimate);
   result.state = state_ = estimate.state;
+  if (is_carried) carry_on(*context.carried, frame, result);
   if (has_pose(state_)) {
     const Submaps& submaps = mapper_.map().records().submaps();
     enter(result.begins_submap ? submaps.next() : submaps.of(localizer_.features().reference()));
@@ -95,7 +99,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   describe(frame, result);
   if (need != KeyframeNeed::kNone)
     make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
-  if (has_pose(state_)) {
+  if (has_pose(result.state)) {
     result.map_from_camera = frame.camera_from_map.inverse();
     result.information = frame.information;
     result.reference_keyframe_id = localizer_.features().reference();
@@ -122,6 +126,7 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     if (state_ != State::kNotInitialized) state_ = State::kLost;
   }
   context.motion = motion_.predict(last_map_from_camera(), time_ns);
+  expect_by_odometry(given.stamp_ns, context);
   TrackedFrame& frame = context.frame;
   frame.stamp_ns = given.stamp_ns;
   frame.time_ns = time_ns;
@@ -172,15 +177,20 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
 
 /// What the frame tells those that come.
 void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
-  if (state_ == State::kLost && !lost_since_ns_) lost_since_ns_ = frame.time_ns;
+  const bool is_carried = state_ == State::kLost && context.carried;
+  if (has_pose(state_) || is_carried)
+    lost_since_ns_.reset();
+  else if (state_ == State::kLost && !lost_since_ns_)
+    lost_since_ns_ = frame.time_ns;
   if (!has_pose(state_)) return localizer_.depth_aligner().forget();
-  lost_since_ns_.reset();
   const Pose map_from_camera = frame.camera_from_map.inverse();
   removal_.set_pose(map_from_camera, !frame.by_depth_only);
   localizer_.depth_aligner().set_previous(context.depth, map_from_camera);
   motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
   if (frame.by_depth_only) return;  // later frames are still matched with the one before
   motion_.start_from(frame.time_ns);
+  odometry_.begin_step();
+  compare_with_odometry(map_from_camera);
   const KeyframeId reference = localizer_.features().reference();
   const Pose reference_from_camera = mapper_.map().pose_of(reference).inverse() * map_from_camera;
   localizer_.features().set_last({std::move(frame), reference, reference_from_camera});

@@ -16,6 +16,7 @@
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/removal/movable_segmenter.hpp"
 
 namespace rds::tracker {
@@ -36,25 +37,27 @@ struct JoinedSubmap {
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
-/// Who is lost for config.submap_after_s begins a submap: a map beside the map, in a frame of its own, that
-/// join_submaps() puts in its place once it is known.
-/// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the
-/// map. With config.localize_only nothing enters the map; keyframes are then for other services only. Same
-/// calls, same results, bit by bit.
+/// Where vision loses the camera, the robot's odometry carries its pose on while it is trusted
+/// (OdometryPrior). Who is lost for config.submap_after_s begins a submap: a map beside the map, in a frame
+/// of its own, that join_submaps() puts in its place once it is known. Where stamps go back, time goes on
+/// (ContinuousTime): the camera is lost, until it has found itself in the map. With config.localize_only
+/// nothing enters the map; keyframes are then for other services only. Same calls, same results, bit by bit.
 class Tracker {
  public:
   /// @param given_poses  what the camera's poses are; if empty they are estimated.
   /// @param executor     runs what can be done at the same time.
   /// @param now_us       for the times in results, which are 0 without.
+  /// @param odometry     of the robot; if empty there is none.
   explicit Tracker(
       const TrackerConfig& config, GivenPoses given_poses = {}, Executor executor = execute_serially,
-      Stopwatch now_us = [] { return std::int64_t{0}; });
+      Stopwatch now_us = [] { return std::int64_t{0}; }, RobotOdometry odometry = {});
 
   /// Tracks the next picture.
   ///
   /// @param movable  features in these regions are dropped and never become map points.
   /// @return state and pose; a frame that could not be localised has state kLost (kNotInitialized before the
-  /// first keyframe) and no pose; so has, with given poses, a frame that none is given for. Pictures that are
+  /// first keyframe) and no pose, or state kWeak and the pose that trusted odometry carries on; without a
+  /// pose is, with given poses, a frame that none is given for. Pictures that are
   /// empty, of other sizes or types than promised count as pictures without features.
   FrameResult track(const image::RgbdFrame& given, std::span<const MovableRegion> movable);
 
@@ -86,6 +89,11 @@ class Tracker {
 
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
   void start_from(SavedMap&& saved);
+
+  /// Somebody says where the camera is: if it is lost, it looks there, too, until it is found.
+  void seek(const SoughtPlace& place) { localizer_.seek(place); }
+  /// What is known of the robot's odometry.
+  [[nodiscard]] const OdometryPrior& odometry() const { return odometry_; }
 
   /// What may have changed since the last call, as rows of a checkpoint; all of it the first time, and after
   /// another map has begun. Best called after the frame's result was sent.
@@ -128,6 +136,10 @@ class Tracker {
                TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);
+  void expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context);
+  static void carry_on(const CarriedPose& carried, TrackedFrame& frame, FrameResult& result);
+  void compare_with_odometry(const Pose& map_from_camera);
+  [[nodiscard]] Pose sure_map_from_camera() const;
   void forget_depth();
   void forget_depth_where_moved(const Pose& last_before);
   [[nodiscard]] std::optional<double> tracked_s() const;
@@ -140,6 +152,12 @@ class Tracker {
     GivenPoses given_poses;
     Executor executor;
     Stopwatch now_us;
+    RobotOdometry odometry;
+  };
+  /// A pose that moves with the map.
+  struct PlacedPose {
+    KeyframeId reference = kNoId;
+    Pose reference_from_camera = Pose::Identity();
   };
 
   TrackerConfig config_;
@@ -147,6 +165,8 @@ class Tracker {
   SelfCalibration calibration_;
   MovableSegmenter removal_;
   MotionModel motion_;
+  OdometryPrior odometry_;
+  PlacedPose sure_;  // that the odometry's window began with
   Localizer localizer_;
   KeyframeSelector keyframes_;
   LocalMapper mapper_;
@@ -155,7 +175,7 @@ class Tracker {
   KeyframeId searched_ = kNoId;      // newest keyframe that was looked for in other submaps
   time::ContinuousTime time_;
   State state_ = State::kNotInitialized;
-  std::optional<std::int64_t> lost_since_ns_;
+  std::optional<std::int64_t> lost_since_ns_;  // without a pose
 };
 
 }  // namespace rds::tracker

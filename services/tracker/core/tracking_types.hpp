@@ -48,6 +48,8 @@ struct FrameResult {
   Pose map_from_camera = Pose::Identity();  // identity unless has_pose(state)
   Eigen::Matrix<double, 6, 6> information =
       Eigen::Matrix<double, 6, 6>::Zero();  // OptimizedPose::information
+  std::optional<Eigen::Matrix<double, 6, 6>>
+      carried_covariance;  // of a pose that odometry has carried on, in place of its information
   std::uint64_t reference_keyframe_id = 0;
   Pose reference_from_camera = Pose::Identity();
   unsigned features = 0;          // extracted

@@ -21,15 +21,6 @@ Matrix6 diagonal(double translation, double rotation) {
   return values.asDiagonal();
 }
 
-/// T · exp(ξ) = exp(Ad ξ) · T.
-Matrix6 adjoint(const geometry::Pose& pose) {
-  Matrix6 result = Matrix6::Zero();
-  result.topLeftCorner<3, 3>() = pose.linear();
-  result.bottomRightCorner<3, 3>() = pose.linear();
-  result.topRightCorner<3, 3>() = skew(pose.translation()) * pose.linear();
-  return result;
-}
-
 /// About the axes of the parent, as nav_msgs/Odometry has it.
 Matrix6 about_parent(const Matrix6& covariance, const geometry::Pose& parent_from_child) {
   Matrix6 turn = Matrix6::Zero();

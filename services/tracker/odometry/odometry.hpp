@@ -10,8 +10,6 @@
 
 namespace rds::tracker {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;  // of translation, then rotation, as Twist
-
 /// A frame's pose, as the tracker found it.
 struct TrackedPose {
   std::int64_t stamp_ns = 0;

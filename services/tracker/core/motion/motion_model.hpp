@@ -21,7 +21,8 @@ class MotionPrediction {
   MotionPrediction(const geometry::Pose& last_map_from_camera, const std::optional<Twist>& velocity,
                    double gap_s);
 
-  /// camera_from_map by constant velocity; the last pose where the velocity is unknown or the gap too long.
+  /// camera_from_map as expected, else by constant velocity; the last pose where the velocity is unknown or
+  /// the gap too long.
   [[nodiscard]] const geometry::Pose& camera_from_map() const { return camera_from_map_; }
   [[nodiscard]] const geometry::Pose& last_map_from_camera() const { return last_map_from_camera_; }
   /// Time since the last pose [s]; infinite before the first one.
@@ -35,6 +36,8 @@ class MotionPrediction {
   /// Innovation of a pose: its distance from the prediction, relative to the largest one that the
   /// accelerations of a hand-held camera explain. Above 1 the pose may be that of something moving.
   [[nodiscard]] double innovation(const geometry::Pose& camera_from_map) const;
+  /// Sensors say where the camera is: they know better than constant velocity.
+  void expect(const geometry::Pose& camera_from_map) { camera_from_map_ = camera_from_map; }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();

@@ -35,4 +35,12 @@ Twist se3_log(const geometry::Pose& pose) {
   return twist;
 }
 
+Matrix6 adjoint(const geometry::Pose& pose) {
+  Matrix6 result = Matrix6::Zero();
+  result.topLeftCorner<3, 3>() = pose.linear();
+  result.bottomRightCorner<3, 3>() = pose.linear();
+  result.topRightCorner<3, 3>() = skew(pose.translation()) * pose.linear();
+  return result;
+}
+
 }  // namespace rds::tracker

@@ -10,6 +10,8 @@ namespace rds::tracker {
 /// A small motion: translation part v [m], then rotation part ω [rad].
 using Twist = Eigen::Matrix<double, 6, 1>;
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;  // of translation, then rotation, as Twist
+
 /// [p]× with [p]× q = p × q.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& p) {
   Eigen::Matrix3d s;
@@ -22,5 +24,8 @@ geometry::Pose se3_exp(const Twist& twist);
 
 /// Its inverse, for rotations below π.
 Twist se3_log(const geometry::Pose& pose);
+
+/// T · exp(ξ) = exp(Ad ξ) · T.
+Matrix6 adjoint(const geometry::Pose& pose);
 
 }  // namespace rds::tracker

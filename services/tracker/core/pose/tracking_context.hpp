@@ -23,6 +23,12 @@ struct PoseSettings {
   DepthConfig depth;
 };
 
+/// Where odometry has carried the camera on to since vision was sure of it.
+struct CarriedPose {
+  Pose map_from_camera = Pose::Identity();
+  Matrix6 covariance = Matrix6::Zero();  // of a motion of the camera in its own frame
+};
+
 /// What is known of a picture when its pose is looked for. Lives as long as the picture is tracked.
 struct TrackingContext {
   SlamMap& map;
@@ -36,6 +42,7 @@ struct TrackingContext {
   DepthView depth = {};                          // of the picture
   LocalMap local = {};                           // the last frame's points, and those around it
   MovableMask movable = {};
+  std::optional<CarriedPose> carried = std::nullopt;
   std::optional<PointSearch> search = std::nullopt;  // for the local map's points, where they can be followed
 };
 

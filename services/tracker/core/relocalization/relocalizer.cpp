@@ -106,7 +106,32 @@ std::vector<PointId> not_seen(std::vector<PointId> points, const TrackedFrame& f
   return points;
 }
 
+/// Whether an angle between directions over the ground can be told.
+constexpr double kLeastLevel = 0.3;  // of a unit vector
+
 }  // namespace
+
+bool SoughtPlace::contains(const Pose& map_from_other) const {
+  const Eigen::Vector2d apart =
+      map_from_other.translation().head<2>() - map_from_camera.translation().head<2>();
+  if (!(apart.norm() <= radius_m)) return false;
+  const Eigen::Vector2d ahead = map_from_camera.linear().col(2).head<2>();
+  const Eigen::Vector2d other = map_from_other.linear().col(2).head<2>();
+  if (ahead.norm() < kLeastLevel || other.norm() < kLeastLevel) return true;
+  return ahead.normalized().dot(other.normalized()) >= std::cos(max_angle_rad);
+}
+
+bool Relocalizer::localize_around(const TrackingContext& context, const SoughtPlace& place,
+                                  TrackedFrame& frame) const {
+  std::size_t tried = 0;
+  for (const auto& candidate : places_.query(static_descriptors(*frame.features), places_.size())) {
+    const Keyframe* keyframe = std::as_const(context.map).keyframe(candidate.id);
+    if (keyframe == nullptr || !place.contains(keyframe->map_from_camera)) continue;
+    if (tried++ == kCandidates) break;
+    if (localize_against(context, candidate.id, frame)) return true;
+  }
+  return false;
+}
 
 bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) const {
   const auto candidates = places_.query(static_descriptors(*frame.features), kCandidates);

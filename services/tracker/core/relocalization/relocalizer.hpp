@@ -9,6 +9,16 @@
 
 namespace rds::tracker {
 
+/// Where somebody says that the camera is, in a level map: over the ground, and which way it looks.
+struct SoughtPlace {
+  Pose map_from_camera = Pose::Identity();
+  double radius_m = 1;
+  double max_angle_rad = 0.8;
+
+  /// True of a camera that stands and looks so. Of one that looks steeply up or down only the place counts.
+  [[nodiscard]] bool contains(const Pose& map_from_other) const;
+};
+
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,
 /// refinement, then a wider search for the points of the keyframe and of its covisible keyframes. What is
 /// found by one plane alone is not believed: patterns of walls and floors repeat. Source: Mur-Artal et al.
@@ -22,6 +32,9 @@ class Relocalizer {
   /// @return true if at least kMinInliers map points agree that do not all lie in one plane; then
   /// frame.points and camera_from_map hold the result.
   bool localize(const TrackingContext& context, TrackedFrame& frame) const;
+  /// Tries those of the keyframes around a place that look most like the frame.
+  /// @return as localize().
+  bool localize_around(const TrackingContext& context, const SoughtPlace& place, TrackedFrame& frame) const;
   /// Looks for the place that a keyframe shows among the keyframes of other submaps.
   /// @return nullopt if fewer than kMinInliers map points agree, or all of them lie in one plane.
   std::optional<geometry::LoopMatch> find_in_others(SlamMap& map, const PoseSettings& settings,

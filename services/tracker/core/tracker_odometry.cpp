@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of Tracker that uses the robot's odometry.
+#include "services/tracker/core/tracker.hpp"
+
+namespace rds::tracker {
+
+/// Where odometry, if it is trusted, expects the camera. A lost one is expected where it has been carried on
+/// to.
+void Tracker::expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context) {
+  odometry_.go_to(stamp_ns);
+  if (const auto motion = odometry_.since_begin())
+    context.carried = CarriedPose{sure_map_from_camera() * motion->begin_from_camera, motion->covariance};
+  if (state_ == State::kLost) {
+    if (context.carried) context.motion.expect(context.carried->map_from_camera.inverse());
+  } else if (const auto last_from_camera = odometry_.step()) {
+    context.motion.expect((last_map_from_camera() * *last_from_camera).inverse());
+  }
+}
+
+/// Vision has lost the camera. The tracker itself stays lost: nothing of the frame supports a pose, or gets
+/// into the map.
+void Tracker::carry_on(const CarriedPose& carried, TrackedFrame& frame, FrameResult& result) {
+  frame.camera_from_map = carried.map_from_camera.inverse();
+  frame.information.setZero();
+  frame.clear_matches();
+  result.state = State::kWeak;
+  result.carried_covariance = carried.covariance;
+}
+
+/// The frame has a pose. Of those in doubt nothing is learned; after a jump a window begins.
+void Tracker::compare_with_odometry(const Pose& map_from_camera) {
+  if (state_ == State::kWeak) return;
+  bool begins = state_ == State::kRelocalised;
+  if (begins)
+    odometry_.begin_window();
+  else
+    begins = odometry_.observe(sure_map_from_camera().inverse() * map_from_camera);
+  if (!begins) return;
+  const KeyframeId reference = localizer_.features().reference();
+  sure_ = {reference, mapper_.map().pose_of(reference).inverse() * map_from_camera};
+}
+
+Pose Tracker::sure_map_from_camera() const {
+  return sure_.reference == kNoId ? Pose::Identity()
+                                  : mapper_.map().pose_of(sure_.reference) * sure_.reference_from_camera;
+}
+
+}  // namespace rds::tracker

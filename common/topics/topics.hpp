@@ -80,8 +80,7 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kDepthInfo{
 // inputs).
 inline constexpr Topic<nav_msgs::msg::Odometry> kRobotOdometry{
     "odom", {{kPlayer, bus::kMotion}}, {{kTracker, bus::kMotion}}};
-inline constexpr Topic<sensor_msgs::msg::Imu> kImu{
-    "imu", {{kPlayer, bus::kMotion}}, {{kTracker, bus::kMotion}}};
+inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu", {}, {{kTracker, bus::kMotion}}};
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{
     "initialpose", {}, {{kTracker, bus::kStream}}};
 

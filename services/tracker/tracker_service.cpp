@@ -48,12 +48,20 @@ void tell(const UpDirection& up) {
 TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
     : Service(context),
       config_(config),
-      tracker_(config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s),
-               executor_with_helper(), time::now_us),
+      tracker_(
+          config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s), executor_with_helper(),
+          time::now_us,
+          config.inputs.odometry.empty()
+              ? RobotOdometry()
+              : [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); }),
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, config.frames, epoch_.id()),
       input_(context, mailbox_, config.camera, config.lockstep.enabled),
+      robot_(context, mailbox_, config,
+             [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
+               return outputs_.odometry().look_up(target, source, stamp_ns);
+             }),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
       map_commands_(mailbox_, config.maps, map_file::kTracker) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
@@ -116,6 +124,9 @@ void TrackerService::begin_after_break() {
 void TrackerService::process(const image::RgbdFrame& frame) {
   if (epoch_.is_of_another_camera(frame)) reset();
   answers_.await(frame_index_, epoch_.id(), stop_, [this] { beat(); });
+  robot_.go_to(frame.stamp_ns, input_.camera_frame(), stop_, [this] { beat(); });
+  seek();
+  tracker_.set_up(robot_.up_in_camera(frame.stamp_ns));
   const std::int64_t started_us = time::now_us();
   apply_answers();
   const std::int64_t predict_started_us = time::now_us();
@@ -146,6 +157,18 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();
+}
+
+/// Where somebody says that the camera is, a lost one looks for itself.
+void TrackerService::seek() {
+  const auto place = robot_.take_sought_place();
+  if (!place) return;
+  const Eigen::Vector3d at = place->map_from_camera.translation();
+  if (tracker_.seek(*place))
+    spdlog::info("lost, looks for itself around ({:.2f}, {:.2f}), within {:.1f} m", at.x(), at.y(),
+                 place->radius_m);
+  else
+    spdlog::info("an initial pose at ({:.2f}, {:.2f}) is not used: the camera is not lost", at.x(), at.y());
 }
 
 /// In another submap what moves stands elsewhere, and boxes on their way are in the frame of the one before.

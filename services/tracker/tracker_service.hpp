@@ -13,6 +13,7 @@
 #include "services/tracker/frame_input.hpp"
 #include "services/tracker/keyframe_answers.hpp"
 #include "services/tracker/map_epoch.hpp"
+#include "services/tracker/robot_inputs.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 
@@ -38,6 +39,7 @@ class TrackerService : public service::Service {
   void take(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
+  void seek();
   void acknowledge(const image::RgbdFrame& frame);
   void apply_answers();
   void apply(const BoxesMessage& boxes);
@@ -61,6 +63,7 @@ class TrackerService : public service::Service {
   MovableObjects objects_;
   TrackerOutputs outputs_;
   FrameInput input_;
+  RobotInputs robot_;
   KeyframeAnswers answers_;
   std::uint64_t frame_index_ = 0;
   std::uint64_t place_ = 0;  // counts the map and submaps that the camera was in, one after the other

@@ -19,6 +19,12 @@ void read(config::ConfigReader& reader, FramesConfig& config) {
   reader.value("publish_tf", config.publish_tf);
 }
 
+void read(config::ConfigReader& reader, InputsConfig& config) {
+  reader.value("odometry", config.odometry);
+  reader.value("imu", config.imu);
+  reader.value("initial_pose", config.initial_pose);
+}
+
 void read(config::ConfigReader& reader, LockstepConfig& config) {
   reader.value("lockstep", config.enabled);
   reader.value("detection_latency_frames", config.detection_latency_frames, std::uint64_t{1},
@@ -33,6 +39,7 @@ void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   reader.value("mapping_nice", config.mapping_nice, 0, 19);
   read(reader.section("camera"), config.camera);
   read(reader.section("frames"), config.frames);
+  read(reader.section("inputs"), config.inputs);
   read(reader, config.lockstep);
   reader.value("dynamics", config.dynamics);
   reader.value("loop_closer", config.loop_closer);

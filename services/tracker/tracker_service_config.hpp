@@ -10,6 +10,7 @@
 #include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/odometry/frames_config.hpp"
+#include "services/tracker/odometry/inputs_config.hpp"
 
 namespace rds::tracker {
 
@@ -40,6 +41,7 @@ struct TrackerServiceConfig {
   int mapping_nice = 10;  // of local mapping's thread: tracking has the processor first
   CameraTopics camera;
   FramesConfig frames;
+  InputsConfig inputs;
   LockstepConfig lockstep;
   bool dynamics = true;          // boxes are used (and in lockstep waited for)
   bool loop_closer = true;       // in lockstep: its answers are waited for

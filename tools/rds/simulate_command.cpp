@@ -50,6 +50,7 @@ struct SimulateOptions {
   double fps = 30;
   std::vector<double> distortion;
   double depth_scale = simulator::DepthSensor::kUnitsPerMetre;
+  std::optional<double> odometry;
   bool force = false;
   int threads = 0;
 };
@@ -124,6 +125,9 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
   checked.people = options.people;
   checked.seconds = seconds;
   checked.seed = options.seed;
+  if (options.odometry && !(*options.odometry >= 0.5 && *options.odometry <= 2))
+    exit_with(kExitBadInput, fmt::format("--odometry {}: expected a scale of 0.5 … 2", *options.odometry));
+  checked.odometry_scale = options.odometry;
   return checked;
 }
 
@@ -232,6 +236,9 @@ void add_simulate_command(CLI::App& rds) {
   simulate_app
       ->add_option("--depth-scale", options->depth_scale, "Units of the depth pictures per metre; 1000: mm")
       ->capture_default_str();
+  simulate_app->add_option("--odometry", options->odometry,
+                           "Also write odometry.txt, what dead reckoning tells of the camera: so many times "
+                           "the true way, with noise and slip, e.g. 1.05");
   simulate_app->add_option("--seed", options->seed, "Chooses room, people and paths")->capture_default_str();
   simulate_app->add_option("--threads", options->threads, "0 = one per core; the result is the same")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "common/image/rgbd_frame.hpp"
+#include "nav_msgs/msg/Odometry.h"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
 
@@ -13,5 +14,7 @@ namespace rds::recording {
 sensor_msgs::msg::Image color_message(const image::ColorImage& color, std::int64_t stamp_ns);
 sensor_msgs::msg::Image depth_message(const image::DepthImage& depth, std::int64_t stamp_ns);
 sensor_msgs::msg::CameraInfo camera_info_message(const geometry::CameraModel& camera, std::int64_t stamp_ns);
+/// Odometry of the camera; covariances and speed, which are not known, are zero.
+nav_msgs::msg::Odometry odometry_message(const geometry::Pose& odom_from_camera, std::int64_t stamp_ns);
 
 }  // namespace rds::recording

@@ -2,6 +2,7 @@
 #include "tools/simulator/dataset_writer.hpp"
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tools/simulator/sensors/dead_reckoning.hpp"
 #include "tools/simulator/truth_map.hpp"
 
 namespace rds::simulator {
@@ -20,11 +22,17 @@ using Json = nlohmann::ordered_json;
 constexpr double kStart = 1.0;     // stamp of the first frame [s]
 constexpr int kPosesPerFrame = 4;  // groundtruth.txt has 120 lines a second
 constexpr int kJpegQuality = 92;
-constexpr std::array kEntries{"rgb",          "depth",
-                              "masks",        "rgb.txt",
-                              "depth.txt",    "groundtruth.txt",
-                              "camera.yaml",  "people.json",
-                              "objects.json", "detections_truth.jsonl",
+constexpr std::array kEntries{"rgb",
+                              "depth",
+                              "masks",
+                              "rgb.txt",
+                              "depth.txt",
+                              "groundtruth.txt",
+                              "odometry.txt",
+                              "camera.yaml",
+                              "people.json",
+                              "objects.json",
+                              "detections_truth.jsonl",
                               "truth.ot"};
 
 /// As short as it is exact, with a point: 525.0, 347.8125.
@@ -40,6 +48,17 @@ Json number(double value, int digits) {
 
 Json vector(const Eigen::Vector3d& v, int digits) {
   return {number(v.x(), digits), number(v.y(), digits), number(v.z(), digits)};
+}
+
+std::string lines_of(const std::vector<geometry::StampedPose>& path) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (const auto& [stamp_ns, pose, stamp] : path) {
+    const Eigen::Quaterniond q(pose.linear());
+    const Eigen::Vector3d p = pose.translation();
+    text += fmt::format("{} {:.6f} {:.6f} {:.6f} {:.7f} {:.7f} {:.7f} {:.7f}\n", stamp, p.x(), p.y(), p.z(),
+                        q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
 }
 
 void write_image(const fs::path& path, const cv::Mat& image, const std::vector<int>& parameters) {
@@ -94,19 +113,28 @@ void DatasetWriter::write_text(const std::string& name, const std::string& text)
   if (!file) throw std::runtime_error((folder_ / name).string() + ": cannot be written");
 }
 
-std::string DatasetWriter::groundtruth() const {
-  std::string text =
-      "# ground truth of the camera, exact: world_from_camera, z up\n# timestamp tx ty tz qx qy qz qw\n";
+/// world_from_camera, 120 times a second.
+std::vector<geometry::StampedPose> DatasetWriter::path() const {
+  std::vector<geometry::StampedPose> path;
   const int last = (simulation_.frame_count() - 1) * kPosesPerFrame;
   for (int i = 0; i <= last; ++i) {
     const double t = i / (simulation_.options().rate_hz * kPosesPerFrame);
-    const geometry::Pose pose = simulation_.world_from_camera(t);
-    const Eigen::Quaterniond q(pose.linear());
-    const Eigen::Vector3d p = pose.translation();
-    text += fmt::format("{:.6f} {:.6f} {:.6f} {:.6f} {:.7f} {:.7f} {:.7f} {:.7f}\n", kStart + t, p.x(), p.y(),
-                        p.z(), q.x(), q.y(), q.z(), q.w());
+    path.push_back({std::llround((kStart + t) * 1e9), simulation_.world_from_camera(t),
+                    fmt::format("{:.6f}", kStart + t)});
   }
-  return text;
+  return path;
+}
+
+std::string DatasetWriter::groundtruth() const {
+  return "# ground truth of the camera, exact: world_from_camera, z up\n" + lines_of(path());
+}
+
+std::string DatasetWriter::odometry() const {
+  DeadReckoningErrors errors;
+  errors.scale = *simulation_.options().odometry_scale;
+  return fmt::format("# odometry of the camera, with scale {}, noise and slip: odom_from_camera\n",
+                     errors.scale) +
+         lines_of(dead_reckoning(path(), errors, simulation_.options().seed));
 }
 
 std::string DatasetWriter::people() const {
@@ -185,6 +213,7 @@ void DatasetWriter::finish() const {
     write_truth_map(simulation_.scene(), folder_ / "truth.ot");
   write_text("camera.yaml", camera());
   write_text("groundtruth.txt", groundtruth());
+  if (simulation_.options().odometry_scale) write_text("odometry.txt", odometry());
   write_text("people.json", people());
   write_text("objects.json", objects());
   write_text("detections_truth.jsonl", detections());

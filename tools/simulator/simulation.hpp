@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct SimulationOptions {
   double rate_hz = 30;
   geometry::CameraModel camera = camera_of_size(640, 480);
   double depth_units_per_metre = DepthSensor::kUnitsPerMetre;
+  std::optional<double> odometry_scale;  // odometry.txt is written, of this scale (DeadReckoningErrors)
 };
 
 /// Truth about one person in one picture; only people with visible pixels are listed.

@@ -108,7 +108,9 @@ void Localizer::begin_map(const TrackingContext& context, PoseEstimate& first) c
   first.frame.camera_from_map = Pose::Identity();
   const MapFrameConfig& config = config_.map_frame;
   if (!config.level) return;
-  if (config.up_in_camera.empty()) {
+  if (config.up_in_camera.empty() && measured_up_) {
+    first.frame.camera_from_map = level_pose(*measured_up_).inverse();
+  } else if (config.up_in_camera.empty()) {
     first.up = find_up(plane_normals(context.depth));
     first.frame.camera_from_map = level_pose(first.up->up).inverse();
   } else {

@@ -51,6 +51,8 @@ class Localizer {
   /// @return false if too few match: then it stays as it is.
   bool match_features(const TrackingContext& context, PoseEstimate& estimate);
 
+  /// Which way is up in the camera's frame, as an accelerometer says; a map that begins is level by it.
+  void set_up(const std::optional<Eigen::Vector3d>& up_in_camera) { measured_up_ = up_in_camera; }
   /// A lost camera is looked for around this place, too, until it is found.
   void seek(const SoughtPlace& place) { sought_ = place; }
 
@@ -88,6 +90,7 @@ class Localizer {
   FeatureTracker features_;
   DepthAligner depth_aligner_;
   Relocalizer relocalizer_;
+  std::optional<Eigen::Vector3d> measured_up_;
   std::optional<SoughtPlace> sought_;
   std::int64_t weak_since_ns_ = 0;  // time of the first of the weak frames in a row
 };

@@ -90,8 +90,12 @@ class Tracker {
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
   void start_from(SavedMap&& saved);
 
+  /// Which way is up in the next picture's camera, if an accelerometer says so: a map that begins with it is
+  /// level by that, not by floors and walls. A setting goes before both.
+  void set_up(const std::optional<Eigen::Vector3d>& up_in_camera) { localizer_.set_up(up_in_camera); }
   /// Somebody says where the camera is: if it is lost, it looks there, too, until it is found.
-  void seek(const SoughtPlace& place) { localizer_.seek(place); }
+  /// @return whether it is lost.
+  bool seek(const SoughtPlace& place);
   /// What is known of the robot's odometry.
   [[nodiscard]] const OdometryPrior& odometry() const { return odometry_; }
 

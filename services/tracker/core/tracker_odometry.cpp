@@ -40,6 +40,11 @@ void Tracker::compare_with_odometry(const Pose& map_from_camera) {
   sure_ = {reference, mapper_.map().pose_of(reference).inverse() * map_from_camera};
 }
 
+bool Tracker::seek(const SoughtPlace& place) {
+  if (state_ == State::kLost) localizer_.seek(place);
+  return state_ == State::kLost;
+}
+
 Pose Tracker::sure_map_from_camera() const {
   return sure_.reference == kNoId ? Pose::Identity()
                                   : mapper_.map().pose_of(sure_.reference) * sure_.reference_from_camera;

@@ -33,7 +33,10 @@ Matrix6 about_parent(const Matrix6& covariance, const geometry::Pose& parent_fro
 
 Matrix6 covariance_of(const Matrix6& information, const geometry::Pose& child_from_camera) {
   const Matrix6 regular = information + Matrix6(diagonal(1 / kUnknownM, 1 / kUnknownRad));
-  const Matrix6 in_camera = regular.ldlt().solve(Matrix6::Identity());
+  return covariance_in_child(regular.ldlt().solve(Matrix6::Identity()), child_from_camera);
+}
+
+Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& child_from_camera) {
   const Matrix6 moved = adjoint(child_from_camera);
   const Matrix6 covariance = moved * in_camera * moved.transpose();
   return (covariance + covariance.transpose()) / 2;
@@ -55,7 +58,8 @@ OdometryStep Odometry::step(const TrackedPose& pose, const RobotFrames& frames) 
     step.odom_from_body = odom_from_camera_ * frames.body_from_camera.inverse();
   const geometry::Pose camera_from_child = frames.child_from_camera.inverse();
   step.parent_from_child = (step.is_in_map ? pose.map_from_camera : odom_from_camera_) * camera_from_child;
-  const Matrix6 covariance = covariance_of(pose.information, frames.child_from_camera);
+  const Matrix6 covariance = pose.covariance ? covariance_in_child(*pose.covariance, frames.child_from_camera)
+                                             : covariance_of(pose.information, frames.child_from_camera);
   step.pose_covariance = about_parent(covariance, step.parent_from_child);
   if (frames.child != child_) past_.clear();
   child_ = frames.child;

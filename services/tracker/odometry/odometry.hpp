@@ -14,9 +14,10 @@ namespace rds::tracker {
 struct TrackedPose {
   std::int64_t stamp_ns = 0;
   geometry::Pose map_from_camera = geometry::Pose::Identity();
-  Matrix6 information = Matrix6::Zero();  // of a motion in the camera's frame; zero: not known
-  bool is_continuous = true;              // false after a relocalisation: the pose may have jumped
-  bool is_placed = true;                  // false: it is in a submap, whose place in the map is not known
+  Matrix6 information = Matrix6::Zero();   // of a motion in the camera's frame; zero: not known
+  std::optional<Matrix6> covariance = {};  // of a pose that odometry carries on, in its place
+  bool is_continuous = true;               // false after a relocalisation: the pose may have jumped
+  bool is_placed = true;                   // false: it is in a submap, whose place in the map is not known
 };
 
 /// What there is to tell of one frame.
@@ -65,5 +66,7 @@ class Odometry {
 /// same motion in the camera's frame. Directions without information have kUnknownM and kUnknownRad; nothing
 /// is ever certain.
 Matrix6 covariance_of(const Matrix6& information, const geometry::Pose& child_from_camera);
+/// The same of a motion in the camera's frame with this covariance.
+Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& child_from_camera);
 
 }  // namespace rds::tracker

@@ -68,6 +68,12 @@ void OdometryOutput::take(const tf2_msgs::msg::TFMessage& message, bool is_stati
   }
 }
 
+std::optional<geometry::Pose> OdometryOutput::look_up(const std::string& target, const std::string& source,
+                                                      std::int64_t stamp_ns) {
+  const std::lock_guard lock(mutex_);
+  return tree_.lookup(without_slash(target), without_slash(source), stamp_ns);
+}
+
 void OdometryOutput::publish(std::int64_t stamp_ns, const FrameResult& result,
                              const std::string& camera_frame) {
   const RobotFrames frames = [&] {
@@ -75,9 +81,10 @@ void OdometryOutput::publish(std::int64_t stamp_ns, const FrameResult& result,
     return robot_frames(tree_, names_, without_slash(camera_frame), stamp_ns);
   }();
   const bool is_placed = result.submap == Submaps::kMap;
-  const OdometryStep step = odometry_.step(
-      {stamp_ns, result.map_from_camera, result.information, result.state != State::kRelocalised, is_placed},
-      frames);
+  const OdometryStep step =
+      odometry_.step({stamp_ns, result.map_from_camera, result.information, result.carried_covariance,
+                      result.state != State::kRelocalised, is_placed},
+                     frames);
   if (step.is_in_map && !is_placed) return;  // all that could be told
   nav_msgs::msg::Odometry odometry;
   odometry.header(messages::make_header(stamp_ns, step.is_in_map ? names_.map : names_.odom));

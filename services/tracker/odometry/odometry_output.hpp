@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ class OdometryOutput {
   /// @param camera_frame  frame_id of the pictures.
   void publish(std::int64_t stamp_ns, const FrameResult& result, const std::string& camera_frame);
   void move_map(const geometry::Pose& corrected_map_from_map) { odometry_.move_map(corrected_map_from_map); }
+  /// Where `source` is in `target` by the transforms that others publish; nullopt if no path joins them.
+  [[nodiscard]] std::optional<geometry::Pose> look_up(const std::string& target, const std::string& source,
+                                                      std::int64_t stamp_ns);
   void begin_map() { odometry_.begin_map(); }
 
  private:

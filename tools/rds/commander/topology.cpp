@@ -78,7 +78,8 @@ Endpoints endpoints_of(const bus::Participant& player, const std::map<std::strin
     const auto status = nlohmann::json::parse(text, nullptr, false);
     if (!status.is_object() || !status.contains("endpoints")) continue;
     for (const auto& e : status["endpoints"])
-      endpoints[service].push_back({e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
+      endpoints[service].push_back(
+          {e.value("topic", ""), e.value("publisher", false), e.value("matched", 0)});
   }
   return endpoints;
 }
@@ -103,11 +104,17 @@ std::vector<std::string> missing_links(const std::set<std::string>& running, con
       missing.push_back(fmt::format("{} {} {}: {} of {} {}", process, publisher ? "writes" : "reads",
                                     link.topic, matched, expected, publisher ? "readers" : "writers"));
   };
+  const auto is_used = [&](const std::string& topic) {  // by a player that was told to
+    const auto player = endpoints.find(kPlayer);
+    return player != endpoints.end() &&
+           std::ranges::any_of(player->second, [&](const Endpoint& e) { return e.topic == topic; });
+  };
   static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kKeyframeFeatures.name,
                                              topics::kBoxes.name};
   static const std::set<std::string> kTransferred{topics::kKeyframeImages.name,
                                                   topics::kKeyframeFeatures.name};
   for (Link& link : links()) {
+    if (link.topic == topics::kRobotOdometry.name && !is_used(link.topic)) continue;
     if (localize_only && kMapped.contains(link.topic))
       std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
     if (kTransferred.contains(link.topic))

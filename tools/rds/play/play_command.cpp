@@ -75,7 +75,10 @@ int play(const PlayOptions& options) {
   const Interrupt interrupt;
   const auto bus = bus::Participant::create(options.bus.participant("rds_play"));
   Acknowledgements acknowledgements(*bus);
-  Player player(*bus, recording, options.player);
+  PlayerOptions what = options.player;
+  const auto odometry = options.dataset / kOdometryFile;
+  if (what.odometry.empty() && std::filesystem::is_regular_file(odometry)) what.odometry = odometry;
+  Player player(*bus, recording, what);
   wait_for_reader(player, interrupt.token());
   bool acknowledged = true;
   const PlayerReport report = player.run(interrupt.token(), [&](const image::RgbdFrame& frame, std::size_t) {
@@ -100,6 +103,9 @@ void add_play_command(CLI::App& rds) {
   command->add_option("--start", options->player.start, "first frame");
   command->add_option("--frames", options->player.frames, "number of frames")->check(CLI::PositiveNumber);
   command->add_flag("--loop", options->player.loop, "over and over, time going on");
+  command->add_option("--odometry", options->player.odometry,
+                      "TUM trajectory of the camera to publish as the robot's odometry, on odom (default: "
+                      "the recording's odometry.txt, if there is one)");
   add_bus_options(*command, options->bus);
   command->callback([options] {
     int status = kBadUsage;

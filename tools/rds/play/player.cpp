@@ -46,7 +46,9 @@ Player::Player(bus::Participant& bus, const image::Recording& dataset, const Pla
       options_(options),
       color_(topics::advertise(bus, topics::kColor, topics::kPlayer)),
       camera_info_(topics::advertise(bus, topics::kCameraInfo, topics::kPlayer)),
-      depth_(topics::advertise(bus, topics::kDepth, topics::kPlayer)) {}
+      depth_(topics::advertise(bus, topics::kDepth, topics::kPlayer)),
+      odometry_(options.odometry.empty() ? nullptr
+                                         : std::make_unique<OdometryPlayer>(bus, options.odometry)) {}
 
 std::size_t Player::frame_count() const {
   const std::size_t all = dataset_.frames().size();
@@ -75,14 +77,15 @@ PlayerReport Player::run(const std::stop_token& stop, const AfterFrame& after_fr
       const double since_begin_ns = static_cast<double>(frame.stamp_ns - begin_ns) / options_.rate;
       sleep_until(started + std::chrono::nanoseconds(static_cast<std::int64_t>(since_begin_ns)), stop);
     }
-    publish(frame, dataset_.frames()[decoded->index].depth_stamp_ns + shift_ns);
+    publish(frame, dataset_.frames()[decoded->index].depth_stamp_ns + shift_ns, shift_ns);
     ++report.played;
     if (stop.stop_requested() || !after_frame(frame, decoded->index)) break;
   }
   return report;
 }
 
-void Player::publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns) {
+void Player::publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns, std::int64_t shift_ns) {
+  if (odometry_) odometry_->publish_through(frame.stamp_ns - shift_ns, shift_ns);
   camera_info_.write(recording::camera_info_message(frame.camera, frame.stamp_ns));
   color_.write(recording::color_message(frame.color, frame.stamp_ns));
   depth_.write(recording::depth_message(frame.depth, depth_stamp_ns));

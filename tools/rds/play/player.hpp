@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <stop_token>
 #include <string>
 
@@ -11,6 +13,7 @@
 #include "common/image/recording.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
+#include "tools/rds/play/odometry_player.hpp"
 
 namespace rds::play {
 
@@ -19,6 +22,7 @@ struct PlayerOptions {
   std::size_t start = 0;
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   bool loop = false;
+  std::filesystem::path odometry = {};  // TUM trajectory to play as the robot's odometry; empty: none
 };
 
 struct PlayerReport {
@@ -34,13 +38,14 @@ void check_first_frame(const image::Recording& dataset, std::size_t start);
 /// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour; an empty
 /// depth picture with the same stamp where the recording has none.
 ///
-/// Pictures are decoded ahead of time by a thread of its own. A frame that cannot be read is skipped and
-/// counted.
+/// Odometry, if there is one, goes out before the pictures of its time. Pictures are decoded ahead of time by
+/// a thread of its own. A frame that cannot be read is skipped and counted.
 class Player {
  public:
   /// Called after each frame was sent. At rate 0 the player goes on when it returns. @return false to end.
   using AfterFrame = std::function<bool(const image::RgbdFrame& frame, std::size_t index)>;
 
+  /// @throws std::runtime_error with one sentence if options.odometry cannot be read.
   Player(bus::Participant& bus, const image::Recording& dataset, const PlayerOptions& options);
 
   /// Frames of one pass.
@@ -52,13 +57,14 @@ class Player {
   PlayerReport run(const std::stop_token& stop, const AfterFrame& after_frame);
 
  private:
-  void publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns);
+  void publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns, std::int64_t shift_ns);
 
   const image::Recording& dataset_;
   PlayerOptions options_;
   bus::Publisher<sensor_msgs::msg::Image> color_;
   bus::Publisher<sensor_msgs::msg::CameraInfo> camera_info_;
   bus::Publisher<sensor_msgs::msg::Image> depth_;
+  std::unique_ptr<OdometryPlayer> odometry_;  // or none
 };
 
 }  // namespace rds::play

@@ -70,7 +70,7 @@ void check_view(const RunOptions& options) {
 }
 
 void check_files(const RunOptions& options) {
-  for (const auto& file : {options.config, options.detections, options.poses})
+  for (const auto& file : {options.config, options.detections, options.poses, options.odometry})
     if (!file.empty() && !std::filesystem::is_regular_file(file))
       throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
 }
@@ -174,6 +174,7 @@ void add_run_command(CLI::App& rds) {
   auto options = std::make_shared<RunOptions>();
   auto vendors = std::make_shared<std::string>("fastdds");
   auto where = std::make_shared<HostsOptions>();
+  auto odometry = std::make_shared<std::string>();
   auto no_dynamics = std::make_shared<bool>(false);
   add_recording_option(*command, options->dataset);
   command->add_option("--out", options->out, "folder for the results");
@@ -192,6 +193,9 @@ void add_run_command(CLI::App& rds) {
                       "boxes from a detections.jsonl or a truth file instead of the network");
   command->add_option("--poses", options->poses,
                       "poses from a TUM trajectory instead of estimated ones; no loops are closed");
+  command->add_flag(fmt::format("--odometry{{{}}}", play::kOdometryFile), *odometry,
+                    "let the tracker have a robot's odometry, the recording's odometry.txt or "
+                    "--odometry=FILE, a TUM trajectory of the camera: it carries a lost camera on");
   command->add_option("--map", options->map,
                       "go on from a saved map: map.rds, the folder of a run, or an OctoMap tree (map.ot)");
   command->add_flag("--localize-only", options->localize_only,
@@ -223,7 +227,8 @@ void add_run_command(CLI::App& rds) {
       ->check(CLI::IsMember({"camera", "map"}));
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
-  command->callback([options, vendors, where, no_dynamics] {
+  command->callback([options, vendors, where, odometry, no_dynamics] {
+    options->odometry = *odometry == play::kOdometryFile ? options->dataset / *odometry : *odometry;
     options->dynamics = !*no_dynamics;
     if (options->view_keep && options->view.empty()) options->view = kViewPort;
     const int status = run(*options, *vendors, *where);

@@ -35,7 +35,7 @@ std::vector<std::string> lines_of(const std::string& file) {
 
 /// Topics in backticks; `/rds/odometry` is rds/odometry.
 Names topics_in(const std::string& text) {
-  static const std::regex kTopic("`/?((?:rds|camera)/[a-zA-Z0-9_/]+|tf|tf_static|diagnostics)`");
+  static const std::regex kTopic("`/?((?:rds|camera)/[a-zA-Z0-9_/]+|tf|tf_static|diagnostics|odom|imu|initialpose)`");
   Names names;
   for (std::sregex_iterator m(text.begin(), text.end(), kTopic), end; m != end; ++m) names.insert((*m)[1]);
   return names;

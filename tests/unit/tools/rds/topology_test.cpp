@@ -51,6 +51,16 @@ TEST(MissingLinks, AreNoneWhenEveryRunningPairKnowsEachOther) {
   EXPECT_THAT(missing_links(kRunning, connected()), IsEmpty());
 }
 
+TEST(MissingLinks, OfOdometryAreMissedOnlyWhereItIsPlayed) {
+  auto endpoints = connected();
+  endpoints[kPlayer].push_back({"odom", true, 0});
+  EXPECT_THAT(missing_links(kRunning, endpoints),
+              Contains(HasSubstr(kPlayer + " writes odom: 0 of 1 readers")));
+  endpoints[kPlayer].back().matched = 1;
+  endpoints[kTracker].push_back({"odom", false, 1});
+  EXPECT_THAT(missing_links(kRunning, endpoints), IsEmpty());
+}
+
 TEST(MissingLinks, NameTheEndAndTheTopicThatLacksPartners) {
   auto endpoints = connected();
   endpoints[kDetector][0].matched = 0;

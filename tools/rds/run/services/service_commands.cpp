@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "common/config/config_reader.hpp"
+#include "common/topics/topics.hpp"
 #include "services/detector/detector_service_config.hpp"
 #include "services/loop_closer/loop_closer_service_config.hpp"
 #include "services/mapper/mapper_service_config.hpp"
@@ -60,6 +61,8 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
               const fs::path& folder) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
   if (process == kTracker) node["dynamics"] = options.dynamics;
+  if (process == kTracker && !options.odometry.empty())
+    node["inputs"]["odometry"] = topics::kRobotOdometry.name;
   if (process == kTracker && !options.poses.empty())
     node["poses_file"] = fs::absolute(options.poses).string();
   if (process == kMapper && !options.poses.empty() && !node["grid"]["up"])

@@ -97,5 +97,26 @@ TEST(TrackerOdometry, OfARobotIsNotReadWherePosesAreGiven) {
   EXPECT_FALSE(tracker.odometry().is_trusted());
 }
 
+TEST(TrackerLevel, IsByAnAccelerometerWhereThereIsOne) {
+  TrackerConfig config = small_config();
+  config.map_frame.level = true;
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.9, -0.3).normalized();
+  Tracker tracker(config);
+  tracker.set_up(up);
+  const FrameResult first = tracker.track(picture(0), {});
+  ASSERT_EQ(first.state, State::kTracking);
+  EXPECT_FALSE(first.up) << "no surface was asked";
+  EXPECT_TRUE((first.map_from_camera.linear() * up).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST(TrackerSeek, IsForALostCamera) {
+  Tracker tracker(small_config());
+  for (int i = 0; i < 6; ++i) step(tracker, i);
+  EXPECT_FALSE(tracker.seek({}));
+  tracker.track(dark_picture(6 * kFrameNs), {});
+  EXPECT_TRUE(tracker.seek({}));
+  EXPECT_EQ(step(tracker, 7).state, State::kRelocalised);
+}
+
 }  // namespace
 }  // namespace rds::tracker

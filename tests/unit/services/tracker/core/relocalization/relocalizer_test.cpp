@@ -37,6 +37,32 @@ TEST_F(Relocalization, FindsTheCameraInAKnownPlace) {
   EXPECT_GT(frame.static_matches(), Relocalizer::kMinInliers);
 }
 
+TEST_F(Relocalization, LooksAroundAPlaceAndNowhereElse) {
+  relocalizer.index_all(map);
+  SoughtPlace around{test::pose(0.4, 0.3, 0), 1, 0.8};
+  TrackedFrame frame = unknown_frame();
+  ASSERT_TRUE(relocalizer.localize_around(context(), around, frame));
+  EXPECT_LT(se3_log(frame.camera_from_map * place).norm(), 1e-4);
+  around.map_from_camera.translation().x() = 5;
+  frame = unknown_frame();
+  EXPECT_FALSE(relocalizer.localize_around(context(), around, frame));
+}
+
+TEST(SoughtPlace, CountsOverTheGroundAndByTheWayThatTheCameraLooks) {
+  const auto camera = [](double x, double z, double heading_rad, double tilt_rad) {
+    Eigen::Matrix3d ahead;  // optical axis along x, z up
+    ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    const Eigen::AngleAxisd heading(heading_rad, Eigen::Vector3d::UnitZ());
+    const Eigen::AngleAxisd tilt(tilt_rad, Eigen::Vector3d::UnitX());
+    return geometry::make_pose({x, 0, z}, Eigen::Quaterniond(heading * Eigen::Quaterniond(ahead) * tilt));
+  };
+  const SoughtPlace place{camera(1, 0, 0, 0), 1, 0.8};
+  EXPECT_TRUE(place.contains(camera(1.9, 3, 0.7, 0.4))) << "how high it stands is not known";
+  EXPECT_FALSE(place.contains(camera(2.1, 0, 0, 0)));
+  EXPECT_FALSE(place.contains(camera(1, 0, 0.9, 0)));
+  EXPECT_TRUE(place.contains(camera(1, 0, 3, -1.5))) << "it looks down: its heading tells nothing";
+}
+
 TEST_F(Relocalization, DoesNotFindItWhereNoKeyframeIsKnown) {
   TrackedFrame frame = unknown_frame();
   EXPECT_FALSE(relocalizer.localize(context(), frame));

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "common/concurrency/mailbox.hpp"
+#include "common/service/service.hpp"
+#include "services/tracker/core/level/gravity.hpp"
+#include "services/tracker/core/motion/odometry_buffer.hpp"
+#include "services/tracker/core/motion/odometry_prior.hpp"
+#include "services/tracker/core/relocalization/relocalizer.hpp"
+#include "services/tracker/tracker_service_config.hpp"
+
+namespace rds::tracker {
+
+/// What a robot senses besides pictures, as far as the settings name its topics. All but the callbacks of the
+/// bus is for the worker.
+class RobotInputs {
+ public:
+  /// @return target_from_source by tf; nullopt if no path joins the frames.
+  using LookUp = std::function<std::optional<geometry::Pose>(
+      const std::string& target, const std::string& source, std::int64_t stamp_ns)>;
+
+  RobotInputs(service::ServiceContext& context, concurrency::Mailbox& mailbox,
+              const TrackerServiceConfig& config, LookUp look_up);
+
+  /// A picture of this stamp and frame is to be tracked: takes in what has come. In lockstep it waits until
+  /// odometry has come up to the stamp, as long as the settings allow; where it has waited in vain, not again
+  /// before more has come.
+  /// @param beat  called now and then meanwhile.
+  void go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
+             const std::function<void()>& beat);
+  /// What the robot's odometry says of a time, for the tracker, with the camera's frame of go_to().
+  [[nodiscard]] std::optional<OdometryPose> odometry_at(std::int64_t stamp_ns);
+  /// Which way is up in the camera's frame, as long as the robot's IMU stands still.
+  [[nodiscard]] std::optional<Eigen::Vector3d> up_in_camera(std::int64_t stamp_ns) const;
+  /// Where somebody has said since the last call that the camera is.
+  std::optional<SoughtPlace> take_sought_place();
+
+ private:
+  struct Told {
+    std::int64_t stamp_ns;
+    geometry::Pose odom_from_body;
+    std::string body;
+  };
+  struct Sensed {
+    InertialMeasurement measurement;
+    std::string frame;
+  };
+  struct SaidPose {
+    std::int64_t stamp_ns;
+    geometry::Pose map_from_base;
+    double sigma_m;
+    double sigma_rad;
+  };
+  void read_odometry(const std::string& topic);
+  void read_imu(const std::string& topic);
+  void read_initial_poses(const std::string& topic);
+  void take_in();
+  [[nodiscard]] bool has_odometry_at(std::int64_t stamp_ns) const;
+  void set_fault(const std::string& fault);
+
+  service::ServiceContext& context_;
+  concurrency::Mailbox& mailbox_;
+  InputsConfig topics_;
+  std::string base_;
+  LockstepConfig lockstep_;
+  LookUp look_up_;
+  concurrency::Inbox<Told> told_;
+  concurrency::Inbox<SaidPose> said_;
+  concurrency::Inbox<Sensed> sensed_;
+  OdometryBuffer buffer_;
+  Gravity gravity_;
+  std::string imu_frame_;
+  std::string body_;
+  std::string camera_frame_;
+  std::optional<std::int64_t> newest_in_vain_;  // what was there when it was last waited for in vain
+  bool waited_in_vain_ = false;
+  mutable std::mutex mutex_;  // of the fault
+  std::string fault_;
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
+};
+
+}  // namespace rds::tracker

@@ -58,7 +58,9 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       objects_(config.prediction),
       outputs_(context, config.frames, epoch_.id()),
       input_(context, mailbox_, config.camera, config.lockstep.enabled),
-      robot_(context, mailbox_, config,
+      robot_(context, mailbox_,
+             {config.inputs, config.frames.base,
+              config.lockstep.enabled ? std::optional(config.lockstep.timeout_s) : std::nullopt},
              [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
                return outputs_.odometry().look_up(target, source, stamp_ns);
              }),

@@ -13,7 +13,7 @@
 #include "services/tracker/frame_input.hpp"
 #include "services/tracker/keyframe_answers.hpp"
 #include "services/tracker/map_epoch.hpp"
-#include "services/tracker/robot_inputs.hpp"
+#include "services/tracker/robot/robot_inputs.hpp"
 #include "services/tracker/tracker_outputs.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 

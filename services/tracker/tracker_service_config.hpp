@@ -10,7 +10,7 @@
 #include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/prediction/prediction_config.hpp"
 #include "services/tracker/odometry/frames_config.hpp"
-#include "services/tracker/odometry/inputs_config.hpp"
+#include "services/tracker/robot/inputs_config.hpp"
 
 namespace rds::tracker {
 

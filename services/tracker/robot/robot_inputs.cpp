@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/robot_inputs.hpp"
+#include "services/tracker/robot/robot_inputs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -41,12 +41,12 @@ double sigma_of(double variance) {
 }  // namespace
 
 RobotInputs::RobotInputs(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-                         const TrackerServiceConfig& config, LookUp look_up)
+                         const Options& options, LookUp look_up)
     : context_(context),
       mailbox_(mailbox),
-      topics_(config.inputs),
-      base_(context.frame(config.frames.base)),
-      lockstep_(config.lockstep),
+      topics_(options.topics),
+      base_(context.frame(options.base)),
+      waits_s_(options.waits_s),
       look_up_(std::move(look_up)),
       told_(mailbox, kMostTold),
       said_(mailbox, kMostSaid),
@@ -124,10 +124,10 @@ void RobotInputs::go_to(std::int64_t stamp_ns, const std::string& camera_frame, 
   using Clock = std::chrono::steady_clock;
   camera_frame_ = camera_frame;
   take_in();
-  if (!lockstep_.enabled || topics_.odometry.empty()) return;
+  if (!waits_s_ || topics_.odometry.empty()) return;
   if (waited_in_vain_ && buffer_.newest_ns() == newest_in_vain_) return;
   waited_in_vain_ = false;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(lockstep_.timeout_s);
+  const auto deadline = Clock::now() + std::chrono::duration<double>(*waits_s_);
   while (!has_odometry_at(stamp_ns) && !stop.stop_requested()) {
     beat();
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
@@ -136,7 +136,7 @@ void RobotInputs::go_to(std::int64_t stamp_ns, const std::string& camera_frame, 
       newest_in_vain_ = buffer_.newest_ns();
       ++context_.diagnostics.counter("lockstep timeouts");
       return spdlog::warn("no odometry of the frame's time has come on {} within {} s", topics_.odometry,
-                          lockstep_.timeout_s);
+                          *waits_s_);
     }
     mailbox_.wait_for(stop, std::min(left, kBetweenBeats), [this] { return !told_.locked_empty(); });
     take_in();

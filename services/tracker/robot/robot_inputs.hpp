@@ -14,7 +14,7 @@
 #include "services/tracker/core/motion/odometry_buffer.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
-#include "services/tracker/tracker_service_config.hpp"
+#include "services/tracker/robot/inputs_config.hpp"
 
 namespace rds::tracker {
 
@@ -26,11 +26,17 @@ class RobotInputs {
   using LookUp = std::function<std::optional<geometry::Pose>(
       const std::string& target, const std::string& source, std::int64_t stamp_ns)>;
 
-  RobotInputs(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-              const TrackerServiceConfig& config, LookUp look_up);
+  struct Options {
+    InputsConfig topics;
+    std::string base;               // frame of the robot
+    std::optional<double> waits_s;  // for odometry, in lockstep; nullopt: never
+  };
+
+  RobotInputs(service::ServiceContext& context, concurrency::Mailbox& mailbox, const Options& options,
+              LookUp look_up);
 
   /// A picture of this stamp and frame is to be tracked: takes in what has come. In lockstep it waits until
-  /// odometry has come up to the stamp, as long as the settings allow; where it has waited in vain, not again
+  /// odometry has come up to the stamp, waits_s at most; where it has waited in vain, not again
   /// before more has come.
   /// @param beat  called now and then meanwhile.
   void go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
@@ -69,7 +75,7 @@ class RobotInputs {
   concurrency::Mailbox& mailbox_;
   InputsConfig topics_;
   std::string base_;
-  LockstepConfig lockstep_;
+  std::optional<double> waits_s_;
   LookUp look_up_;
   concurrency::Inbox<Told> told_;
   concurrency::Inbox<SaidPose> said_;

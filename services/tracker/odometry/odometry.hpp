@@ -15,9 +15,9 @@ struct TrackedPose {
   std::int64_t stamp_ns = 0;
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   Matrix6 information = Matrix6::Zero();   // of a motion in the camera's frame; zero: not known
-  std::optional<Matrix6> covariance = {};  // of a pose that odometry carries on, in its place
   bool is_continuous = true;               // false after a relocalisation: the pose may have jumped
   bool is_placed = true;                   // false: it is in a submap, whose place in the map is not known
+  std::optional<Matrix6> covariance = {};  // of a pose that odometry carries on, in place of information
 };
 
 /// What there is to tell of one frame.

@@ -82,8 +82,8 @@ void OdometryOutput::publish(std::int64_t stamp_ns, const FrameResult& result,
   }();
   const bool is_placed = result.submap == Submaps::kMap;
   const OdometryStep step =
-      odometry_.step({stamp_ns, result.map_from_camera, result.information, result.carried_covariance,
-                      result.state != State::kRelocalised, is_placed},
+      odometry_.step({stamp_ns, result.map_from_camera, result.information,
+                      result.state != State::kRelocalised, is_placed, result.carried_covariance},
                      frames);
   if (step.is_in_map && !is_placed) return;  // all that could be told
   nav_msgs::msg::Odometry odometry;

@@ -173,6 +173,15 @@ TEST(Odometry, CovarianceFitsErrorsOfThePose) {
   EXPECT_NEAR(sum / kRuns, 6, 0.3);
 }
 
+TEST(Odometry, TellsTheCovarianceOfAPoseThatIsCarriedOn) {
+  const RobotFrames frames = frames_of(robot_with_a_camera());
+  TrackedPose carried = pose(0, at(1, 2, 0));
+  carried.covariance = 0.04 * Matrix6::Identity();
+  const OdometryStep step = Odometry().step(carried, frames);
+  EXPECT_NEAR(step.pose_covariance.bottomRightCorner<3, 3>().trace(), 3 * 0.04, 1e-9);
+  EXPECT_GT(step.pose_covariance.topLeftCorner<3, 3>().trace(), 3 * 0.04) << "with the base's lever";
+}
+
 TEST(Odometry, IsNeverCertain) {
   for (const Matrix6& information : {Matrix6(Matrix6::Zero()), Matrix6(1e4 * Matrix6::Identity())}) {
     const Matrix6 covariance = covariance_of(information, at(0.2, 0, 0.5, 0.3));

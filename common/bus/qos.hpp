@@ -30,8 +30,6 @@ struct Qos {
 inline constexpr Qos kSensor{
     .reliable = true, .depth = 5, .follows_publishers = true, .urgency = Urgency::kPictures};
 inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5, .urgency = Urgency::kPictures};
-/// Of what senses motion: small, up to some hundred a second, and each of them counts.
-inline constexpr Qos kMotion{.reliable = true, .depth = 500, .follows_publishers = true};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};
 inline constexpr Qos kTransform{.reliable = true, .depth = 100};
 inline constexpr Qos kPoses{.reliable = true, .transient_local = true, .depth = 100};

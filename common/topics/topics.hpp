@@ -78,9 +78,11 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kDepthInfo{
 
 // What else a robot may sense. Names as robots have them; the tracker reads what its settings name (tracker:
 // inputs).
+// Motion: small messages, up to some hundred a second, each of which counts.
+inline constexpr bus::Qos kMotion{.reliable = true, .depth = 500, .follows_publishers = true};
 inline constexpr Topic<nav_msgs::msg::Odometry> kRobotOdometry{
-    "odom", {{kPlayer, bus::kMotion}}, {{kTracker, bus::kMotion}}};
-inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu", {}, {{kTracker, bus::kMotion}}};
+    "odom", {{kPlayer, kMotion}}, {{kTracker, kMotion}}};
+inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu", {}, {{kTracker, kMotion}}};
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{
     "initialpose", {}, {{kTracker, bus::kStream}}};
 

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxEvents = 64;
 constexpr timespec kSignalPoll{.tv_sec = 0, .tv_nsec = 100'000'000};
 constexpr std::chrono::milliseconds kRoleCheck{1000};  // a peer that went without a word makes no event
 
-constexpr std::chrono::seconds kStopLimit{20};      // for a worker to end
+constexpr std::chrono::seconds kStopLimit{20};  // for a worker to end
 
 }  // namespace
 
@@ -83,6 +83,7 @@ void ServiceProcess::activate() {
   Service& service = *made;
   service_.put(std::move(made));
   presence_.set_active(true);
+  if (offers_services(context_.participant)) command_services_.emplace(context_, presence_, service_);
   worker_ = std::jthread([this, &service](const std::stop_token& stop) { work(stop, service); });
 }
 
@@ -102,6 +103,7 @@ void ServiceProcess::stand_by() {
   worker_.request_stop();
   if (worker_.joinable()) worker_.join();
   const auto ended = service_.put(nullptr);
+  command_services_.reset();  // a node of the same name may be active now
   context_.diagnostics.forget_gauges();
   if (presence_.is_active()) presence_.set_active(false);
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <thread>
 
+#include "common/service/command_services.hpp"
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
 #include "common/service/presence.hpp"
@@ -12,13 +14,14 @@
 
 namespace rds::service {
 
-/// A service and all around it that a process needs: worker, commands, diagnostics, and its place among others
-/// of its kind. While another one is active it waits as stand-by, without a worker.
+/// A service and all around it that a process needs: worker, commands, diagnostics, and its place among
+/// others of its kind. While another one is active it waits as stand-by, without a worker.
 class ServiceProcess {
  public:
   /// @param context  must outlive it.
-  /// @param exit_when_hung_s  the process ends with status 1 when the worker, or what reports about it, was silent for
-  /// longer [s]; 0: never. For supervisors that start again what has ended, but see nothing that hangs.
+  /// @param exit_when_hung_s  the process ends with status 1 when the worker, or what reports about it, was
+  /// silent for longer [s]; 0: never. For supervisors that start again what has ended, but see nothing that
+  /// hangs.
   ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s = 0);
 
   /// Runs until SIGINT or SIGTERM (both must be blocked in all threads) or until the worker fails. A second
@@ -46,6 +49,7 @@ class ServiceProcess {
   bool failed_ = false;
   Presence presence_;
   CommandServer commands_;
+  std::optional<CommandServices> command_services_;  // while it is the active one
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;
   std::jthread worker_;

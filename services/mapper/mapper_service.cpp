@@ -64,7 +64,8 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       outputs_(context, config.mapper.grid, config.full_map_every),
       queue_(max_waiting(config), {config.expect_boxes, config.lockstep, config.boxes_timeout_s}),
       map_commands_(mailbox_, config.maps, map_file::kMapper),
-      inboxes_{{mailbox_, max_waiting(config)}, {mailbox_, kMaxMessages}, {mailbox_, kMaxMessages}} {
+      inboxes_{{mailbox_, max_waiting(config)}, {mailbox_, kMaxMessages}, {mailbox_, kMaxMessages}},
+      map_services_(context, mailbox_, outputs_) {
   mapper_.report_progress_to([this] { beat(); });
   context.diagnostics.counter("corrections lost") = 0;  // told from the start
   if (!config.map_file.empty()) {
@@ -121,7 +122,7 @@ void MapperService::run(const std::stop_token& stop) {
   while (wait(stop, [this] {
     const bool has_more_to_correct = !is_paused_ && mapper_.is_correcting();
     return has_more_to_correct || !inboxes_.locked_empty() || !commands_.locked_empty() ||
-           map_commands_.locked_ready();
+           map_commands_.locked_ready() || map_services_.locked_ready();
   })) {
     handle_commands();
     map_commands_.settle();
@@ -136,6 +137,7 @@ void MapperService::idle() {
     outputs_.publish_all(mapper_, queue_.size());
   outputs_.refresh_views(mapper_);
   outputs_.share_map(mapper_);
+  map_services_.settle(mapper_);
   if (is_paused_) return;
   guarded(topics::kKeyframePoses.name, [this] { correct(); });
   integrate_ready();

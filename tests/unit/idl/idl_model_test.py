@@ -50,6 +50,13 @@ class TypeHash(unittest.TestCase):
                          "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e")
 
 
+    def test_of_a_request_and_a_response_is_their_service_s(self):
+        for name, hash_of_service in (("rcl_interfaces/srv/ListParameters", "3e6062bfbb27bfb8730d4cef2558221f51a11646d78e7bb30a1e83afac3aad9d"),
+                                      ("lifecycle_msgs/srv/GetState", "800a0a5aae599782b02932de0caf563f6dc4e7e94b794eadde075ba2cbef9795")):
+            for part in ("_Request", "_Response"):
+                self.assertEqual(idl_model.type_hash(STRUCTS[name + part], STRUCTS), "RIHS01_" + hash_of_service)
+
+
 class Definition(unittest.TestCase):
     def test_names_what_a_type_contains_each_once(self):
         text = idl_model.definition(STRUCTS["vision_msgs/msg/Detection2DArray"], STRUCTS)
@@ -66,14 +73,18 @@ class Definition(unittest.TestCase):
 class Parser(unittest.TestCase):
     def test_reads_every_kind_of_member(self):
         struct = parse("module p { module msg { module Name_Constants { const uint8 A = 1; };"
-                       " struct Name { uint8 a; string<9> b; sequence<float> c; double d[3]; q::msg::T e; }; }; };")
+                       " struct Name { uint8 a; string<9> b; sequence<float> c; double d[3]; q::msg::T e; sequence<uint8, 4> _map; }; }; };")
         self.assertEqual(idl_model.msg_lines(struct),
-                         ["uint8 A=1", "uint8 a", "string<=9 b", "float32[] c", "float64[3] d", "q/T e"])
+                         ["uint8 A=1", "uint8 a", "string<=9 b", "float32[] c", "float64[3] d", "q/T e", "uint8[<=4] map"])
 
     def test_refuses_what_is_outside_the_restricted_idl(self):
-        for member in ("long a;", "map<string, string> a;", "@optional uint8 a;", "sequence<uint8, 4> a;", "wstring a;"):
+        for member in ("long a;", "map<string, string> a;", "@optional uint8 a;", "sequence<string<4>> a;", "wstring a;"):
             with self.subTest(member), self.assertRaisesRegex(ValueError, "Name.idl"):
                 parse("module p { module msg { struct Name { " + member + " }; }; };")
+
+    def test_refuses_a_message_among_services(self):
+        with self.assertRaisesRegex(ValueError, "expected module msg around Name"):
+            parse("module p { module srv { struct Name { uint8 a; }; }; };")
 
     def test_refuses_a_struct_that_is_not_named_as_its_file(self):
         with self.assertRaisesRegex(ValueError, "one name"):

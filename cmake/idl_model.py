@@ -2,7 +2,7 @@
 """Reads the IDL this project writes: one struct per file, the constants of `module <Struct>_Constants`, no keys,
 unions, enums or typedefs; and computes the hash ROS 2 gives a type (REP-2011, RIHS01).
 
-A service is two structs in `module srv`, `<Service>_Request` and `<Service>_Response`; both have the service's hash."""
+A service is two structs in `module srv`, `<Service>_Request` and `<Service>_Response`; each has a hash of its own, as its endpoints announce it."""
 
 import dataclasses
 import hashlib
@@ -18,12 +18,11 @@ PRIMITIVES = {
 }
 STRING, BOUNDED_STRING, NESTED = 17, 21, 1
 ARRAY_OFFSET, BOUNDED_SEQUENCE_OFFSET, UNBOUNDED_SEQUENCE_OFFSET = 48, 96, 144
-REQUEST, RESPONSE = "_Request", "_Response"
 
 
 def kind_of(struct_name):
     """The module that a struct is in."""
-    return "srv" if struct_name.endswith((REQUEST, RESPONSE)) else "msg"
+    return "srv" if struct_name.endswith(("_Request", "_Response")) else "msg"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,10 +130,6 @@ def load(roots):
     return ordered
 
 
-def _type_description(type_id, capacity=0, string_capacity=0, nested=""):
-    return {"type_id": type_id, "capacity": capacity, "string_capacity": string_capacity, "nested_type_name": nested}
-
-
 def _field_description(field):
     if field.nested:
         type_id = NESTED
@@ -146,8 +141,8 @@ def _field_description(field):
         type_id += ARRAY_OFFSET
     elif field.sequence:
         type_id += BOUNDED_SEQUENCE_OFFSET if field.sequence_bound else UNBOUNDED_SEQUENCE_OFFSET
-    return {"name": field.name,
-            "type": _type_description(type_id, field.array or field.sequence_bound, field.string_bound, field.type if field.nested else "")}
+    return {"name": field.name, "type": {"type_id": type_id, "capacity": field.array or field.sequence_bound, "string_capacity": field.string_bound,
+                                         "nested_type_name": field.type if field.nested else ""}}
 
 
 def _description(struct):
@@ -162,32 +157,11 @@ def _referenced(struct, structs):
     return names
 
 
-def _hash(description, referenced):
-    whole = {"type_description": description, "referenced_type_descriptions": sorted(referenced, key=lambda d: d["type_name"])}
-    return "RIHS01_" + hashlib.sha256(json.dumps(whole, ensure_ascii=True).encode()).hexdigest()
-
-
-def _service_hash(service, structs):
-    """Of a service: a struct of its request, its response, and the event in which ROS 2 shows both (REP-2012)."""
-    request, response, event = service + REQUEST, service + RESPONSE, service + "_Event"
-    info = "service_msgs/msg/ServiceEventInfo"
-
-    def member(name, nested, offset=0, capacity=0):
-        return {"name": name, "type": _type_description(NESTED + offset, capacity, nested=nested)}
-
-    events = {"type_name": event, "fields": [member("info", info), member("request", request, BOUNDED_SEQUENCE_OFFSET, 1),
-                                             member("response", response, BOUNDED_SEQUENCE_OFFSET, 1)]}
-    whole = {"type_name": service, "fields": [member("request_message", request), member("response_message", response),
-                                              member("event_message", event)]}
-    names = {request, response, info}.union(*(_referenced(structs[n], structs) for n in (request, response, info)))
-    return _hash(whole, [events] + [_description(structs[n]) for n in names])
-
-
 def type_hash(struct, structs):
-    """RIHS01_<sha256 of the type description as JSON>; constants and defaults do not count. Of a request or response: its service's."""
-    if struct.kind == "srv":
-        return _service_hash(struct.ros_name.rpartition("_")[0], structs)
-    return _hash(_description(struct), [_description(structs[n]) for n in _referenced(struct, structs)])
+    """RIHS01_<sha256 of the type description as JSON>; constants and defaults do not count."""
+    description = {"type_description": _description(struct),
+                   "referenced_type_descriptions": [_description(structs[n]) for n in sorted(_referenced(struct, structs))]}
+    return "RIHS01_" + hashlib.sha256(json.dumps(description, ensure_ascii=True).encode()).hexdigest()
 
 
 def msg_lines(struct):

@@ -21,7 +21,8 @@ class ServiceClient {
   /// @param service  full name, without a leading slash.
   ServiceClient(bus::Vendor vendor, const std::string& service, int domain = test_domain())
       : vendor_(vendor),
-        backend_(make_backend({.vendor = vendor, .domain = domain, .loopback_only = true})),
+        backend_(
+            make_backend({.vendor = vendor, .domain = domain, .node_name = "client", .loopback_only = true})),
         writer_(
             backend_->make_writer(bus::detail::request_topic(service), kRequest, bus::detail::kServiceQos)),
         reader_(

@@ -78,7 +78,7 @@ class CycloneService final : public BackendService {
     const Entity wait_set(dds_create_waitset(dds_get_participant(replies_->entity())), "a wait set");
     dds_waitset_attach(wait_set.get(), replies_->entity(), 0);
     do {
-      replies_->matched();  // takes the status back, which else ends the next waiting at once
+      (void)replies_->matched();  // takes the status back, which else ends the next waiting at once
       if (has_reader_of(replies_->entity(), participant)) return true;
     } while (dds_waitset_wait_until(wait_set.get(), nullptr, 0, end) > 0);
     return false;

@@ -22,7 +22,7 @@ rtps::GUID_t from_guid(const Guid& guid) {
   return target;
 }
 
-/// Clients before ROS 2 Galactic name their writer instead.
+/// Clients before ROS 2 Galactic do not name their reader, but are known by their writer.
 bool is_reader(const Guid& guid) {
   constexpr std::uint8_t kReaderWithoutKey = 0x04;  // the last byte of a GUID (DDSI-RTPS, table 9.1)
   return guid.back() == kReaderWithoutKey;
@@ -44,11 +44,15 @@ class MatchedReaders final : public dds::DataWriterListener {
     changed_.notify_all();
   }
 
-  /// @return whether it is there, after a moment at most.
-  bool wait_for(const Guid& reader) {
+  /// @return whether a reader of the caller's is there, after a moment at most.
+  bool wait_for(const Caller& caller) {
+    const auto is_his = [&](const Guid& reader) {
+      return is_reader(caller.client) ? reader == caller.client
+                                      : participant_of(reader) == caller.participant;
+    };
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::milliseconds(kCallerDiscoveryMs),
-                             [&] { return readers_.contains(reader); });
+                             [&] { return std::ranges::any_of(readers_, is_his); });
   }
 
  private:
@@ -85,7 +89,7 @@ class FastService final : public BackendService {
   }
 
   bool reply(const Caller& caller, const void* response) override {
-    if (is_reader(caller.client) && !readers_.wait_for(caller.client)) return false;
+    if (!readers_.wait_for(caller)) return false;
     rtps::WriteParams parameters;
     rtps::SampleIdentity& request = parameters.related_sample_identity();
     request.writer_guid(from_guid(caller.client));

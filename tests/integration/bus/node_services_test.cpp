@@ -92,7 +92,7 @@ TEST_P(NodeServices, CarryOutCommands) {
 
 INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices,
                          ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& info) { return name_of(info.param); });
+                         [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace
 }  // namespace rds::test

@@ -134,28 +134,27 @@ TEST_P(ServiceOf, AnAnswerAfterItsEndReachesNobody) {
   EXPECT_FALSE(late(echo(asking(true))));
 }
 
-std::string name_of_parameter(const ::testing::TestParamInfo<Vendor>& info) {
-  return name_of(info.param);
-}
-INSTANTIATE_TEST_SUITE_P(Vendors, ServiceOf, ::testing::Values(Vendor::kFastDds, Vendor::kCycloneDds),
-                         name_of_parameter);
-
-TEST(ServiceOfCycloneDds, CountsAnAnswerToOneWhoHasLeft) {
-  auto participant = join(Vendor::kCycloneDds, "node");
+TEST_P(ServiceOf, CountsAnAnswerToOneWhoHasLeft) {
   std::promise<Answer<SetBool_Response>> asked;
   std::atomic<int> requests = 0;
   const auto server = serve_later<SetBool_Request, SetBool_Response>(
       *participant, "~/switch", [&](const auto& /*request*/, auto answer) {
         if (requests++ == 0) asked.set_value(std::move(answer));
       });
-  auto client = std::make_unique<Client>(Vendor::kCycloneDds, "node/switch");
-  ASSERT_TRUE(eventually([&] { return client->is_matched(); }));
-  client->send(asking(true));
+  auto leaving = std::make_unique<Client>(GetParam(), "node/switch");
+  ASSERT_TRUE(eventually([&] { return leaving->is_matched(); }));
+  leaving->send(asking(true));
   const auto answer = asked.get_future().get();
-  client.reset();
+  leaving.reset();
   EXPECT_TRUE(eventually([&] { return !answer(echo(asking(true))); }));
   EXPECT_GE(statistics_of(*participant).dropped, 1U);
 }
+
+std::string name_of_parameter(const ::testing::TestParamInfo<Vendor>& info) {
+  return name_of(info.param);
+}
+INSTANTIATE_TEST_SUITE_P(Vendors, ServiceOf, ::testing::Values(Vendor::kFastDds, Vendor::kCycloneDds),
+                         name_of_parameter);
 
 #ifdef RDS_HAS_ZENOH
 TEST(ServiceOfZenoh, IsRefused) {

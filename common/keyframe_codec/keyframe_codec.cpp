@@ -37,6 +37,7 @@ To same_keyframe(const From& from) {
   to.map_epoch(from.map_epoch());
   to.keyframe_id(from.keyframe_id());
   to.frame_index(from.frame_index());
+  to.submap(from.submap());
   to.map_from_camera(from.map_from_camera());
   to.camera_info(from.camera_info());
   return to;

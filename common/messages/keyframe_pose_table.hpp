@@ -11,9 +11,11 @@
 
 namespace rds::messages {
 
-/// KeyFramePoses.source: as the tracker has them, or as the loop closer proposes.
+/// KeyFramePoses.source: as the tracker has them, as the loop closer proposes, or as the tracker has them in
+/// a submap.
 inline constexpr std::uint8_t kPosesOfTracker = 0;
 inline constexpr std::uint8_t kPosesOfLoopCloser = 1;
+inline constexpr std::uint8_t kPosesOfSubmap = 2;
 
 /// A reader's side of rds/keyframe/poses: what one writer has told, from messages with all poses and from
 /// messages with changes.

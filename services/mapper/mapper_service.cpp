@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
+constexpr std::size_t kMaxUnplaced = 128;  // 1.5 MB each, minutes of a submap
+constexpr std::size_t kPlacedAtOnce = 2;   // of those, between keyframes that come
 
 using service::Rejection;
 
@@ -63,6 +65,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
       outputs_(context, config.mapper.grid, config.full_map_every),
       queue_(max_waiting(config), {config.expect_boxes, config.lockstep, config.boxes_timeout_s}),
+      unplaced_(kMaxUnplaced),
       map_commands_(mailbox_, config.maps, map_file::kMapper),
       inboxes_{{mailbox_, max_waiting(config)}, {mailbox_, kMaxMessages}, {mailbox_, kMaxMessages}},
       map_services_(context, mailbox_, outputs_) {
@@ -78,6 +81,7 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
   subscribe();
   context.diagnostics.gauge("keyframes dropped",
                             [this] { return inboxes_.images.dropped() + queue_.dropped(); });
+  context.diagnostics.counter("keyframes without a place") = 0;
 }
 
 /// The map as the process before this one had it, if it has left one.
@@ -120,7 +124,8 @@ void MapperService::subscribe() {
 void MapperService::run(const std::stop_token& stop) {
   stop_ = stop;
   while (wait(stop, [this] {
-    const bool has_more_to_correct = !is_paused_ && mapper_.is_correcting();
+    const bool has_more_to_correct =
+        !is_paused_ && (mapper_.is_correcting() || unplaced_.may_be_placed(poses_));
     return has_more_to_correct || !inboxes_.locked_empty() || !commands_.locked_empty() ||
            map_commands_.locked_ready() || map_services_.locked_ready();
   })) {
@@ -141,6 +146,7 @@ void MapperService::idle() {
   if (is_paused_) return;
   guarded(topics::kKeyframePoses.name, [this] { correct(); });
   integrate_ready();
+  integrate_placed(kPlacedAtOnce);
   checkpoints_.save(mapper_);
 }
 
@@ -149,6 +155,7 @@ void MapperService::begin_map() {
   outputs_.begin_map();
   queue_.forget_keyframes();
   poses_ = {};
+  unplaced_.clear();
 }
 
 /// Moves the map after a loop, and now and then after what local bundle adjustment has moved; a part of it
@@ -173,7 +180,20 @@ void MapperService::integrate_ready() {
     });
 }
 
+/// Keyframes of a submap that was joined to the map.
+void MapperService::integrate_placed(std::size_t most) {
+  for (std::size_t i = 0; i < most && unplaced_.may_be_placed(poses_); ++i)
+    if (const auto entry = unplaced_.take_placed(poses_))
+      guarded(topics::kKeyframeImages.name, [&] {
+        beat();
+        integrate(*entry);
+      });
+  context_.diagnostics.counter("keyframes without a place") = unplaced_.size();
+  context_.diagnostics.counter("keyframes without a place, dropped") = unplaced_.dropped();
+}
+
 void MapperService::integrate(const KeyframeQueue::Entry& entry) {
+  if (UnplacedKeyframes::has_no_place(entry, poses_)) return unplaced_.hold(entry);
   const auto started = std::chrono::steady_clock::now();
   auto input = to_keyframe_input(entry.images);
   if (!input)

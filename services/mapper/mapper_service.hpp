@@ -10,6 +10,7 @@
 #include "services/mapper/input/epoch_follower.hpp"
 #include "services/mapper/input/keyframe_queue.hpp"
 #include "services/mapper/input/known_poses.hpp"
+#include "services/mapper/input/unplaced_keyframes.hpp"
 #include "services/mapper/map_outputs.hpp"
 #include "services/mapper/map_services.hpp"
 #include "services/mapper/mapper_checkpoints.hpp"
@@ -54,6 +55,7 @@ class MapperService : public service::Service {
   void begin_epoch(std::uint64_t map_epoch, std::int64_t stamp_ns);
   void begin_map();
   void integrate_ready();
+  void integrate_placed(std::size_t most);
   void integrate(const KeyframeQueue::Entry& entry);
   void correct();
   service::CommandOutcome finish(const std::string& argument);
@@ -68,6 +70,7 @@ class MapperService : public service::Service {
   MapOutputs outputs_;
   KeyframeQueue queue_;
   KnownPoses poses_;
+  UnplacedKeyframes unplaced_;
   bool is_paused_ = false;
   map_commands::MapCommands map_commands_;
   Inboxes inboxes_;

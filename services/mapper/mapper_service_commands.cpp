@@ -82,11 +82,12 @@ service::CommandOutcome MapperService::finish(const std::string& argument) {
   const std::uint64_t keyframes = count("keyframes");
   wait_for_rest(revision, keyframes);
   while (!queue_.empty()) integrate(queue_.take_oldest());
+  integrate_placed(unplaced_.size());
   outputs_.publish_delta(mapper_.settle(poses_.poses()), mapper_);
   outputs_.publish_all(mapper_, queue_.size());
   outputs_.flush();
-  const bool complete =
-      poses_.revision() >= revision && (!config_.lockstep || mapper_.archive().size() >= keyframes);
+  const bool complete = poses_.revision() >= revision &&
+                        (!config_.lockstep || mapper_.archive().size() + unplaced_.dropped() >= keyframes);
   const Eigen::Vector3d up = mapper_.up_in_map();
   return {complete, messages::to_text(nlohmann::json{{"keyframes", mapper_.archive().size()},
                                                      {"poses_revision", poses_.revision()},
@@ -103,6 +104,7 @@ void MapperService::wait_for_rest(std::uint64_t poses_revision, std::uint64_t ke
     beat();
     take_messages();
     integrate_ready();
+    integrate_placed(unplaced_.size());
     if (poses_.revision() >= poses_revision && mapper_.archive().size() >= keyframes) return;
     is_quiet = !mailbox_.wait_for(stop_, limit, [this] { return !inboxes_.locked_empty(); });
   }

@@ -27,6 +27,7 @@ struct KeyframeSnapshot {
   std::uint64_t id;
   geometry::Pose camera_from_map;
   geometry::CameraModel camera;
+  std::uint64_t place = 0;  // which of the frames of reference, counted, the pose is in
 };
 
 /// What others answer to a keyframe: the transformer its boxes, the loop closer corrected poses, local

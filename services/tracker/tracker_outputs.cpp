@@ -54,6 +54,11 @@ void append_moved(rds_msgs::msg::KeyFrameFeatures& message, std::span<const Keyf
   }
 }
 
+/// Whether the frame's poses are in the map, and not in a submap.
+bool is_placed(const FrameReport& report) {
+  return report.result.submap == Submaps::kMap;
+}
+
 void append(std::vector<double>& flat, const Eigen::Vector3d& v) {
   flat.insert(flat.end(), v.data(), v.data() + 3);
 }
@@ -65,6 +70,7 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, const FramesCon
     : instance_(context.instance),
       map_epoch_(map_epoch),
       map_frame_(context.frame("map")),
+      submap_frame_(context.frame("submap")),
       default_camera_frame_(context.frame("camera_color_optical_frame")),
       odometry_(context, frames),
       state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
@@ -79,6 +85,7 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, const FramesCon
 void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
   map_epoch_ = map_epoch;
   pose_changes_.clear();
+  submap_changes_.clear();
   moved_.clear();
   odometry_.begin_map();
   sharing_.begin(map_epoch);
@@ -116,7 +123,7 @@ Message TrackerOutputs::about(const FrameReport& report, const std::string& fram
 }
 
 void TrackerOutputs::publish_boxes(const FrameReport& report) {
-  auto message = about<rds_msgs::msg::PredictedBoxes>(report, map_frame_);
+  auto message = about<rds_msgs::msg::PredictedBoxes>(report, is_placed(report) ? map_frame_ : submap_frame_);
   for (const auto& [object, box] : report.objects) {
     const geometry::Box3 volume = object.box.axis_aligned_hull();
     message.ids().push_back(object.id);
@@ -133,9 +140,10 @@ void TrackerOutputs::publish_boxes(const FrameReport& report) {
   boxes_.write(message);
 }
 
-/// What stands in the way now, while somebody reads it. A frame without a pose does not know where that is.
+/// What stands in the way now, while somebody reads it. A frame without a place in the map does not know
+/// where that is.
 void TrackerOutputs::publish_obstacles(const FrameReport& report) {
-  if (obstacles_.matched() == 0 || !has_pose(report.result.state)) return;
+  if (obstacles_.matched() == 0 || !has_pose(report.result.state) || !is_placed(report)) return;
   obstacles_.write(obstacle_cloud(report.objects, messages::make_header(report.frame.stamp_ns, map_frame_)));
 }
 
@@ -156,6 +164,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   const KeyframeData& keyframe = *report.result.keyframe;
   auto images = about<rds_msgs::msg::KeyFrameImages>(report, camera_frame(report));
   images.keyframe_id(keyframe.id);
+  images.submap(report.result.submap);
   images.map_from_camera(messages::to_pose_message(keyframe.map_from_camera));
   images.camera_info(messages::to_camera_info(report.frame.camera, images.header()));
   images.color(messages::to_image_message(report.frame.color, images.header()));
@@ -163,8 +172,13 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.movable(movable_cells(report.result.movable, images.header()));
   keyframe_images_.write(images);
   sharing_.share(std::move(images));
-  if (!keyframe.in_map) return;
+  if (keyframe.in_map && is_placed(report)) publish_features_of(keyframe, report);
+}
+
+/// @param report  of the newest frame: of an older keyframe it tells what is known by now.
+void TrackerOutputs::publish_features_of(const KeyframeData& keyframe, const FrameReport& report) {
   auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, camera_frame(report));
+  features.header().stamp(messages::to_time(keyframe.stamp_ns));
   fill(features, keyframe);
   append_moved(features, moved_.next(report.keyframe_poses));
   features.loop_instance(report.loops.instance);
@@ -176,14 +190,17 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
 void TrackerOutputs::publish_state(const FrameReport& report) {
   const FrameResult& result = report.result;
   auto message = about<rds_msgs::msg::TrackingState>(report, map_frame_);
-  message.state(static_cast<std::uint8_t>(result.state));
+  const bool is_in_submap = has_pose(result.state) && !is_placed(report);
+  message.state(is_in_submap ? rds_msgs::msg::TrackingState_Constants::SUBMAP
+                             : static_cast<std::uint8_t>(result.state));
   message.features(result.features);
   message.dynamic_features(result.dynamic_features);
   message.inliers(result.inliers);
   message.is_keyframe(result.keyframe.has_value());
   if (result.keyframe) message.keyframe_id(result.keyframe->id);
   message.reference_keyframe_id(result.reference_keyframe_id);
-  message.map_from_camera(messages::to_pose_message(result.map_from_camera));
+  message.map_from_camera(
+      messages::to_pose_message(is_in_submap ? geometry::Pose::Identity() : result.map_from_camera));
   message.reference_from_camera(messages::to_pose_message(result.reference_from_camera));
   message.extract_us(static_cast<std::uint32_t>(result.times.extract_us));
   message.predict_us(report.predict_us);
@@ -192,6 +209,17 @@ void TrackerOutputs::publish_state(const FrameReport& report) {
   message.frames_dropped(report.frames_dropped);
   message.box_sets_used(report.box_sets_used);
   state_.write(message);
+}
+
+void TrackerOutputs::publish_submap(std::span<const KeyframePose> poses) {
+  rds_msgs::msg::KeyFramePoses message;
+  message.header(messages::make_header(poses.empty() ? 0 : poses.back().stamp_ns, submap_frame_));
+  message.instance(instance_);
+  message.map_epoch(map_epoch_);
+  message.source(messages::kPosesOfSubmap);
+  if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
+  messages::append_poses(submap_changes_.next(poses, false, message), message);
+  keyframe_poses_.write(message);
 }
 
 std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,

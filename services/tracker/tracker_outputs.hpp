@@ -61,6 +61,11 @@ class TrackerOutputs {
   std::uint64_t publish_poses(std::span<const KeyframePose> poses, const LoopState& loops,
                               bool exact = false);
 
+  /// Keyframe poses of a submap (source SUBMAP), of all of them those that are new or have moved.
+  void publish_submap(std::span<const KeyframePose> poses);
+  /// A keyframe of the map, to the loop closer; those of a submap once that was joined to the map.
+  void publish_features_of(const KeyframeData& keyframe, const FrameReport& report);
+
   /// True while a new subscriber to the poses has not got all of them.
   bool has_new_reader();
 
@@ -80,8 +85,10 @@ class TrackerOutputs {
   std::uint64_t instance_;
   std::uint64_t map_epoch_;
   std::string map_frame_;
+  std::string submap_frame_;
   std::string default_camera_frame_;
   messages::KeyframePoseChanges pose_changes_;
+  messages::KeyframePoseChanges submap_changes_;
   messages::MovedKeyframes moved_;  // since the loop closer was told of a keyframe
   int informed_readers_ = 0;        // subscribers that have got all poses
   OdometryOutput odometry_;

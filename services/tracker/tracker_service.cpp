@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -125,22 +126,56 @@ void TrackerService::process(const image::RgbdFrame& frame) {
       objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
   std::uint32_t predict_us = time::microseconds_since(predict_started_us);
   const FrameResult result = tracker_.track(frame, regions);
-  if (result.up) tell(*result.up);
+  note_submap(result);
+  if (result.up && !result.begins_submap) tell(*result.up);
   const std::int64_t project_started_us = time::now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   const auto poses = result.keyframe ? tracker_.keyframe_poses() : std::vector<KeyframePose>{};
-  outputs_.publish({frame, result, input_.camera_frame(), objects, frame_index_, predict_us, started_us,
-                    input_.dropped(), objects_.observed(), epoch_.loops(), poses});
+  if (result.keyframe && submap_ != Submaps::kMap) outputs_.publish_submap(tracker_.keyframe_poses(submap_));
+  const FrameReport report{
+      frame,      result,           input_.camera_frame(), objects,        frame_index_, predict_us,
+      started_us, input_.dropped(), objects_.observed(),   epoch_.loops(), poses};
+  outputs_.publish(report);
   if (result.keyframe) {
-    outputs_.publish_poses(poses, epoch_.loops());
+    if (submap_ == Submaps::kMap) outputs_.publish_poses(poses, epoch_.loops());
     epoch_.note_keyframe();
+    join_submaps(report);
   }
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();
+}
+
+/// In another submap what moves stands elsewhere, and boxes on their way are in the frame of the one before.
+void TrackerService::note_submap(const FrameResult& result) {
+  if (!has_pose(result.state) || result.submap == submap_) return;
+  if (result.begins_submap)
+    spdlog::warn("lost for {} s: submap {} begins beside the map", config_.tracker.submap_after_s,
+                 result.submap);
+  submap_ = result.submap;
+  ++place_;
+  objects_.reset();
+}
+
+/// The older one of two submaps stays where it is; if it is the map, the younger one's keyframes are for all
+/// from now on.
+void TrackerService::join_submaps(const FrameReport& report) {
+  const geometry::Pose before = tracker_.last_map_from_camera();
+  const auto joined = tracker_.join_submaps();
+  if (!joined) return;
+  move_map(before);
+  if (std::exchange(submap_, tracker_.submap()) != submap_) ++place_;
+  publish_poses();
+  const auto poses = tracker_.keyframe_poses();
+  FrameReport now = report;
+  now.keyframe_poses = poses;
+  for (const KeyframeId id : joined->placed) outputs_.publish_features_of(tracker_.keyframe_data(id), now);
+  ++context_.diagnostics.counter("submaps joined");
+  spdlog::info("submap {} is joined to an older one, {} of its keyframes have a place in the map",
+               joined->submap, joined->placed.size());
 }
 
 /// A frame that is not tracked gets no pose.
@@ -226,17 +261,18 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
   const auto keyframe = answers_.take_snapshot(stamp);
   if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
-  const auto& [id, camera_from_map, camera] = *keyframe;
-  objects_.observe(stamp, observations, prediction::KeyframeView{camera_from_map.inverse(), camera});
+  const auto& [id, camera_from_map, camera, place] = *keyframe;
+  if (place == place_)
+    objects_.observe(stamp, observations, prediction::KeyframeView{camera_from_map.inverse(), camera});
   tracker_.retract_movable(id, objects_.regions_of(observations, camera_from_map, camera));
 }
 
 void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
   if (config_.dynamics)
-    answers_.ask_for_boxes(keyframe.stamp_ns, {keyframe.id, keyframe.map_from_camera.inverse(), camera},
-                           frame_index_);
-  const bool corrections_wanted =
-      keyframe.in_map && config_.poses_file.empty() && (config_.loop_closer || !config_.lockstep.enabled);
+    answers_.ask_for_boxes(keyframe.stamp_ns,
+                           {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_}, frame_index_);
+  const bool corrections_wanted = keyframe.in_map && submap_ == Submaps::kMap && config_.poses_file.empty() &&
+                                  (config_.loop_closer || !config_.lockstep.enabled);
   if (corrections_wanted) answers_.ask_for_poses(keyframe.id, frame_index_);
 }
 
@@ -249,6 +285,7 @@ void TrackerService::start_mapping() {
 
 void TrackerService::publish_poses() {
   outputs_.publish_poses(tracker_.keyframe_poses(), epoch_.loops());
+  if (submap_ != Submaps::kMap) outputs_.publish_submap(tracker_.keyframe_poses(submap_));
 }
 
 /// Saves the map, or begins a new map epoch with a saved one; after a fault everything is as before.
@@ -321,6 +358,8 @@ service::CommandOutcome TrackerService::reset() {
 /// Forgets all that was of the epoch before.
 service::CommandOutcome TrackerService::begin_epoch() {
   objects_.reset();
+  submap_ = Submaps::kMap;
+  ++place_;
   outputs_.set_epoch(epoch_.id());
   answers_.clear();
   return {true,

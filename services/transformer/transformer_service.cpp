@@ -28,7 +28,7 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                              [this](Detections m) { detections_inbox_.push(std::move(m)); }));
   subscriptions_.push_back(
       subscribe_to_instances(topics::kKeyframePoses, topics::kTransformer, [this](Poses m) {
-        if (m->source() == messages::kPosesOfTracker && service::is_possible(*m, context_.diagnostics))
+        if (m->source() != messages::kPosesOfLoopCloser && service::is_possible(*m, context_.diagnostics))
           poses_inbox_.push(std::move(m));
       }));
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kCameraInfo.named(config.camera_info_topic),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/viewer/scene.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "common/service/possible_poses.hpp"
@@ -112,7 +114,8 @@ void Scene::take(const State& state) {
   auto frame = tracking_frame(*state);
   namespace States = rds_msgs::msg::TrackingState_Constants;
   const auto& at = state->map_from_camera().position();
-  if (frame && state->state() != States::LOST && state->state() != States::NOT_INITIALIZED)
+  constexpr std::array kPlaced{States::TRACKING, States::WEAK, States::RELOCALISED};
+  if (frame && std::ranges::find(kPlaced, state->state()) != kPlaced.end())
     board_.path.add(Eigen::Vector3d(at.x(), at.y(), at.z()).cast<float>());
   show(Kind::kTracking, topics::kTrackingState.name, std::move(frame));
   figures_.tracking_state = state->state();
@@ -126,6 +129,7 @@ void Scene::take(const State& state) {
 
 void Scene::take(const Poses& poses) {
   if (poses->source() == messages::kPosesOfTracker) return take_of_tracker(poses);
+  if (poses->source() != messages::kPosesOfLoopCloser) return;
   if (poses->map_epoch() != map_epoch_ && map_epoch_ != 0) return;
   figures_.loops_closed = poses->loops_closed();
   loops_.clear();

@@ -9,6 +9,7 @@
 
 #include "common/geometry/trajectory.hpp"
 #include "tests/integration/run_support.hpp"
+#include "tests/support/disturbed_dataset.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -112,6 +113,29 @@ TEST(RenderedLoop, IsJoinedThroughAllProcesses) {
 TEST(RenderedFloor, IsTrackedThroughDoorsAndJoined) {
   const TemporaryFolder place;
   expect_joined(lap("floor", place.path(), false), lap("floor", place.path(), true), 0.008);
+}
+
+/// The lens is covered in a doorway for 5 s and uncovered in a corridor that was not seen yet: what comes
+/// then is mapped beside the map, and put in its place when the first room is seen again.
+TEST(RenderedFloor, ACoveredLensBeginsASubmapThatIsJoined) {
+  constexpr FrameRange kCovered{.first = 140, .count = 50};
+  const TemporaryFolder place;
+  const auto dataset = rendered_recording("floor");
+  const auto covered = place / "covered";
+  make_blacked_out(dataset, covered, kCovered, Darkened::kColorAndDepth);
+  std::filesystem::copy_file(dataset / "truth.ot", covered / "truth.ot");
+  const auto result = run(covered, place / "out", {"--rate", "max", "--no-dynamics", "--bus", "cyclonedds"});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  const auto frames = nlohmann::json::parse(read_text(place / "out/summary.json"))["frames"];
+  EXPECT_EQ(frames["lost"].get<std::size_t>(), kCovered.count);
+  EXPECT_GT(frames["in_submaps"].get<int>(), 100);
+  EXPECT_GT(frames["tracked"].get<std::size_t>(), kCovered.first) << "in the map again";
+  const auto trajectory = geometry::read_trajectory(place / "out/trajectory_optimized.txt").value();
+  EXPECT_EQ(trajectory.size() + kCovered.count, frames["played"].get<std::size_t>());
+  const auto figures = score(covered, place / "out", dataset);
+  EXPECT_LE(figures["ate_final"].get<double>(), 0.010);
+  EXPECT_GE(figures["static_recall"].get<double>(), 0.97);
+  EXPECT_GE(figures["map_precision"].get<double>(), 0.99);
 }
 
 }  // namespace

@@ -207,6 +207,7 @@ void TrackerSequence::apply_due(std::size_t i) {
 }
 
 void TrackerSequence::run_mapping(std::size_t i) {
+  (void)tracker_.join_submaps();
   if (options_.no_mapping || result_) return;
   const auto start = processor_ms();
   const auto job = tracker_.take_mapping_job();

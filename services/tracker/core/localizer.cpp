@@ -85,6 +85,21 @@ PoseEstimate Localizer::localize(TrackingContext& context, State before, const K
   return estimate;
 }
 
+bool Localizer::can_begin_map(const TrackedFrame& frame) const {
+  if (config_.localize_only || !frame.features) return false;
+  const auto with_depth = std::ranges::count_if(
+      frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
+  return with_depth >= kMinFeaturesToStart;
+}
+
+bool Localizer::begin_submap(const TrackingContext& context, PoseEstimate& lost) const {
+  if (!can_begin_map(lost.frame)) return false;
+  lost.frame.clear_matches();
+  begin_map(context, lost);
+  lost.state = State::kRelocalised;  // the pose is no continuation of those before
+  return true;
+}
+
 /// Puts the first camera of a map into it.
 void Localizer::begin_map(const TrackingContext& context, PoseEstimate& first) const {
   first.state = State::kTracking;
@@ -118,9 +133,7 @@ PoseEstimate Localizer::match(const TrackingContext& context, State before,
     found.begins_map = features_.reference() == kNoId;
     if (!found.begins_map) features_.associate(context, frame);
   } else if (before == State::kNotInitialized) {
-    const auto with_depth = std::ranges::count_if(
-        frame.features->all(), [](const Feature& f) { return f.depth_m > 0 && !f.movable; });
-    if (config_.localize_only || with_depth < kMinFeaturesToStart) return found;
+    if (!can_begin_map(frame)) return found;
     begin_map(context, found);
   } else {
     found.state = estimate(context, before, keyframes, frame);

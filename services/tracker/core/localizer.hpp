@@ -21,7 +21,7 @@ struct PoseEstimate {
   TrackedFrame frame;
   State state = State::kLost;
   bool is_followed = false;                     // by points; else matched by features
-  bool begins_map = false;                      // no keyframe yet: the frame has to become the first
+  bool begins_map = false;                      // or a submap: the frame has to become its first keyframe
   std::shared_ptr<const FeatureSet> extracted;  // of a followed frame, if its features were looked at, too
   std::int64_t extract_us = 0;
   std::optional<UpDirection> up = std::nullopt;  // that a map begins with, by its first picture
@@ -44,6 +44,9 @@ class Localizer {
   void search_early(TrackingContext& context, State before, const std::atomic<bool>& enough) const;
   /// The pose: by points where that is sure, else by features, by depth, by relocalisation.
   PoseEstimate localize(TrackingContext& context, State before, const KeyframeSelector& keyframes);
+  /// Begins a submap with a frame that was not found, in a frame of its own.
+  /// @return false if it shows too little.
+  bool begin_submap(const TrackingContext& context, PoseEstimate& lost) const;
   /// Matches features in a followed frame that is to become a keyframe, near its pose.
   /// @return false if too few match: then it stays as it is.
   bool match_features(const TrackingContext& context, PoseEstimate& estimate);
@@ -63,6 +66,7 @@ class Localizer {
 
  private:
   void begin_map(const TrackingContext& context, PoseEstimate& first) const;
+  [[nodiscard]] bool can_begin_map(const TrackedFrame& frame) const;
   PoseEstimate match(const TrackingContext& context, State before, const KeyframeSelector& keyframes);
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                  TrackedFrame& frame);

@@ -75,7 +75,13 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   prepare(given, regions, context);
   PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
   TrackedFrame& frame = estimate.frame;
+  if (estimate.state == State::kLost && is_submap_due(frame.time_ns))
+    result.begins_submap = localizer_.begin_submap(context, estimate);
   result.state = state_ = estimate.state;
+  if (has_pose(state_)) {
+    const Submaps& submaps = mapper_.map().records().submaps();
+    enter(result.begins_submap ? submaps.next() : submaps.of(localizer_.features().reference()));
+  }
 
   KeyframeNeed need = KeyframeNeed::kNone;
   if (estimate.begins_map) {
@@ -95,6 +101,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
     result.map_from_camera = frame.camera_from_map.inverse();
     result.information = frame.information;
     result.reference_keyframe_id = localizer_.features().reference();
+    result.submap = submap_;
     result.reference_from_camera =
         mapper_.map().pose_of(result.reference_keyframe_id).inverse() * result.map_from_camera;
   }
@@ -149,6 +156,8 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
 
 /// @param need  kDetector: for other services; of it the map keeps the pose at most.
 void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result) {
+  KeyframeRecords& records = mapper_.map().records();
+  records.submaps().go_on(submap_, records.next_id());
   if (need == KeyframeNeed::kMap) {
     result.keyframe =
         mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
@@ -161,6 +170,11 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
     keyframes_.note_not_in_map(keyframe, frame.time_ns);
   }
   localizer_.begin_interval();
+}
+
+/// Depth pictures of another submap stand in another frame.
+void Tracker::enter(SubmapId submap) {
+  if (std::exchange(submap_, submap) != submap) forget_depth();
 }
 
 /// What the frame tells those that come.
@@ -190,15 +204,32 @@ Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
   return motion_.predict(last_map_from_camera(), time_.at(stamp_ns).time_ns).camera_from_map();
 }
 
-bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
+/// How long the map was tracked in; nullopt of one that is not to be given up.
+std::optional<double> Tracker::tracked_s() const {
   const Keyframe* first = mapper_.map().keyframe(0);
   const std::optional<LastFrame>& last = localizer_.features().last();
   const bool is_own =
       mapper_.map().records().first_free() == 0 && !config_.localize_only && !ports_.given_poses;
-  if (!lost_since_ns_ || !is_own || first == nullptr || !last) return false;
-  const double tracked_s = static_cast<double>(last->frame.time_ns - first->time_ns) / kNsPerSecond;
-  const double lost_s = static_cast<double>(time_.at(stamp_ns).time_ns - *lost_since_ns_) / kNsPerSecond;
-  return tracked_s < config_.young_map_s && lost_s > std::max(kLostForGoodS, tracked_s);
+  if (!is_own || first == nullptr || !last) return std::nullopt;
+  return static_cast<double>(last->frame.time_ns - first->time_ns) / kNsPerSecond;
+}
+
+double Tracker::lost_s(std::int64_t time_ns) const {
+  return lost_since_ns_ ? static_cast<double>(time_ns - *lost_since_ns_) / kNsPerSecond : 0;
+}
+
+bool Tracker::has_lost_young_map(std::int64_t stamp_ns) const {
+  const auto tracked = tracked_s();
+  return tracked && *tracked < config_.young_map_s &&
+         lost_s(time_.at(stamp_ns).time_ns) > std::max(kLostForGoodS, *tracked);
+}
+
+/// Not while the map may be given up, nor where the camera has not found itself yet in a map of before.
+bool Tracker::is_submap_due(std::int64_t time_ns) const {
+  const auto tracked = tracked_s();
+  const bool is_young = tracked && *tracked < config_.young_map_s;
+  return config_.submap_after_s > 0 && !is_young && localizer_.features().last() &&
+         lost_s(time_ns) >= config_.submap_after_s;
 }
 
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
@@ -235,14 +266,43 @@ bool Tracker::apply_adjustment(const LocalMappingResult& result) {
   return true;
 }
 
+std::optional<JoinedSubmap> Tracker::join_submaps() {
+  SlamMap& map = mapper_.map();
+  const KeyframeId newest = keyframes_.newest_in_map();
+  if (map.records().submaps().is_whole() || std::exchange(searched_, newest) == newest) return std::nullopt;
+  localizer_.relocalizer().index_pending(map);
+  const auto seen = localizer_.relocalizer().find_in_others(map, localizer_.settings(), newest);
+  if (!seen) return std::nullopt;
+  const auto agreeing = sightings_.add(map, *seen);
+  if (agreeing.empty()) return std::nullopt;
+  const Pose before = last_map_from_camera();
+  const SubmapMove move = move_of(map, *seen);
+  JoinedSubmap joined{move.moved, {}};
+  if (move.into == Submaps::kMap)
+    std::as_const(map).keyframes().for_each([&](const Keyframe& k) {
+      if (map.records().submaps().of(k.id) == move.moved) joined.placed.push_back(k.id);
+    });
+  const auto replaced = mapper_.join(move, agreeing);
+  if (!replaced) return std::nullopt;
+  sightings_.clear();
+  submap_ = map.records().submaps().of(localizer_.features().reference());
+  localizer_.features().replace_points(*replaced);
+  forget_depth_where_moved(before);
+  return joined;
+}
+
+void Tracker::forget_depth() {
+  removal_.forget();
+  localizer_.depth_aligner().forget();
+}
+
 /// Depth pictures of before stand where the camera was then.
 void Tracker::forget_depth_where_moved(const Pose& last_before) {
   const Pose moved = last_before.inverse() * last_map_from_camera();
   if (moved.translation().norm() < kSamePlaceM &&
       geometry::rotation_angle_rad(moved.linear()) < kSamePlaceRad)
     return;
-  removal_.forget();
-  localizer_.depth_aligner().forget();
+  forget_depth();
 }
 
 void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {

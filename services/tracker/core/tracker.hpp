@@ -15,6 +15,7 @@
 #include "services/tracker/core/localizer.hpp"
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
+#include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/removal/movable_segmenter.hpp"
 
 namespace rds::tracker {
@@ -23,12 +24,20 @@ namespace rds::tracker {
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 
+/// A submap that is part of an older one from now on.
+struct JoinedSubmap {
+  SubmapId submap = 0;
+  std::vector<KeyframeId> placed;  // its keyframes, by id, if the older one is the map; but for culled ones
+};
+
 /// RGB-D tracking against a map of ORB features that it builds.
 ///
 /// Owned by one thread. Local mapping is a pure function on a snapshot: take_mapping_job() after a keyframe,
 /// run_local_mapping() on any thread, apply() here at a later frame. Poses of frames are kept relative to
 /// their reference keyframe, so that applying a result moves the camera with the map and causes no jump.
 /// With given poses the map is made as usual, but no pose is estimated or moved.
+/// Who is lost for config.submap_after_s begins a submap: a map beside the map, in a frame of its own, that
+/// join_submaps() puts in its place once it is known.
 /// Where stamps go back, time goes on (ContinuousTime): the camera is lost, until it has found itself in the
 /// map. With config.localize_only nothing enters the map; keyframes are then for other services only. Same
 /// calls, same results, bit by bit.
@@ -67,6 +76,11 @@ class Tracker {
   /// Moves keyframes and points to where the adjustment puts them; what was made since moves along.
   /// @return false if it is outdated.
   bool apply_adjustment(const LocalMappingResult& result);
+  /// Looks for the newest keyframe in other submaps, while there are any. Where enough keyframes agree on how
+  /// two submaps lie to each other, the younger one becomes part of the older one; then a global adjustment
+  /// is due. Takes some 20 ms; best called after the frame's result was sent.
+  /// @return what has been joined; nullopt if nothing has.
+  std::optional<JoinedSubmap> join_submaps();
   /// Late boxes of a keyframe: its features in them are taken out of the map.
   void retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions);
 
@@ -81,10 +95,18 @@ class Tracker {
   /// @return or why not; then everything is as before.
   tl::expected<void, std::string> resume(const ReadRows& read);
 
-  /// Every keyframe since the last reset, by id, also those that are culled, and of those that never were in
-  /// the map the newer ones; without those of a map that it started from.
+  /// Every keyframe of the map since the last reset, by id, also those that are culled, and of those that
+  /// never were in the map the newer ones; without those of a map that it started from.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const { return mapper_.keyframe_poses(); }
+  /// Those of a submap.
+  [[nodiscard]] std::vector<KeyframePose> keyframe_poses(SubmapId submap) const {
+    return tracker::keyframe_poses(mapper_.map(), mapper_.map().records().first_free(), submap);
+  }
+  /// A keyframe of the map as other services see it. @throws std::out_of_range if it is not there.
+  [[nodiscard]] KeyframeData keyframe_data(KeyframeId id) const { return mapper_.keyframe_data(id); }
   [[nodiscard]] const SlamMap& map() const { return mapper_.map(); }
+  /// That the camera is, or was last, in.
+  [[nodiscard]] SubmapId submap() const { return submap_; }
   /// Keyframes that a lost camera can find itself by.
   [[nodiscard]] std::size_t known_places() const { return localizer_.relocalizer().places(); }
   /// What is known of the camera beyond what it was given with.
@@ -106,7 +128,12 @@ class Tracker {
                TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);
+  void forget_depth();
   void forget_depth_where_moved(const Pose& last_before);
+  [[nodiscard]] std::optional<double> tracked_s() const;
+  [[nodiscard]] double lost_s(std::int64_t time_ns) const;
+  [[nodiscard]] bool is_submap_due(std::int64_t time_ns) const;
+  void enter(SubmapId submap);
 
   /// What the tracker is given besides pictures.
   struct Ports {
@@ -123,6 +150,9 @@ class Tracker {
   Localizer localizer_;
   KeyframeSelector keyframes_;
   LocalMapper mapper_;
+  SubmapSightings sightings_;
+  SubmapId submap_ = Submaps::kMap;  // that the camera is in
+  KeyframeId searched_ = kNoId;      // newest keyframe that was looked for in other submaps
   time::ContinuousTime time_;
   State state_ = State::kNotInitialized;
   std::optional<std::int64_t> lost_since_ns_;

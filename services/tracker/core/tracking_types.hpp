@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "services/tracker/core/level/up_direction.hpp"
+#include "services/tracker/core/map/submaps.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
 
@@ -53,6 +54,8 @@ struct FrameResult {
   unsigned dynamic_features = 0;  // of these on movable objects
   unsigned inliers = 0;           // map points that support the pose
   StageTimes times;
+  SubmapId submap = Submaps::kMap;        // that the pose and the keyframe are in, instead of the map
+  bool begins_submap = false;             // it is the first frame of that
   std::optional<UpDirection> up;          // of the first frame of a map, if its surfaces were asked
   MovableMask movable;                    // whose features were dropped
   std::optional<KeyframeData> keyframe;   // if the frame became one

@@ -57,7 +57,7 @@ OdometryStep Odometry::step(const TrackedPose& pose, const RobotFrames& frames) 
   odom_from_camera_ = map_from_odom_.inverse() * pose.map_from_camera;
   OdometryStep step;
   step.is_in_map = frames.odom_from_camera.has_value();
-  if (frames.map_to_odom_is_ours)
+  if (frames.map_to_odom_is_ours && pose.is_placed)
     step.map_from_odom =
         step.is_in_map ? pose.map_from_camera * frames.odom_from_camera->inverse() : map_from_odom_;
   if (frames.odom_to_body_is_ours)

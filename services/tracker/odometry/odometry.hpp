@@ -18,11 +18,13 @@ struct TrackedPose {
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   Matrix6 information = Matrix6::Zero();  // of a motion in the camera's frame; zero: not known
   bool is_continuous = true;              // false after a relocalisation: the pose may have jumped
+  bool is_placed = true;                  // false: it is in a submap, whose place in the map is not known
 };
 
 /// What there is to tell of one frame.
 struct OdometryStep {
-  std::optional<geometry::Pose> map_from_odom;   // to publish; nullopt where another node does
+  std::optional<geometry::Pose>
+      map_from_odom;  // to publish; nullopt where another node does, or it is not known
   std::optional<geometry::Pose> odom_from_body;  // likewise
   bool is_in_map = false;  // the pose is in map, as odom is another node's; else in odom
   geometry::Pose parent_from_child = geometry::Pose::Identity();

@@ -74,8 +74,11 @@ void OdometryOutput::publish(std::int64_t stamp_ns, const FrameResult& result,
     const std::lock_guard lock(mutex_);
     return robot_frames(tree_, names_, without_slash(camera_frame), stamp_ns);
   }();
+  const bool is_placed = result.submap == Submaps::kMap;
   const OdometryStep step = odometry_.step(
-      {stamp_ns, result.map_from_camera, result.information, result.state != State::kRelocalised}, frames);
+      {stamp_ns, result.map_from_camera, result.information, result.state != State::kRelocalised, is_placed},
+      frames);
+  if (step.is_in_map && !is_placed) return;  // all that could be told
   nav_msgs::msg::Odometry odometry;
   odometry.header(messages::make_header(stamp_ns, step.is_in_map ? names_.map : names_.odom));
   odometry.child_frame_id(frames.child);

@@ -9,7 +9,7 @@ import { Services } from "./panels/services.js";
 import { COLORS } from "./scene/voxels.js";
 import { View } from "./scene/view.js";
 
-const STATES = [["starting", "none"], ["tracking", "good"], ["weak", "warn"], ["lost", "bad"], ["relocalised", "good"]]; // as in TrackingState
+const STATES = [["starting", "none"], ["tracking", "good"], ["weak", "warn"], ["lost", "bad"], ["relocalised", "good"], ["beside the map", "warn"]]; // as in TrackingState
 const SILENT_MS = 3000; // without a frame of the camera: no longer live
 const ADDRESS_MS = 400;
 const NARROW = matchMedia("(max-width: 720px)");

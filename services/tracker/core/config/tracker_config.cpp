@@ -63,7 +63,9 @@ void read(config::ConfigReader& reader, TrackerConfig& config) {
   read(reader.section("removal"), config.removal);
   read(reader.section("keyframe"), config.keyframe);
   read(reader.section("map_frame"), config.map_frame);
-  reader.section("quality").value("young_map_s", config.young_map_s, 0.0, 1e6, "s");
+  config::ConfigReader& quality = reader.section("quality");
+  quality.value("young_map_s", config.young_map_s, 0.0, 1e6, "s");
+  quality.value("submap_after_s", config.submap_after_s, 0.0, 1e6, "s");
   reader.value("localize_only", config.localize_only);
 }
 

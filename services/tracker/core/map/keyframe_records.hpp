@@ -7,6 +7,7 @@
 
 #include "services/tracker/core/map/id_table.hpp"
 #include "services/tracker/core/map/keyframe.hpp"
+#include "services/tracker/core/map/submaps.hpp"
 
 namespace rds::tracker {
 
@@ -61,6 +62,12 @@ class KeyframeRecords {
   [[nodiscard]] KeyframeId first_free() const { return first_free_; }
   [[nodiscard]] bool is_fixed(KeyframeId id) const { return id < first_free_; }
 
+  /// Which of them are in the map, and which in a submap that has no place in it yet.
+  Submaps& submaps() { return submaps_; }
+  [[nodiscard]] const Submaps& submaps() const { return submaps_; }
+  /// Whether a keyframe has a place in the map.
+  [[nodiscard]] bool is_placed(KeyframeId id) const { return submaps_.of(id) == Submaps::kMap; }
+
   IdTable<KeyframeRecord>& all() { return records_; }
   [[nodiscard]] const IdTable<KeyframeRecord>& all() const { return records_; }
 
@@ -70,6 +77,7 @@ class KeyframeRecords {
   IdTable<KeyframeRecord> records_;
   std::map<KeyframeId, std::deque<KeyframeId>> pose_only_;  // by anchor, oldest first
   KeyframeId first_free_ = 0;
+  Submaps submaps_;
 };
 
 }  // namespace rds::tracker

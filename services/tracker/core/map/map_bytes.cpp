@@ -105,13 +105,21 @@ map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const Ex
   put_pyramid(writer, extraction);
   writer.put(camera.given_fx);
   writer.put(camera.focal_scale);
-  writer.put_count(map.keyframes().size());
-  map.keyframes().for_each([&](const Keyframe& keyframe) { put(writer, keyframe); });
-  writer.put_count(map.points().size());
-  map.points().for_each([&](const MapPoint& point) {
-    map_file::put(writer, point.position);
-    put(writer, point.observations);
+  std::vector<const Keyframe*> keyframes;
+  map.keyframes().for_each([&](const Keyframe& k) {
+    if (map.records().is_placed(k.id)) keyframes.push_back(&k);
   });
+  writer.put_count(keyframes.size());
+  for (const Keyframe* keyframe : keyframes) put(writer, *keyframe);
+  std::vector<const MapPoint*> points;
+  map.points().for_each([&](const MapPoint& p) {
+    if (map.records().is_placed(p.observations.front().keyframe)) points.push_back(&p);
+  });
+  writer.put_count(points.size());
+  for (const MapPoint* point : points) {
+    map_file::put(writer, point->position);
+    put(writer, point->observations);
+  }
   return writer.take();
 }
 

@@ -97,6 +97,12 @@ Bytes common_to_all(const SlamMap& map) {
   writer.put(map.records().first_free());
   writer.put(map.records().next_id() + kReservedKeyframes);
   writer.put(map.points().next_id() + kReservedPoints);
+  const auto& rows = map.records().submaps().rows();
+  writer.put_count(rows.size());
+  for (const auto& [keyframe, submap] : rows) {
+    writer.put(keyframe);
+    writer.put(submap);
+  }
   return writer.take();
 }
 

@@ -33,7 +33,7 @@ using ReadRows = std::function<tl::expected<void, std::string>(const std::string
 /// "features", by keyframe, are written once: what its picture showed. "keyframes", by IdTable's block of
 /// ids, hold stamps, poses, anchors of what was culled, and which features are movable by now; "points", by
 /// block, positions, who sees them and how often they were found (written anew only where something else has
-/// changed, too); "map", one row, are the next ids. So a step costs what is around the camera, not the
+/// changed, too); "map", one row, are the next ids and what is in which submap. So a step costs what is around the camera, not the
 /// whole map, and a camera that stands still in a place it knows costs nothing.
 class MapCheckpoint {
  public:

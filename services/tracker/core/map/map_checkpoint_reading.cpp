@@ -108,11 +108,14 @@ void get_points(ByteReader& reader, MapContents& contents) {
   }
 }
 
+constexpr std::size_t kSubmapRowBytes = 8 + 4;
+
 /// Ids: of the first keyframe that is not fixed, and of those that come next.
 struct MapIds {
   KeyframeId first_free = 0;
   KeyframeId next_keyframe = 0;
   PointId next_point = 0;
+  Submaps submaps;
 };
 
 MapIds get_ids(ByteReader& reader) {
@@ -121,6 +124,17 @@ MapIds get_ids(ByteReader& reader) {
     *id = reader.get<std::uint64_t>();
   if (ids.next_keyframe >= kMaxKeyframes || ids.next_point >= kMaxPoints)
     reader.refuse("more keyframes than can be");
+  const std::size_t rows = reader.get_count(kSubmapRowBytes);
+  KeyframeId after = 0;
+  for (std::size_t i = 0; i < rows && reader.ok(); ++i) {
+    const auto first = reader.get<KeyframeId>();
+    const auto submap = reader.get<SubmapId>();
+    if (first < after || first >= ids.next_keyframe || submap >= kMaxKeyframes)
+      reader.refuse("submaps out of order");
+    else
+      ids.submaps.go_on(submap, first);
+    after = first + 1;
+  }
   return ids;
 }
 
@@ -150,6 +164,7 @@ tl::expected<SlamMap, std::string> map_from_rows(const ReadRows& read, const Sca
   contents.points.skip_to(ids.next_point);
   contents.records = KeyframeRecords(std::move(records), ids.first_free);
   contents.records.skip_ids(ids.next_keyframe);
+  contents.records.submaps() = ids.submaps;
   return map_of(std::move(contents), pyramid);
 }
 

@@ -119,9 +119,11 @@ void merge_points(SlamMap& map, PointId keep, PointId drop) {
   update_from_observations(map, *kept);
 }
 
-std::vector<KeyframePose> keyframe_poses(const SlamMap& map, KeyframeId first) {
+std::vector<KeyframePose> keyframe_poses(const SlamMap& map, KeyframeId first, SubmapId submap) {
   std::vector<KeyframePose> poses;
-  const auto add = [&](const KeyframeRecord& r) { poses.push_back({r.id, r.stamp_ns, map.pose_of(r.id)}); };
+  const auto add = [&](const KeyframeRecord& r) {
+    if (map.records().submaps().of(r.id) == submap) poses.push_back({r.id, r.stamp_ns, map.pose_of(r.id)});
+  };
   map.records().all().for_each(add, first);
   return poses;
 }

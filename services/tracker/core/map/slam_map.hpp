@@ -68,7 +68,9 @@ void set_pose(SlamMap& map, KeyframeId id, const Pose& map_from_camera);
 /// All that saw `drop` see `keep`; `drop` is erased.
 void merge_points(SlamMap& map, PointId keep, PointId drop);
 
-/// Every keyframe that ever was, from this one on, by id; also those of which only the pose was kept.
-std::vector<KeyframePose> keyframe_poses(const SlamMap& map, KeyframeId first = 0);
+/// Every keyframe of the map, or of a submap, that ever was, from this one on, by id; also those of which only
+/// the pose was kept.
+std::vector<KeyframePose> keyframe_poses(const SlamMap& map, KeyframeId first = 0,
+                                         SubmapId submap = Submaps::kMap);
 
 }  // namespace rds::tracker

@@ -14,15 +14,16 @@ namespace {
 constexpr int kIterations =
     10;  // of each of the two passes; from a closed pose graph later ones move nothing
 
-/// The keyframe of the snapshot that a newer one shares most points with; else the newest one of those
+/// The keyframe of the snapshot that a newer one shares most points with; else the newest one of its submap
 /// before.
 KeyframeId reference_of(const SlamMap& map, const Keyframe& keyframe, KeyframeId next_keyframe) {
   const auto known = std::ranges::find_if(keyframe.covisible,
                                           [&](const CovisibleKeyframe& c) { return c.id < next_keyframe; });
   if (known != keyframe.covisible.end()) return known->id;
   KeyframeId newest = kNoId;
+  const Submaps& submaps = map.records().submaps();
   map.keyframes().for_each([&](const Keyframe& k) {
-    if (k.id < next_keyframe) newest = k.id;
+    if (k.id < next_keyframe && submaps.of(k.id) == submaps.of(keyframe.id)) newest = k.id;
   });
   return newest;
 }
@@ -50,7 +51,9 @@ LocalMappingJob make_global_job(const SlamMap& map) {
   const KeyframeRecords& records = map.records();
   std::set<KeyframeId> seeing;
   map.points().for_each([&](const MapPoint& p) {
-    const auto is_free = [&](const Observation& o) { return !records.is_fixed(o.keyframe); };
+    const auto is_free = [&](const Observation& o) {
+      return !records.is_fixed(o.keyframe) && records.is_placed(o.keyframe);
+    };
     if (!std::ranges::any_of(p.observations, is_free)) return;
     job.points.push_back(p);
     for (const Observation& o : p.observations) seeing.insert(o.keyframe);

@@ -85,7 +85,10 @@ KeyframeSelector::NearestView KeyframeSelector::nearest_view(const SlamMap& map,
     if (keyframe != nullptr && seconds(frame.time_ns - keyframe->time_ns) > config_.known_after_s)
       compare(id, keyframe->map_from_camera);
   };
-  if (const Keyframe* newest = map.keyframe(newest_in_map_)) compare(newest->id, newest->map_from_camera);
+  const Submaps& submaps = map.records().submaps();
+  const Keyframe* newest = map.keyframe(newest_in_map_);
+  if (newest != nullptr && submaps.of(newest->id) == submaps.of(reference_id))
+    compare(newest->id, newest->map_from_camera);
   compare_old(reference_id);
   if (const Keyframe* reference = map.keyframe(reference_id))
     for (const CovisibleKeyframe& c : reference->covisible) compare_old(c.id);

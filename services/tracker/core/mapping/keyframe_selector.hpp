@@ -43,6 +43,8 @@ class KeyframeSelector {
 
   void begin_frame() { ++frames_since_last_; }
   /// The frame has become a keyframe of the map.
+  /// kNoId before the first.
+  [[nodiscard]] KeyframeId newest_in_map() const { return newest_in_map_; }
   void note_in_map(KeyframeId keyframe, std::int64_t time_ns);
   /// The frame has become a keyframe for others only.
   void note_not_in_map(const KeyframePose& keyframe, std::int64_t time_ns);

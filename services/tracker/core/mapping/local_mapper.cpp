@@ -2,11 +2,13 @@
 #include "services/tracker/core/mapping/local_mapper.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/map_building.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/mapping/submap_fit.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kOutside = 1000;      // keyframes that are remembered where the map does not grow
 
-KeyframeData keyframe_data(const SlamMap& map, const Keyframe& keyframe) {
+KeyframeData data_of(const SlamMap& map, const Keyframe& keyframe) {
   KeyframeData data;
   data.id = keyframe.id;
   data.stamp_ns = keyframe.stamp_ns;
@@ -37,7 +39,7 @@ KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const Imag
   Keyframe& keyframe = insert_keyframe(map_, frame, settings_.depth);
   frame.points = keyframe.points;
   keyframe.images = std::move(images);
-  KeyframeData data = keyframe_data(map_, keyframe);
+  KeyframeData data = data_of(map_, keyframe);
   for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, recent_points_);
   job_centre_ = keyframe.id;
@@ -59,6 +61,12 @@ KeyframePose LocalMapper::insert_pose_only(const TrackedFrame& frame, KeyframeId
       records.add_pose_only(frame.stamp_ns, anchor, map_.pose_of(anchor).inverse() * map_from_camera);
   if (!keep_all_poses_) records.forget_pose_only(anchor, frame.stamp_ns);
   return {id, frame.stamp_ns, map_from_camera};
+}
+
+KeyframeData LocalMapper::keyframe_data(KeyframeId id) const {
+  const Keyframe* keyframe = map_.keyframe(id);
+  if (keyframe == nullptr) throw std::out_of_range("LocalMapper::keyframe_data: no such keyframe");
+  return data_of(map_, *keyframe);
 }
 
 std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
@@ -115,6 +123,10 @@ std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose>
   if (!loops.empty() && std::ranges::none_of(loops, is_confirmed)) return std::nullopt;
   apply_correction(map_, corrected);
   ++revision_;
+  return join(loops);
+}
+
+ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
   ReplacedPoints replaced;
   for (const LoopMatch& loop : loops) {
     auto by_loop = join_loop(map_, loop, settings_.depth);
@@ -123,6 +135,15 @@ std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose>
     replaced.merge(*by_loop);
   }
   return replaced;
+}
+
+std::optional<ReplacedPoints> LocalMapper::join(const SubmapMove& move,
+                                                std::span<const LoopMatch> sightings) {
+  const auto is_confirmed = [&](const LoopMatch& seen) { return confirms(map_, seen, settings_.depth); };
+  if (std::ranges::none_of(sightings, is_confirmed) || !fits(map_, move)) return std::nullopt;
+  move_submap(map_, move);
+  ++revision_;
+  return join(sightings);
 }
 
 std::optional<LocalMappingJob> LocalMapper::take_adjustment(const SelfCalibration& calibration) {

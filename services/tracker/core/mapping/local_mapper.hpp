@@ -11,6 +11,7 @@
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
 #include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"
 
@@ -35,7 +36,10 @@ class LocalMapper {
                       const PictureCells& cells);
   /// A keyframe for other services only; a map that grows keeps its pose, relative to `anchor`.
   KeyframePose insert_pose_only(const TrackedFrame& frame, KeyframeId anchor);
-  /// Every keyframe made here, by id, also those that are culled; of those for other services the newer ones.
+  /// A keyframe of the map as other services see it. @throws std::out_of_range if it is not there.
+  [[nodiscard]] KeyframeData keyframe_data(KeyframeId id) const;
+  /// Every keyframe made here that is in the map, by id, also those that are culled; of those for other
+  /// services the newer ones.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   /// Depth of a keyframe whose boxes may still come; null if unknown or too old.
   [[nodiscard]] const PictureCells* cells_of(KeyframeId keyframe) const;
@@ -54,6 +58,9 @@ class LocalMapper {
   /// nothing has changed.
   std::optional<ReplacedPoints> correct(std::span<const KeyframePose> corrected,
                                         std::span<const LoopMatch> loops);
+  /// Puts a submap into an older one and joins what the sightings say is one place; then a global adjustment
+  /// is due. @return as correct(); nullopt, too, if what the two measured contradicts each other.
+  std::optional<ReplacedPoints> join(const SubmapMove& move, std::span<const LoopMatch> sightings);
   /// Snapshot of the whole map; nullopt where no global adjustment is due.
   std::optional<LocalMappingJob> take_adjustment(const SelfCalibration& calibration);
   /// Brings a global adjustment in. @return false if it is outdated.
@@ -64,6 +71,7 @@ class LocalMapper {
   void append_checkpoint(std::vector<CheckpointRow>& rows) { checkpoint_.append_changes(map_, rows); }
 
  private:
+  ReplacedPoints join(std::span<const LoopMatch> loops);
   [[nodiscard]] LocalMappingJob prepared(LocalMappingJob&& job, const SelfCalibration& calibration) const;
 
   struct KeyframeDepth {

@@ -107,13 +107,13 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
 void apply_correction(SlamMap& map, std::span<const KeyframePose> corrected) {
   std::map<KeyframeId, Pose> corrected_from_before;
   for (const KeyframePose& k : corrected)
-    if (map.records().contains(k.id) && !map.records().is_fixed(k.id) &&
+    if (map.records().contains(k.id) && !map.records().is_fixed(k.id) && map.records().is_placed(k.id) &&
         geometry::is_finite(k.map_from_camera))
       corrected_from_before[k.id] = k.map_from_camera * map.pose_of(k.id).inverse();
   if (corrected_from_before.empty()) return;
   const Pose still = Pose::Identity();
   const auto motion = [&](KeyframeId id) -> const Pose& {
-    if (map.records().is_fixed(id)) return still;
+    if (map.records().is_fixed(id) || !map.records().is_placed(id)) return still;
     auto next = corrected_from_before.upper_bound(id);
     return next == corrected_from_before.begin() ? next->second : std::prev(next)->second;
   };

@@ -2,16 +2,23 @@
 #include "services/tracker/core/relocalization/relocalizer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
 namespace rds::tracker {
 namespace {
 
-constexpr std::size_t kCandidates = 4;  // keyframes tried per frame
+constexpr std::size_t kCandidates = 4;           // keyframes tried per frame
+constexpr std::size_t kCandidatesElsewhere = 2;  // keyframes of other submaps tried per keyframe
+// The pattern of a wall repeats, and so do walls: a place is recognised by what does not lie in one plane.
+// How far it stands off, of its distance; of a rendered building, 2 … 4 m away, walls .001, what else is seen
+// .1.
+constexpr double kMinRelief = 0.05;
 constexpr int kRansacIterations = 200;
 constexpr float kRansacErrorPx = 6;
 constexpr double kRansacConfidence = 0.995;
@@ -58,6 +65,26 @@ bool solve_pnp(const SlamMap& map, TrackedFrame& frame) {
   return geometry::is_finite(frame.camera_from_map);
 }
 
+/// How far the points that a frame sees stand off the plane that fits them best, a standard deviation,
+/// relative to their distance from the camera.
+double relief_of(const SlamMap& map, const TrackedFrame& frame) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (const PointId id : frame.points) {
+    const MapPoint* point = map.point(id);
+    if (point == nullptr) continue;
+    sum += point->position;
+    squares += point->position * point->position.transpose();
+    ++count;
+  }
+  if (count == 0) return 0;
+  const Eigen::Vector3d mean = sum / count;
+  const Eigen::Matrix3d covariance = squares / count - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, axes.eigenvalues()[0])) / (frame.camera_from_map * mean).norm();
+}
+
 /// Points of the keyframe and its best neighbours, each once.
 std::vector<PointId> points_around(const SlamMap& map, const Keyframe& keyframe) {
   std::vector<PointId> points;
@@ -88,6 +115,29 @@ bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) 
   });
 }
 
+std::optional<geometry::LoopMatch> Relocalizer::find_in_others(SlamMap& map, const PoseSettings& settings,
+                                                               KeyframeId id) const {
+  const Keyframe* keyframe = std::as_const(map).keyframe(id);
+  if (keyframe == nullptr) return std::nullopt;
+  image::RgbdFrame no_picture;
+  no_picture.camera = keyframe->features->camera();
+  const TrackingContext context{
+      map, settings, no_picture, ObservationModel(no_picture.camera, settings.depth), {}, {}};
+  TrackedFrame frame;
+  frame.features = keyframe->features;
+  frame.time_ns = keyframe->time_ns;
+  const Submaps& submaps = map.records().submaps();
+  std::size_t tried = 0;
+  for (const auto& place : places_.query(static_descriptors(*keyframe->features), places_.size())) {
+    if (submaps.of(place.id) == submaps.of(id)) continue;
+    if (tried++ == kCandidatesElsewhere) break;
+    if (!localize_against(context, place.id, frame)) continue;
+    const Pose found_from_map = std::as_const(map).keyframe(place.id)->map_from_camera.inverse();
+    return geometry::LoopMatch{id, place.id, found_from_map * frame.camera_from_map.inverse()};
+  }
+  return std::nullopt;
+}
+
 bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id, TrackedFrame& frame) {
   const Keyframe* keyframe = context.map.keyframe(id);
   if (keyframe == nullptr) return false;
@@ -95,7 +145,7 @@ bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id
   if (!solve_pnp(context.map, frame)) return false;
   if (optimize(context, frame) < kMinRefined) return false;
   localize_near(context, *keyframe, frame);
-  return frame.static_matches() >= kMinInliers;
+  return frame.static_matches() >= kMinInliers && relief_of(context.map, frame) >= kMinRelief;
 }
 
 void Relocalizer::localize_near(const TrackingContext& context, const Keyframe& keyframe,

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
+#include "common/geometry/loop_match.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 
 namespace rds::tracker {
 
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,
-/// refinement, then a wider search for the points of the keyframe and of its covisible keyframes.
-/// Source: Mur-Artal et al. 2015, §V-C.
+/// refinement, then a wider search for the points of the keyframe and of its covisible keyframes. What is
+/// found by one plane alone is not believed: patterns of walls and floors repeat. Source: Mur-Artal et al.
+/// 2015, §V-C.
 class Relocalizer {
  public:
   /// Inliers that a pose found without a prediction needs.
   static constexpr int kMinInliers = 50;
 
   /// Tries the keyframes that look most like the frame.
-  /// @return true if at least kMinInliers map points agree; then frame.points and camera_from_map hold
-  /// the result.
+  /// @return true if at least kMinInliers map points agree that do not all lie in one plane; then
+  /// frame.points and camera_from_map hold the result.
   bool localize(const TrackingContext& context, TrackedFrame& frame) const;
+  /// Looks for the place that a keyframe shows among the keyframes of other submaps.
+  /// @return nullopt if fewer than kMinInliers map points agree, or all of them lie in one plane.
+  std::optional<geometry::LoopMatch> find_in_others(SlamMap& map, const PoseSettings& settings,
+                                                    KeyframeId keyframe) const;
   /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
   /// centimetres and degrees: frame.points and camera_from_map hold the result.
   static void localize_near(const TrackingContext& context, const Keyframe& keyframe, TrackedFrame& frame);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/run/results/recorder.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "common/messages/conversions.hpp"
@@ -13,8 +14,8 @@ namespace rds::run {
 namespace {
 
 std::string state_name(std::uint8_t state) {
-  static const std::array<std::string, 5> kNames{"NOT_INITIALIZED", "TRACKING", "WEAK", "LOST",
-                                                 "RELOCALISED"};
+  static const std::array<std::string, 6> kNames{"NOT_INITIALIZED", "TRACKING", "WEAK", "LOST",
+                                                 "RELOCALISED",     "SUBMAP"};
   return state < kNames.size() ? kNames[state] : "UNKNOWN";
 }
 
@@ -27,6 +28,7 @@ FrameRecord to_record(const rds_msgs::msg::TrackingState& m) {
   return {.stamp_ns = messages::to_nanoseconds(m.header().stamp()),
           .state = state_name(m.state()),
           .has_pose = state_has_pose(m.state()),
+          .is_in_submap = m.state() == rds_msgs::msg::TrackingState_Constants::SUBMAP,
           .is_keyframe = m.is_keyframe(),
           .features = m.features(),
           .dynamic_features = m.dynamic_features(),
@@ -92,7 +94,7 @@ void Recorder::on_state(const rds_msgs::msg::TrackingState& message) {
     }
     recording_.frames[record.stamp_ns] = record;
     recording_.frames_dropped = message.frames_dropped();
-    if (message.is_keyframe()) {
+    if (message.is_keyframe() && !record.is_in_submap) {  // of a submap none reaches the map yet
       if (keyframes_ == 0) first_keyframe_id_ = message.keyframe_id();
       keyframes_ = message.keyframe_id() + 1 - first_keyframe_id_;
       unmapped_.emplace(message.keyframe_id(), Clock::now());
@@ -135,7 +137,8 @@ void Recorder::on_loops(const rds_msgs::msg::KeyFramePoses& message) {
 
 void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
   if (!messages::fault_of(message).empty()) return;
-  if (message.source() != messages::kPosesOfTracker) return on_loops(message);
+  if (message.source() == messages::kPosesOfLoopCloser) return on_loops(message);
+  if (message.source() != messages::kPosesOfTracker) return;
   {
     const std::lock_guard lock(mutex_);
     if (!tracker_.accept(message.instance(), message.map_epoch() == epoch_)) return;
@@ -164,7 +167,7 @@ void Recorder::on_map_info(const rds_msgs::msg::MapInfo& message) {
   {
     const std::lock_guard lock(mutex_);
     if (message.keyframes_integrated() == 0) return;
-    last_mapped_id_ = message.last_keyframe_id();
+    last_mapped_id_ = std::max(last_mapped_id_.value_or(0), message.last_keyframe_id());
     const auto end = unmapped_.upper_bound(*last_mapped_id_);
     for (auto keyframe = unmapped_.begin(); keyframe != end; keyframe = unmapped_.erase(keyframe))
       recording_.map_delays_s.push_back(

@@ -17,6 +17,7 @@ struct FrameRecord {
   std::int64_t stamp_ns = 0;
   std::string state;
   bool has_pose = false;
+  bool is_in_submap = false;  // tracked, but its reference keyframe had no place in the map yet
   bool is_keyframe = false;
   std::uint32_t features = 0;
   std::uint32_t dynamic_features = 0;

@@ -109,11 +109,13 @@ std::vector<StampedPose> live_trajectory(const Recording& recording) {
 std::vector<StampedPose> optimized_trajectory(const Recording& recording) {
   std::vector<StampedPose> poses;
   // Without its keyframe a pose is final: of a saved map, whose keyframes do not move; of an earlier epoch;
-  // of a tracker that was killed before its last checkpoint had them.
+  // of a tracker that was killed before its last checkpoint had them. In a submap that was joined to the map
+  // a frame got its pose afterwards.
   for (const auto& [stamp, frame] : recording.frames) {
-    if (!frame.has_pose) continue;
     const auto reference = recording.keyframes.find(frame.reference_keyframe_id);
     const bool has_moved = frame.map_epoch == recording.map_epoch && reference != recording.keyframes.end();
+    const bool is_placed = frame.has_pose || (frame.is_in_submap && has_moved);
+    if (!is_placed) continue;
     poses.push_back(
         {stamp,
          has_moved ? reference->second.map_from_camera * frame.reference_from_camera : frame.map_from_camera,

@@ -31,10 +31,12 @@ ordered_json distribution(const Recording& recording, double FrameRecord::*field
 ordered_json frames_json(const SummaryInput& in) {
   std::size_t tracked = 0;
   std::size_t lost = 0;
+  std::size_t in_submaps = 0;
   std::size_t keyframes = 0;
   for (const auto& [stamp, frame] : in.recording.frames) {
     tracked += frame.has_pose ? 1U : 0U;
-    lost += frame.has_pose ? 0U : 1U;
+    in_submaps += frame.is_in_submap ? 1U : 0U;
+    lost += frame.has_pose || frame.is_in_submap ? 0U : 1U;
     keyframes += frame.is_keyframe ? 1U : 0U;
   }
   return {{"in_dataset", in.frames_in_dataset},
@@ -42,6 +44,7 @@ ordered_json frames_json(const SummaryInput& in) {
           {"unreadable", in.player.unreadable},
           {"tracked", tracked},
           {"lost", lost},
+          {"in_submaps", in_submaps},
           {"dropped", in.player.played - std::min(in.player.played, in.recording.frames.size())},
           {"keyframes", keyframes},
           {"keyframes_in_map", in.recording.keyframes_in_map}};
@@ -69,8 +72,8 @@ ordered_json detector_json(const SummaryInput& in) {
           {"keyframes_skipped", static_cast<std::uint64_t>(figure("keyframes skipped"))}};
 }
 
-/// How far the map was behind while the camera ran: from a keyframe to the map that has it, and keyframes that
-/// it never got.
+/// How far the map was behind while the camera ran: from a keyframe to the map that has it, and keyframes
+/// that it never got.
 ordered_json map_json(const SummaryInput& in) {
   const auto answer = nlohmann::json::parse(in.map_description, nullptr, false);
   if (!answer.is_object()) return nullptr;

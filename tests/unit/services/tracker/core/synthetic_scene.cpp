@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
+#include <cmath>
+
 #include <opencv2/imgproc.hpp>
 
 namespace rds::tracker::test {
@@ -9,6 +11,7 @@ namespace {
 constexpr double kWallDepth = 2;         // m
 constexpr double kTexelsPerMetre = 160;  // as fine as the camera sees the wall
 constexpr int kTexels = 1200;
+constexpr double kStripM = 0.7;
 
 const cv::Mat& texture() {
   static const cv::Mat kTexture = [] {
@@ -37,6 +40,21 @@ const std::vector<Eigen::Vector3d>& rays_of(const geometry::CameraModel& camera)
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u) rays.push_back(camera.ray(Eigen::Vector2d(u, v)));
   return rays;
+}
+
+bool stands_out(double x) {
+  return static_cast<int>(std::floor(x / kStripM)) % 2 != 0;
+}
+
+/// Depth at which a ray meets the wall, the side of a strip counting as the wall behind it [m].
+double depth_along(const Pose& map_from_camera, const Eigen::Vector3d& ray, double relief_m) {
+  const Eigen::Vector3d direction = map_from_camera.linear() * ray;
+  const auto depth_to = [&](double wall_z) {
+    return (wall_z - map_from_camera.translation().z()) / direction.z();
+  };
+  const double near = depth_to(kWallDepth - relief_m);
+  const bool is_met = relief_m > 0 && stands_out(map_from_camera.translation().x() + near * direction.x());
+  return is_met ? near : depth_to(kWallDepth);
 }
 
 /// Where a camera-frame point is when its row is read. The row depends on the place: a few steps find both.
@@ -72,7 +90,7 @@ Twist quick_motion() {
 }
 
 image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
-                                 const geometry::CameraModel& camera) {
+                                 const geometry::CameraModel& camera, double relief_m) {
   image::RgbdFrame frame;
   frame.stamp_ns = stamp_ns;
   frame.camera = camera;
@@ -84,8 +102,7 @@ image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u) {
       const Eigen::Vector3d& ray = rays[static_cast<std::size_t>(v * size.width + u)];
-      const double z =
-          (kWallDepth - map_from_camera.translation().z()) / (map_from_camera.linear() * ray).z();
+      const double z = depth_along(map_from_camera, ray, relief_m);
       const Eigen::Vector3d point = map_from_camera * (z * ray);
       map_x.at<float>(v, u) = static_cast<float>(point.x() * kTexelsPerMetre + kTexels / 2.0);
       map_y.at<float>(v, u) = static_cast<float>(point.y() * kTexelsPerMetre + kTexels / 2.0);

@@ -20,8 +20,9 @@ Pose pose(double x, double y, double z, double turn_rad = 0);
 Twist quick_motion();
 
 /// What a camera sees of a wall with random texture at z = 2 m; depth in metres.
+/// @param relief_m  every other strip of 0.7 m stands out so far.
 image::RgbdFrame picture_of_wall(const Pose& map_from_camera, std::int64_t stamp_ns,
-                                 const geometry::CameraModel& camera = small_camera());
+                                 const geometry::CameraModel& camera = small_camera(), double relief_m = 0);
 
 /// A mask of the small camera's picture that covers these pixels.
 MovableMask mask_of(const cv::Rect& px);

@@ -47,8 +47,7 @@ Rows all_rows(SlamMap& map) {
 }
 
 void map_locally(Tracker& tracker) {
-  if (const auto job = tracker.take_mapping_job())
-    tracker.apply(run_local_mapping(*job));
+  if (const auto job = tracker.take_mapping_job()) tracker.apply(run_local_mapping(*job));
 }
 
 /// A tracker that has made a map, and told it every third frame.
@@ -115,8 +114,7 @@ TEST_F(CheckpointedTracker, ACameraThatStandsStillCostsNothing) {
   for (int i = 24; i < 40; ++i) step(tracker, 23);
   rows.take(tracker.checkpoint());
   for (int i = 0; i < 10; ++i)
-    EXPECT_TRUE(
-        has_pose(tracker.track(test::picture_of_wall(test::truth(23), (50 + i) * kFrameNs), {}).state));
+    EXPECT_TRUE(has_pose(tracker.track(test::picture_of_strips(test::truth(23), (50 + i) * kFrameNs), {}).state));
   for (const CheckpointRow& row : tracker.checkpoint()) EXPECT_NE(row.kind, "points");
 }
 
@@ -128,11 +126,11 @@ TEST_F(CheckpointedTracker, FindsItselfAndUsesNoIdTwice) {
   Tracker resumed(small_config());
   ASSERT_TRUE(resumed.resume(rows.reader()));
   EXPECT_EQ(resumed.track(test::dark_picture(61 * kFrameNs), {}).state, State::kLost);
-  const FrameResult found = resumed.track(test::picture_of_wall(test::truth(14), 62 * kFrameNs), {});
+  const FrameResult found = resumed.track(test::picture_of_strips(test::truth(14), 62 * kFrameNs), {});
   ASSERT_EQ(found.state, State::kRelocalised);
   EXPECT_LT(test::error_m(found, 14), 0.02);
   for (int i = 15; i < 40; ++i) {
-    const FrameResult next = resumed.track(test::picture_of_wall(test::truth(i), (62 + i) * kFrameNs), {});
+    const FrameResult next = resumed.track(test::picture_of_strips(test::truth(i), (62 + i) * kFrameNs), {});
     EXPECT_TRUE(has_pose(next.state)) << i;
     if (next.keyframe) {
       EXPECT_GE(next.keyframe->id, given);
@@ -149,7 +147,7 @@ TEST_F(CheckpointedTracker, GoesOnAfterASecondRestart) {
   Tracker second(small_config());
   ASSERT_TRUE(second.resume(rows.reader()));
   for (int i = 10; i < 30; ++i) {
-    second.track(test::picture_of_wall(test::truth(i), (40 + i) * kFrameNs), {});
+    second.track(test::picture_of_strips(test::truth(i), (40 + i) * kFrameNs), {});
     map_locally(second);
   }
   rows.take(second.checkpoint());

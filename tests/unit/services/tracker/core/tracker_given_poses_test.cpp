@@ -25,8 +25,7 @@ TEST(TrackerGivenPoses, FollowsGivenPosesAndMovesNone) {
     if (i == 5) continue;
     EXPECT_TRUE(result.map_from_camera.isApprox(*poses_elsewhere()(i * kFrameNs), 1e-12)) << i;
     EXPECT_GT(i == 0 ? 100U : result.inliers, 90U) << i;  // what the map has is found, after the gap too
-    if (const auto job = tracker.take_mapping_job())
-      tracker.apply(run_local_mapping(*job));
+    if (const auto job = tracker.take_mapping_job()) tracker.apply(run_local_mapping(*job));
     tracker.correct(std::vector<KeyframePose>{{0, 0, test::pose(1, 0, 0)}});
   }
   EXPECT_GT(tracker.map().keyframes().size(), 1U);

@@ -38,12 +38,11 @@ TEST(TrackerLost, StaysLostWhereNothingIsKnown) {
   Tracker tracker(small_config());
   for (int i = 0; i < 6; ++i) step(tracker, i);
   for (int i = 6; i < 50; ++i) {
-    const FrameResult elsewhere =
-        tracker.track(test::picture_of_wall(test::pose(2.7, 2.4, 0), i * kFrameNs), {});
+    const FrameResult elsewhere = tracker.track(picture_of_strips(test::pose(2.7, 2.4, 0), i * kFrameNs), {});
     EXPECT_EQ(elsewhere.state, State::kLost) << i;
     EXPECT_FALSE(elsewhere.keyframe) << i;
   }
-  EXPECT_EQ(tracker.track(test::picture_of_wall(truth(4), 50 * kFrameNs), {}).state, State::kRelocalised);
+  EXPECT_EQ(tracker.track(picture_of_strips(truth(4), 50 * kFrameNs), {}).state, State::kRelocalised);
 }
 
 bool gives_up(Tracker& tracker, int first, int frames) {
@@ -78,7 +77,7 @@ TEST(TrackerLost, AJumpToAKnownPlaceIsSaidToBeOne) {
   Tracker tracker(small_config());
   for (int i = 0; i < 50; ++i) ASSERT_EQ(step(tracker, i).state, State::kTracking) << i;
   for (int i = 0; i < 6; ++i) {
-    const FrameResult result = tracker.track(test::picture_of_wall(truth(3 + i), (50 + i) * kFrameNs), {});
+    const FrameResult result = tracker.track(picture_of_strips(truth(3 + i), (50 + i) * kFrameNs), {});
     EXPECT_EQ(result.state, i == 0 ? State::kRelocalised : State::kTracking) << i;
     EXPECT_TRUE(error_m(result, 3 + i) < 0.02) << i << ": " << error_m(result, 3 + i);
   }
@@ -87,7 +86,7 @@ TEST(TrackerLost, AJumpToAKnownPlaceIsSaidToBeOne) {
 TEST(TrackerLost, SurvivesJumpsOfExposure) {
   Tracker tracker(small_config());
   for (int i = 0; i < 12; ++i) {
-    image::RgbdFrame picture = test::picture_of_wall(truth(i), i * kFrameNs);
+    image::RgbdFrame picture = picture_of_strips(truth(i), i * kFrameNs);
     picture.color.pixels *= i / 3 % 2 == 0 ? 0.9 : 0.45;
     const FrameResult result = tracker.track(picture, {});
     ASSERT_EQ(result.state, State::kTracking) << i;
@@ -98,7 +97,7 @@ TEST(TrackerLost, SurvivesJumpsOfExposure) {
 TEST(TrackerLost, TheEdgeOfWhatCoversTheLensDoesNotMoveTheCamera) {
   Tracker tracker(small_config());
   for (int i = 0; i < 24; ++i) {
-    image::RgbdFrame picture = test::picture_of_wall(truth(i), i * kFrameNs);
+    image::RgbdFrame picture = picture_of_wall(truth(i), i * kFrameNs);
     const int covered = std::clamp(i < 16 ? 40 * (i - 6) : 40 * (23 - i), 0, 320);
     picture.color.pixels(cv::Rect(0, 0, covered, 240)).setTo(cv::Scalar(8, 8, 8));
     const FrameResult result = tracker.track(picture, {});
@@ -120,10 +119,10 @@ TEST(TrackerLost, SurvivesBadPictures) {
   EXPECT_EQ(tracker.track(empty, {}).state, State::kNotInitialized);
   step(tracker, 0);
   EXPECT_EQ(tracker.track(empty, {}).state, State::kLost);
-  image::RgbdFrame small_depth = test::picture_of_wall(truth(1), kFrameNs);
+  image::RgbdFrame small_depth = picture_of_strips(truth(1), kFrameNs);
   small_depth.depth.values = cv::Mat(3, 3, CV_16UC1);
   EXPECT_EQ(tracker.track(small_depth, {}).state, State::kLost);
-  image::RgbdFrame nan = test::picture_of_wall(truth(1), kFrameNs);
+  image::RgbdFrame nan = picture_of_strips(truth(1), kFrameNs);
   nan.depth.values.setTo(std::numeric_limits<float>::quiet_NaN());
   tracker.track(nan, {});
   EXPECT_EQ(step(tracker, 2).state, State::kTracking);

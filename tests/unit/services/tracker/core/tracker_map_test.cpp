@@ -50,8 +50,7 @@ TEST(TrackerMap, AMapOfAKnownPlaceDoesNotGrow) {
     const FrameResult result = tracker.track(test::picture_of_wall(where, i * kFrameNs), {});
     ASSERT_EQ(result.state, State::kTracking) << i;
     looks += result.keyframe && !result.keyframe->in_map ? 1 : 0;
-    if (const auto job = tracker.take_mapping_job())
-      tracker.apply(run_local_mapping(*job));
+    if (const auto job = tracker.take_mapping_job()) tracker.apply(run_local_mapping(*job));
     EXPECT_EQ(tracker.known_places(), tracker.map().keyframes().size());
     if ((i + 1) % (2 * kPassFrames) != 0) continue;
     keyframes.push_back(tracker.map().keyframes().size());

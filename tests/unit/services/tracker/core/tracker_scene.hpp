@@ -21,13 +21,19 @@ inline TrackerConfig small_config() {
   return config;
 }
 
+/// The wall with strips that stand out: of a place that lies in one plane no lost camera believes anything.
+inline image::RgbdFrame picture_of_strips(const Pose& map_from_camera, std::int64_t stamp_ns,
+                                          const geometry::CameraModel& camera = small_camera()) {
+  return picture_of_wall(map_from_camera, stamp_ns, camera, 0.6);
+}
+
 /// Where the camera is at a frame: it is carried along the wall and turns.
 inline Pose truth(int frame) {
   return pose(0.015 * frame, 0.004 * frame, 0.01 * frame, 0.004 * frame);
 }
 
 inline FrameResult step(Tracker& tracker, int frame, std::span<const MovableRegion> movable = {}) {
-  return tracker.track(picture_of_wall(truth(frame), frame * kFrameNs), movable);
+  return tracker.track(picture_of_strips(truth(frame), frame * kFrameNs), movable);
 }
 
 /// Of a frame of a tracker that started at frame 0.

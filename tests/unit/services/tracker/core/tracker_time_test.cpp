@@ -13,7 +13,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kStart = 2000 * kSecond;
 
 FrameResult step_at(Tracker& tracker, int frame, std::int64_t stamp_ns) {
-  return tracker.track(picture_of_wall(truth(frame), stamp_ns), {});
+  return tracker.track(picture_of_strips(truth(frame), stamp_ns), {});
 }
 
 constexpr std::int64_t kSlowNs = 300'000'000;

@@ -99,6 +99,23 @@ TEST(Odometry, OdomIsContinuousOverALoopAndARelocalisation) {
   EXPECT_TRUE(next_map.odom_from_body->isApprox(*after_loop.odom_from_body, 1e-9));
 }
 
+TEST(Odometry, GoesOnInASubmapThatHasNoPlaceInTheMap) {
+  const RobotFrames frames = frames_of(robot_with_a_camera());
+  Odometry odometry;
+  const OdometryStep before = odometry.step(pose(0, at(1, 0, 0)), frames);
+  TrackedPose beside = pose(5000, at(0, 0, 0), false);
+  beside.is_placed = false;
+  const OdometryStep first = odometry.step(beside, frames);
+  EXPECT_FALSE(first.map_from_odom);
+  EXPECT_TRUE(first.odom_from_body->isApprox(*before.odom_from_body, 1e-9));
+  odometry.move_map(at(4, 1, 0, 0.3));  // the submap is joined
+  const OdometryStep joined = odometry.step(pose(5033, at(4, 1, 0, 0.3)), frames);
+  EXPECT_TRUE(joined.odom_from_body->isApprox(*before.odom_from_body, 1e-9));
+  ASSERT_TRUE(joined.map_from_odom);
+  EXPECT_TRUE((*joined.map_from_odom * *joined.odom_from_body * frames.body_from_camera)
+                  .isApprox(at(4, 1, 0, 0.3), 1e-9));
+}
+
 TEST(Odometry, CorrectsTheMapAboveWheelOdometry) {
   TransformTree tree = robot_with_a_camera();
   tree.set("odom", "base_footprint", 0, at(3, 0, 1));

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "services/tracker/core/mapping/loop_fusion.hpp"
+
+namespace rds::tracker {
+
+/// Where keyframes of one submap were found in another one. One picture can deceive; three of the newest six
+/// sightings that place the submaps alike do not.
+/// Source: Mur-Artal & Tardós 2017 (consecutive detections); Campos et al. 2021, §VI-A.
+class SubmapSightings {
+ public:
+  /// @param seen  the newest keyframe of the map, as the later one, and one of another submap that shows the
+  /// same place.
+  /// @return the sightings that agree with it, this one last; nothing while they are too few.
+  std::vector<LoopMatch> add(const SlamMap& map, const LoopMatch& seen);
+  void clear() { seen_.clear(); }
+
+ private:
+  std::deque<LoopMatch> seen_;  // oldest first
+};
+
+/// A submap moves into an older one.
+struct SubmapMove {
+  SubmapId moved = 0;
+  SubmapId into = 0;
+  Pose into_from_moved = Pose::Identity();
+};
+
+/// What a sighting says: the younger of its two submaps goes to its place in the older one.
+SubmapMove move_of(const SlamMap& map, const LoopMatch& seen);
+/// Moves keyframes and points, and makes them the older submap's.
+void move_submap(SlamMap& map, const SubmapMove& move);
+
+}  // namespace rds::tracker

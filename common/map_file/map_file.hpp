@@ -16,7 +16,7 @@ namespace rds::map_file {
 /// The parts of a saved map, each read and written by its own service.
 using Sections = std::map<std::string, Bytes>;
 
-inline constexpr std::uint32_t kFormatVersion = 3;
+inline constexpr std::uint32_t kFormatVersion = 4;
 
 /// The file as bytes: magic, version, table of sections (name, size, SHA-256 of
 /// the payload), SHA-256 of all that, payloads in the order of the table. Numbers are little-endian.

@@ -126,7 +126,9 @@ vision_msgs::msg::Detection3DArray to_detection_message(std::span<const SpatialD
     target.bbox(box_message(detection.box));
     target.id(detection.id);
     target.results().push_back(hypothesis_of(detection.label, detection.score));
-    target.results().back().pose().pose(target.bbox().center());
+    for (const OtherLabel& other : detection.or_else)
+      target.results().push_back(hypothesis_of(other.label, other.score));
+    for (auto& hypothesis : target.results()) hypothesis.pose().pose(target.bbox().center());
   }
   return message;
 }

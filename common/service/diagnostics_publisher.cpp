@@ -104,7 +104,7 @@ void DiagnosticsPublisher::tell_supervisor(const WorkerState& worker, const Heal
 
 void DiagnosticsPublisher::finish() {
   thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
   publish();
 }
 

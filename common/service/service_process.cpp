@@ -27,12 +27,12 @@ ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, 
       factory_(std::move(factory)),
       events_(mailbox_, kMaxEvents),
       presence_(context, [this] { events_.push(Event::kPeersChanged); }),
-      commands_(context, presence_, service_),
       publisher_(context, presence_, service_),
       hang_watch_(exit_when_hung_s) {}
 
 int ServiceProcess::run() {
   activate();
+  commands_.emplace(context_, presence_, service_);
   sd_notify(0, "READY=1");  // where nobody supervises the process, nothing happens
   std::jthread watcher([this](const std::stop_token& stop) { watch(stop); });
   while (true) {

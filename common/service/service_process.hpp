@@ -48,7 +48,7 @@ class ServiceProcess {
   ServiceSlot service_;
   bool failed_ = false;
   Presence presence_;
-  CommandServer commands_;
+  std::optional<CommandServer> commands_;            // once there is a worker that can execute them
   std::optional<CommandServices> command_services_;  // while it is the active one
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;

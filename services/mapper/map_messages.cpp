@@ -22,10 +22,9 @@ visualization_msgs::msg::Marker marker(const MapObject& object, std::int64_t sta
   marker.ns(type == kCube ? "objects" : "labels");
   marker.id(static_cast<std::int32_t>(object.id));
   marker.type(type);
-  geometry::Pose pose = geometry::Pose::Identity();
-  pose.translation() = object.center;
-  marker.pose(messages::to_pose_message(pose));
-  const Eigen::Vector3d scale = type == kCube ? object.size : Eigen::Vector3d(0, 0, kTextHeightM);
+  const geometry::OrientedBox& box = object.upright.box;
+  marker.pose(messages::to_pose_message(box.map_from_box));
+  const Eigen::Vector3d scale = type == kCube ? box.size : Eigen::Vector3d(0, 0, kTextHeightM);
   marker.scale().x(scale.x());
   marker.scale().y(scale.y());
   marker.scale().z(scale.z());
@@ -106,10 +105,16 @@ vision_msgs::msg::Detection3DArray objects_message(std::span<const MapObject> ob
   std::vector<messages::SpatialDetection> boxes;
   for (const MapObject& object : objects) {
     if (object.has_gone) continue;
-    geometry::OrientedBox box;
-    box.map_from_box.translation() = object.center;
-    box.size = object.size;
-    boxes.push_back({object.label, object.score, box, std::to_string(object.id)});
+    const auto score_of = [&](const LabelBelief& belief) {
+      return static_cast<float>(double{object.score} * belief.probability);
+    };
+    messages::SpatialDetection& detection = boxes.emplace_back();
+    detection.box = object.upright.box;
+    detection.id = std::to_string(object.id);
+    detection.label = object.label;
+    detection.score = object.labels.empty() ? object.score : score_of(object.labels.front());
+    for (std::size_t i = 1; i < object.labels.size(); ++i)
+      detection.or_else.push_back({object.labels[i].label, score_of(object.labels[i])});
   }
   return messages::to_detection_message(boxes, messages::make_header(stamp_ns, kMap));
 }

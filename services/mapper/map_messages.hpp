@@ -25,9 +25,10 @@ octomap_msgs::msg::Octomap binary_message(const octomap::ColorOcTree& tree, std:
 /// rds/map/points: x, y, z, rgb, label of occupied voxels, as PCL's PointXYZRGBL.
 sensor_msgs::msg::PointCloud2 points_message(const MapPoints& points, std::int64_t stamp_ns);
 
-/// Of those that have not gone, as below.
+/// The upright boxes of those that have not gone, as below; a hypothesis for each label, the most probable
+/// one first, scored by the detector's mean score and the label's probability.
 vision_msgs::msg::Detection3DArray objects_message(std::span<const MapObject> objects, std::int64_t stamp_ns);
-/// A box and a text for each object, after the deletion of all earlier ones.
+/// An upright box and a text for each object, after the deletion of all earlier ones.
 visualization_msgs::msg::MarkerArray markers_message(std::span<const MapObject> objects,
                                                      std::int64_t stamp_ns);
 nav_msgs::msg::OccupancyGrid grid_message(const OccupancyGrid& grid, std::int64_t stamp_ns);

@@ -24,7 +24,7 @@ map_file::MapPart map_part(const SemanticMapper& mapper, const GridConfig& grid)
   const SemanticMap& map = mapper.map();
   return {map_file::kMapper,
           {{map_file::kMapper, to_bytes(map, up)}},
-          files_for_others(map.tree(), map.objects(), make_grid(map.tree(), up, grid))};
+          files_for_others(map.tree(), map.objects(up), make_grid(map.tree(), up, grid))};
 }
 
 }  // namespace

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <utility>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "common/concurrency/parallel_for.hpp"
@@ -19,7 +17,6 @@
 #include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
-#include "services/tracker/saved_start.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -125,21 +122,23 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   const auto regions =
       objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
   std::uint32_t predict_us = time::microseconds_since(predict_started_us);
+  const SubmapId submap_before = tracker_.submap();
   const FrameResult result = tracker_.track(frame, regions);
-  note_submap(result);
+  if (tracker_.submap() != submap_before) change_submap(result);
   if (result.up && !result.begins_submap) tell(*result.up);
   const std::int64_t project_started_us = time::now_us();
   const auto objects = objects_.in_image(frame.stamp_ns, result.map_from_camera.inverse(), frame.camera);
   predict_us += time::microseconds_since(project_started_us);
   if (result.keyframe) ask_for_answers(*result.keyframe, frame.camera);
   const auto poses = result.keyframe ? tracker_.keyframe_poses() : std::vector<KeyframePose>{};
-  if (result.keyframe && submap_ != Submaps::kMap) outputs_.publish_submap(tracker_.keyframe_poses(submap_));
+  const bool is_placed = result.submap == Submaps::kMap;
+  if (result.keyframe && !is_placed) outputs_.publish_submap(tracker_.keyframe_poses(result.submap));
   const FrameReport report{
       frame,      result,           input_.camera_frame(), objects,        frame_index_, predict_us,
       started_us, input_.dropped(), objects_.observed(),   epoch_.loops(), poses};
   outputs_.publish(report);
   if (result.keyframe) {
-    if (submap_ == Submaps::kMap) outputs_.publish_poses(poses, epoch_.loops());
+    if (is_placed) outputs_.publish_poses(poses, epoch_.loops());
     epoch_.note_keyframe();
     join_submaps(report);
   }
@@ -150,12 +149,10 @@ void TrackerService::process(const image::RgbdFrame& frame) {
 }
 
 /// In another submap what moves stands elsewhere, and boxes on their way are in the frame of the one before.
-void TrackerService::note_submap(const FrameResult& result) {
-  if (!has_pose(result.state) || result.submap == submap_) return;
+void TrackerService::change_submap(const FrameResult& result) {
   if (result.begins_submap)
     spdlog::warn("lost for {} s: submap {} begins beside the map", config_.tracker.submap_after_s,
                  result.submap);
-  submap_ = result.submap;
   ++place_;
   objects_.reset();
 }
@@ -164,10 +161,11 @@ void TrackerService::note_submap(const FrameResult& result) {
 /// from now on.
 void TrackerService::join_submaps(const FrameReport& report) {
   const geometry::Pose before = tracker_.last_map_from_camera();
+  const SubmapId submap_before = tracker_.submap();
   const auto joined = tracker_.join_submaps();
   if (!joined) return;
   move_map(before);
-  if (std::exchange(submap_, tracker_.submap()) != submap_) ++place_;
+  if (tracker_.submap() != submap_before) ++place_;
   publish_poses();
   const auto poses = tracker_.keyframe_poses();
   FrameReport now = report;
@@ -258,7 +256,7 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   if (!detections)
     return context_.diagnostics.reject(topics::kBoxes.name, service::Rejection::kInvalid, detections.error());
   std::vector<prediction::ObjectObservation> observations;
-  for (const auto& [label, score, box, id] : *detections) observations.push_back({box, label, score});
+  for (const auto& d : *detections) observations.push_back({d.box, d.label, d.score});
   const auto keyframe = answers_.take_snapshot(stamp);
   if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
   const auto& [id, camera_from_map, camera, place] = *keyframe;
@@ -271,7 +269,8 @@ void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometr
   if (config_.dynamics)
     answers_.ask_for_boxes(keyframe.stamp_ns,
                            {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_}, frame_index_);
-  const bool corrections_wanted = keyframe.in_map && submap_ == Submaps::kMap && config_.poses_file.empty() &&
+  const bool corrections_wanted = keyframe.in_map && tracker_.submap() == Submaps::kMap &&
+                                  config_.poses_file.empty() &&
                                   (config_.loop_closer || !config_.lockstep.enabled);
   if (corrections_wanted) answers_.ask_for_poses(keyframe.id, frame_index_);
 }
@@ -285,85 +284,8 @@ void TrackerService::start_mapping() {
 
 void TrackerService::publish_poses() {
   outputs_.publish_poses(tracker_.keyframe_poses(), epoch_.loops());
-  if (submap_ != Submaps::kMap) outputs_.publish_submap(tracker_.keyframe_poses(submap_));
-}
-
-/// Saves the map, or begins a new map epoch with a saved one; after a fault everything is as before.
-bool TrackerService::begin(const service::PendingCommand& command) {
-  if (command.verb == "save") {
-    map_commands_.save(
-        command, [this] { return epoch_.part(); }, epoch_.description());
-    return true;
-  }
-  if (command.verb != "load") return false;
-  if (!config_.poses_file.empty()) {
-    command.answer({false, "poses are given by poses_file, which know no saved map"});
-    return true;
-  }
-  const auto read = [this, config = config_.tracker](const map_file::Folder& map, const auto& limits)
-      -> tl::expected<map_commands::MapCommands::Completion, std::string> {
-    auto saved = read_saved_start(map, limits, config);
-    if (!saved) return tl::unexpected(saved.error());
-    const auto start = std::make_shared<SavedMap>(std::move(saved->map));
-    return [this, start] {
-      epoch_.renew_in(std::move(*start));
-      return begin_epoch();
-    };
-  };
-  map_commands_.load(command, read);
-  return true;
-}
-
-service::CommandOutcome TrackerService::execute(const std::string& verb, const std::string& /*argument*/) {
-  if (verb == "finish") return finish();
-  if (verb == "reset") return reset();
-  if (verb == "pause" || verb == "resume") {
-    paused_ = verb == "pause";
-    return {true, paused_ ? "paused" : "resumed"};
-  }
-  return unknown_command(verb);
-}
-
-/// Nothing more comes: takes every answer that is still on its way and publishes the final poses.
-service::CommandOutcome TrackerService::finish() {
-  while (const auto frame = input_.frames().try_pop()) {
-    beat();
-    take(*frame);
-  }
-  const std::uint64_t last_frame = frame_index_;
-  if (config_.lockstep.enabled) {
-    for (; !answers_.empty() && !stop_.stop_requested(); ++frame_index_) {
-      answers_.await(frame_index_, epoch_.id(), stop_, [this] { beat(); });
-      apply_answers();
-      start_mapping();
-    }
-  } else {
-    apply_answers();
-  }
-  frame_index_ = last_frame;
-  const auto poses = tracker_.keyframe_poses();
-  const std::uint64_t revision = outputs_.publish_poses(poses, epoch_.loops(), true);
-  const std::size_t in_map = config_.tracker.localize_only ? 0 : poses.size();
-  return {true, nlohmann::json{{"poses_revision", revision},
-                               {"keyframes", in_map},
-                               {"keyframes_in_map", tracker_.map().keyframes().size()}}
-                    .dump()};
-}
-
-service::CommandOutcome TrackerService::reset() {
-  epoch_.renew();
-  return begin_epoch();
-}
-
-/// Forgets all that was of the epoch before.
-service::CommandOutcome TrackerService::begin_epoch() {
-  objects_.reset();
-  submap_ = Submaps::kMap;
-  ++place_;
-  outputs_.set_epoch(epoch_.id());
-  answers_.clear();
-  return {true,
-          fmt::format("map of {} keyframes, epoch {:016x}", tracker_.map().keyframes().size(), epoch_.id())};
+  if (const SubmapId submap = tracker_.submap(); submap != Submaps::kMap)
+    outputs_.publish_submap(tracker_.keyframe_poses(submap));
 }
 
 }  // namespace rds::tracker

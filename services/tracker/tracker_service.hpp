@@ -45,7 +45,7 @@ class TrackerService : public service::Service {
   void apply(const LocalMappingResult& result);
   void apply_adjustment(const LocalMappingResult& result);
   void move_map(const geometry::Pose& last_before);
-  void note_submap(const FrameResult& result);
+  void change_submap(const FrameResult& result);
   void join_submaps(const FrameReport& report);
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
@@ -63,8 +63,7 @@ class TrackerService : public service::Service {
   FrameInput input_;
   KeyframeAnswers answers_;
   std::uint64_t frame_index_ = 0;
-  SubmapId submap_ = Submaps::kMap;  // that the camera is, or was last, in
-  std::uint64_t place_ = 0;          // counts the map and submaps that it was in, one after the other
+  std::uint64_t place_ = 0;  // counts the map and submaps that the camera was in, one after the other
   std::pair<std::uint64_t, std::uint64_t> refused_loop_;  // instance and revision of the newest one
   bool paused_ = false;
   map_commands::MapCommands map_commands_;

@@ -52,6 +52,9 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
       "{:.1f}\n",
       percentile(times.mapping, .5), percentile(times.mapping, .95), percentile(times.mapping, 1),
       percentile(times.snapshot, .5), percentile(times.apply, .5), percentile(times.apply, 1));
+  if (!times.joining.empty())
+    fmt::print("processor ms: looking for a submap's place median {:.1f} p95 {:.1f} max {:.1f}\n",
+               percentile(times.joining, .5), percentile(times.joining, .95), percentile(times.joining, 1));
 }
 
 void print_removal(const rds::test::RemovalFigures& removal) {

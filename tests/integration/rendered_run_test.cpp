@@ -115,8 +115,8 @@ TEST(RenderedFloor, IsTrackedThroughDoorsAndJoined) {
   expect_joined(lap("floor", place.path(), false), lap("floor", place.path(), true), 0.008);
 }
 
-/// The lens is covered in a doorway for 5 s and uncovered in a corridor that was not seen yet: what comes
-/// then is mapped beside the map, and put in its place when the first room is seen again.
+/// The lens is covered for 5 s and uncovered where nothing was seen before: what comes then is mapped beside
+/// the map, and put in its place when the corridor of the beginning is seen again.
 TEST(RenderedFloor, ACoveredLensBeginsASubmapThatIsJoined) {
   constexpr FrameRange kCovered{.first = 140, .count = 50};
   const TemporaryFolder place;

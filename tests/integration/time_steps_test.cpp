@@ -7,11 +7,12 @@
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_domain.hpp"
 
 namespace rds::test {
 namespace {
 
-constexpr int kDomain = 30;
+const int kDomain = test_domain();
 constexpr std::size_t kFrames = 150;
 constexpr std::int64_t kSecond = 1'000'000'000;
 

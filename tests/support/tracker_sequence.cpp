@@ -206,8 +206,15 @@ void TrackerSequence::apply_due(std::size_t i) {
   result_.reset();
 }
 
-void TrackerSequence::run_mapping(std::size_t i) {
+void TrackerSequence::join_submaps() {
+  if (tracker_.map().records().submaps().is_whole()) return;
+  const auto start = processor_ms();
   (void)tracker_.join_submaps();
+  times_.joining.push_back(processor_ms() - start);
+}
+
+void TrackerSequence::run_mapping(std::size_t i) {
+  join_submaps();
   if (options_.no_mapping || result_) return;
   const auto start = processor_ms();
   const auto job = tracker_.take_mapping_job();

@@ -32,6 +32,7 @@ struct TrackerTimes {
   std::vector<double> total;         // per frame
   std::vector<double> extract_wall;  // per frame; by the clock
   std::vector<double> mapping, snapshot, apply;
+  std::vector<double> joining;  // per keyframe, in a map with submaps
 };
 
 /// What was removed, compared with masks/, over the frames with people.
@@ -92,6 +93,7 @@ class TrackerSequence {
   [[nodiscard]] std::vector<tracker::MovableRegion> regions(std::size_t i,
                                                             const image::RgbdFrame& frame) const;
   void apply_due(std::size_t i);
+  void join_submaps();
   void run_mapping(std::size_t i);
 
   TrackerSequenceOptions options_;

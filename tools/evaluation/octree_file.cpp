@@ -61,11 +61,13 @@ bool parse_nodes(const std::string& bytes, std::size_t at, OctreeFile& tree) {
     if (at + record + 1 > bytes.size()) return false;
     float log_odds = 0;
     std::memcpy(&log_odds, bytes.data() + at, kValueBytes);
+    const char* color = bytes.data() + at + kValueBytes;
     const auto children = static_cast<std::uint8_t>(bytes[at + record]);
     at += record + 1;
     ++tree.nodes;
     if (children == 0) {
-      tree.leaves.push_back({node.key, node.height, log_odds});
+      OctreeLeaf& leaf = tree.leaves.emplace_back(OctreeLeaf{node.key, node.height, log_odds, {}});
+      if (record > kValueBytes) std::memcpy(leaf.color.data(), color, kColorBytes);
       continue;
     }
     if (node.height == 0) return false;
@@ -96,6 +98,13 @@ std::vector<Eigen::Vector3d> OctreeFile::occupied_centers() const {
         }
   }
   return centers;
+}
+
+std::vector<std::array<std::uint8_t, 3>> OctreeFile::occupied_colors() const {
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  for (const auto& leaf : leaves)
+    if (leaf.log_odds > 0) colors.insert(colors.end(), std::size_t{1} << (3 * leaf.height), leaf.color);
+  return colors;
 }
 
 tl::expected<OctreeFile, std::string> read_octree_file(const std::filesystem::path& file) {

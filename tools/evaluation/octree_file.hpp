@@ -18,6 +18,7 @@ struct OctreeLeaf {
   std::array<std::uint16_t, 3> key{};  // of its lowest corner voxel; 32768 is the voxel that starts at 0 m
   int height = 0;
   float log_odds = 0;
+  std::array<std::uint8_t, 3> color{};  // red, green, blue; of a ColorOcTree
 };
 
 struct OctreeFile {
@@ -28,6 +29,8 @@ struct OctreeFile {
 
   /// Centres [m] of all voxels inside leaves with log-odds > 0, in the map's frame.
   [[nodiscard]] std::vector<Eigen::Vector3d> occupied_centers() const;
+  /// Colours of the same voxels.
+  [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> occupied_colors() const;
 };
 
 /// Reads an OctoMap `.ot` file (OcTree, ColorOcTree) byte by byte, so that a torn or hostile file ends in an

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/run_score.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 #include "tools/evaluation/frame_times.hpp"
 #include "tools/evaluation/loops/loop_score.hpp"
 #include "tools/evaluation/map_score.hpp"
+#include "tools/evaluation/objects/object_score.hpp"
+#include "tools/evaluation/octree_file.hpp"
 #include "tools/evaluation/statistics.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 
@@ -106,6 +109,36 @@ Result add_map(const RunScoreInput& input, Figures& figures) {
   return {};
 }
 
+Result add_objects(const RunScoreInput& input, Figures& figures) {
+  for (const auto& file : {input.dataset / "objects.json", input.dataset / "detections_truth.jsonl",
+                           input.out / "objects.json", input.out / "map.ot", input.out / "keyframes.txt"})
+    if (!std::filesystem::exists(file)) return {};
+  const auto truth = geometry::read_trajectory(input.dataset / "groundtruth.txt");
+  if (!truth) return tl::unexpected(truth.error());
+  const auto keyframes = geometry::read_trajectory(input.out / "keyframes.txt");
+  if (!keyframes) return tl::unexpected(keyframes.error());
+  const auto errors = evaluate_trajectory(*truth, *keyframes);
+  if (!errors)
+    return tl::unexpected(fmt::format("{}: expected at least 3 poses that match groundtruth.txt in time",
+                                      (input.out / "keyframes.txt").string()));
+  const auto tree = read_octree_file(input.out / "map.ot");
+  if (!tree) return tl::unexpected(tree.error());
+  const auto score = score_objects({input.dataset,
+                                    input.out,
+                                    errors->truth_from_estimate,
+                                    {tree->occupied_centers(), tree->occupied_colors(), tree->resolution_m}});
+  if (!score) return tl::unexpected(score.error());
+  figures["objects_wanted"] = score->wanted;
+  figures["objects_found"] = score->found;
+  figures["objects_wrong"] = score->wrong;
+  for (const auto& [name, share] : {std::pair{"object_f1", score->f1},
+                                    {"object_iou", score->iou},
+                                    {"object_labelled", score->labelled},
+                                    {"object_label_true", score->label_true}})
+    if (std::isfinite(share)) figures[name] = share;
+  return {};
+}
+
 }  // namespace
 
 tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
@@ -113,7 +146,7 @@ tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
     return tl::unexpected(
         fmt::format("{}: no such folder, expected what `rds run --out` wrote", input.out.string()));
   Figures figures = Figures::object();
-  for (const auto add : {add_trajectories, add_loops, add_times, add_boxes, add_map})
+  for (const auto add : {add_trajectories, add_loops, add_times, add_boxes, add_map, add_objects})
     if (const auto added = add(input, figures); !added) return tl::unexpected(added.error());
   if (figures.empty())
     return tl::unexpected(

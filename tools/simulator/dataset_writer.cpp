@@ -142,7 +142,11 @@ std::string DatasetWriter::objects() const {
     const Json line{{"id", id++},
                     {"label", object.label},
                     {"center", vector(object.box.center(), 4)},
-                    {"size", vector(object.box.size(), 4)}};
+                    {"size", vector(object.box.size(), 4)},
+                    {"oriented",
+                     {{"center", vector(object.center_when_turned(), 4)},
+                      {"size", vector(object.box_when_turned.size(), 4)},
+                      {"yaw", number(object.yaw_rad, 4)}}}};
     text += (text.empty() ? "[\n" : ",\n") + line.dump();
   }
   return text + "\n]\n";

@@ -10,7 +10,7 @@ namespace {
 using map_file::ByteReader;
 using map_file::ByteWriter;
 
-constexpr std::uint32_t kForm = 3;  // of records and final maps; who changes one raises it
+constexpr std::uint32_t kForm = 4;  // of records and final maps; who changes one raises it
 
 bool begins_with(const LabelTable& labels, const LabelTable& first) {
   return labels.names().size() >= first.names().size() &&
@@ -35,6 +35,7 @@ std::optional<MapCheckpoint> SemanticMapper::checkpoint() {
   state.put(saved_.checksum);
   state.put_count(archive->saved_final);
   map_.labels.put(state);
+  map_.content->objects.put_identities(state);
   checkpoint.state = state.take();
   checkpoint.keyframes = std::move(archive->keyframes);
   return checkpoint;
@@ -49,6 +50,8 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   const auto final_keyframes = state.get<std::uint64_t>();
   LabelTable labels = LabelTable::get(state);
   if (!begins_with(labels, saved_.labels)) state.refuse("labels other than the saved map's");
+  ObjectDatabase identities(config_.objects);
+  identities.get_identities(state);
   if (auto read = state.finish(); !read) return read;
   std::shared_ptr<const FinalMap> voxels = saved_.voxels;
   ObjectDatabase objects = saved_.objects.value_or(ObjectDatabase(config_.objects));
@@ -68,12 +71,14 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   are_objects_outdated_ = has_moves_left_ = false;
   has_final_ = voxels != nullptr;
   archive_.restore(std::move(*keyframes), final_keyframes, map_.labels.names().size());
-  add_all();
+  add_all(identities);
   return {};
 }
 
 /// Adds the keyframes of the archive to a map that has none of them.
-void SemanticMapper::add_all() {
+/// @param identities  of its objects.
+void SemanticMapper::add_all(const ObjectDatabase& identities) {
+  map_.content->objects.reserve_ids_of(identities);
   object_views_.clear();
   archive_.set_times();
   std::vector<std::uint64_t> ids;
@@ -85,6 +90,7 @@ void SemanticMapper::add_all() {
     else
       lose(id);
   }
+  map_.content->objects.take_ids_from(identities);
   show(true);
   spill();
 }

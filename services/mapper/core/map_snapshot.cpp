@@ -49,8 +49,8 @@ MapSnapshot take_snapshot(const SemanticMapper& mapper) {
     if (tree.isNodeOccupied(node)) snapshot.labels_of_occupied.push_back(mapper.map().label(key));
   });
   snapshot.labels = mapper.map().labels.names();
-  snapshot.objects = mapper.map().objects();
   snapshot.up = mapper.up_in_map();
+  snapshot.objects = mapper.map().objects(snapshot.up);
   return snapshot;
 }
 

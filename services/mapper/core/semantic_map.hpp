@@ -23,10 +23,11 @@ struct SemanticMap {
     return content->octree.label(key);
   }
   /// Objects seen often and surely enough, with the extent of their voxels; those that have gone, too.
-  [[nodiscard]] std::vector<MapObject> objects() const {
+  /// @param up  unit vector against gravity, about which their boxes are turned.
+  [[nodiscard]] std::vector<MapObject> objects(const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ()) const {
     auto objects = content->objects.objects();
     find_gone(objects, content->evidence, content->octree, labels);
-    fit_to_voxels(objects, content->octree, labels);
+    fit_to_voxels(objects, content->octree, labels, up);
     return objects;
   }
 };

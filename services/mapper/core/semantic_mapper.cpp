@@ -61,7 +61,7 @@ MapDelta SemanticMapper::show(bool all) {
     map.evidence.update_all(show_block);
   else
     map.evidence.update(show_block);
-  if (are_objects_outdated_ && !has_moves_left_) make_objects_again();
+  if (are_objects_outdated_ && !has_moves_left_) make_objects_again(true);
   is_hidden_ = false;
   delta.revision = ++map_.revision;
   return delta;
@@ -116,10 +116,13 @@ void SemanticMapper::move(std::span<const std::uint64_t> keyframes) {
   }
 }
 
-/// Objects are few, so that all views are seen again.
-void SemanticMapper::make_objects_again() {
+/// Objects are few, so that all views are seen again. They keep their ids, unless these are to be a function of
+/// the views, too, whatever came before.
+void SemanticMapper::make_objects_again(bool keep_ids) {
   ObjectDatabase objects = final_objects_;
+  if (keep_ids) objects.reserve_ids_of(map_.content->objects);
   for (const auto& [id, view] : object_views_) objects.integrate(view, map_.labels);
+  if (keep_ids) objects.take_ids_from(map_.content->objects);
   map_.content->objects = std::move(objects);
   are_objects_outdated_ = false;
 }
@@ -128,7 +131,10 @@ void SemanticMapper::make_objects_again() {
 void SemanticMapper::make_final(std::uint64_t id) {
   map_.content->evidence.make_final(id);
   are_objects_outdated_ |= id != object_views_.begin()->first;
+  final_objects_.reserve_ids_of(map_.content->objects);
   final_objects_.integrate(object_views_.at(id), map_.labels);
+  final_objects_.take_ids_from(map_.content->objects);
+  map_.content->objects.reserve_ids_of(final_objects_);
   object_views_.erase(id);
   has_final_ = true;
   archive_.make_final(id);
@@ -199,6 +205,7 @@ MapDelta SemanticMapper::settle(std::span<const KeyframePose> poses) {
   archive_.set_times();
   move(archive_.moved());
   has_moves_left_ = false;
+  make_objects_again(false);
   return show(true);
 }
 

@@ -13,8 +13,8 @@ namespace rds::mapper {
 
 /// The parts of a checkpoint, apart because they change at different times.
 struct MapCheckpoint {
-  map_file::Bytes state;                     // epoch, labels, what the epoch began with
-  KeyframeBlocks keyframes;                  // stamps and poses
+  map_file::Bytes state;     // epoch, labels, what the epoch began with, which object is which
+  KeyframeBlocks keyframes;  // stamps and poses
   std::optional<map_file::Bytes> final_map;  // of the keyframes that are final; nullopt: as the time before
 };
 
@@ -54,7 +54,7 @@ class SemanticMapper {
   /// move them any more.
   void make_others_final(std::span<const KeyframePose> told);
 
-  /// Makes the map that of exactly these poses.
+  /// Makes the map that of exactly these poses, and counts the ids of objects anew.
   MapDelta settle(std::span<const KeyframePose> poses);
 
   /// Is called between the keyframes of whatever takes long; it must not use the mapper.
@@ -83,13 +83,13 @@ class SemanticMapper {
  private:
   void add(const KeyframeRecord& record);
   void remove(std::uint64_t id);
-  void add_all();
+  void add_all(const ObjectDatabase& identities);
   void move(std::span<const std::uint64_t> keyframes);
   [[nodiscard]] std::vector<std::uint64_t> nearest_first(std::vector<std::uint64_t> keyframes) const;
   void make_final(std::uint64_t id);
   void lose(std::uint64_t id);
   void spill();
-  void make_objects_again();
+  void make_objects_again(bool keep_ids);
   MapDelta show(bool all = false);
   [[nodiscard]] MapDelta new_delta() const;
 

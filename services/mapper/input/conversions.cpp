@@ -44,7 +44,7 @@ std::optional<std::vector<LabelledBox>> to_labelled_boxes(const vision_msgs::msg
   auto& impossible = diagnostics.counter("impossible boxes");
   std::vector<LabelledBox> boxes;
   for (const auto& detection : *detections) {
-    const auto& [label, score, box, id] = detection;
+    const auto& [label, score, box, id, or_else] = detection;
     const auto box_px = geometry::image_box(box, keyframe.camera_from_map, keyframe.camera);
     if (!is_possible(detection) || !box_px) {
       ++impossible;

@@ -8,7 +8,7 @@
 #include "common/map_file/atomic_file.hpp"
 #include "common/map_file/byte_reader.hpp"
 #include "common/map_file/geometry_bytes.hpp"
-#include "services/mapper/core/objects/object_database.hpp"
+#include "services/mapper/core/objects/object_json.hpp"
 #include "services/mapper/core/octree/label_table.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/io/octomap_file.hpp"

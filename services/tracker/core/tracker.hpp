@@ -78,7 +78,7 @@ class Tracker {
   bool apply_adjustment(const LocalMappingResult& result);
   /// Looks for the newest keyframe in other submaps, while there are any. Where enough keyframes agree on how
   /// two submaps lie to each other, the younger one becomes part of the older one; then a global adjustment
-  /// is due. Takes some 20 ms; best called after the frame's result was sent.
+  /// is due. Takes 6 … 9 ms, 35 where two are joined; best called after the frame's result was sent.
   /// @return what has been joined; nullopt if nothing has.
   std::optional<JoinedSubmap> join_submaps();
   /// Late boxes of a keyframe: its features in them are taken out of the map.

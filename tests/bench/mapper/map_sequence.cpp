@@ -68,8 +68,8 @@ rds::mapper::MapperConfig read_config(const std::string& file) {
 
 void write_picture(const rds::mapper::SemanticMapper& mapper, const std::filesystem::path& file) {
   rds::tools::MapScene scene{mapper.map().tree(), mapper.map().labels.names(), {}, {}};
-  for (const auto& o : mapper.map().objects())
-    scene.objects.push_back({o.label, o.center - o.size / 2, o.center + o.size / 2});
+  for (const auto& o : mapper.map().objects(mapper.up_in_map()))
+    scene.objects.push_back({o.label, o.upright.box});
   for (const auto& pose : mapper.archive().poses())
     scene.trajectory.push_back(pose.map_from_camera.translation());
   rds::tools::PictureOptions options;
@@ -109,7 +109,8 @@ int run(const Options& options) {
   const double snapshot_ms = ms_since(start);
   const fs::path out = options.out;
   fs::create_directories(out);
-  const auto files = rds::mapper::files_for_others(mapper.map().tree(), mapper.map().objects(), grid);
+  const auto files =
+      rds::mapper::files_for_others(mapper.map().tree(), mapper.map().objects(mapper.up_in_map()), grid);
   for (const auto& [name, content] : files)
     if (const auto result = rds::map_file::write_atomically(out / name, content); !result)
       throw std::runtime_error(result.error());

@@ -105,10 +105,8 @@ void draw_label(const std::string& label, cv::Point bottom_center, Panel& panel)
 }
 
 void draw_box(const SceneObject& object, Panel& panel) {
-  const auto corner = [&](unsigned i) {
-    return panel.project({i & 1 ? object.max.x() : object.min.x(), i & 2 ? object.max.y() : object.min.y(),
-                          i & 4 ? object.max.z() : object.min.z()});
-  };
+  const auto corners = object.box.corners();
+  const auto corner = [&](unsigned i) { return panel.project(corners[i]); };
   const cv::Vec3f color = color_of(object.label);
   ScreenPoint top = corner(0);
   for (unsigned i = 0; i < 8; ++i) {
@@ -117,7 +115,7 @@ void draw_box(const SceneObject& object, Panel& panel) {
       if ((i & bit) == 0)
         panel.canvas.line(corner(i), corner(i | bit), color * 0.8F, 2 * kSupersampling, 0.95F, 0.25F);
   }
-  const auto center = panel.project((object.min + object.max) / 2);
+  const auto center = panel.project(object.box.center());
   if (!(std::abs(center.x()) < 1e5F && std::abs(top.y()) < 1e5F)) return;
   draw_label(object.label, {static_cast<int>(center.x()), static_cast<int>(top.y()) - 8}, panel);
 }

@@ -9,13 +9,14 @@
 #include <octomap/ColorOcTree.h>
 #include <opencv2/core.hpp>
 
+#include "common/geometry/oriented_box.hpp"
+
 namespace rds::tools {
 
 /// Box of an object to draw, map frame [m].
 struct SceneObject {
   std::string label;
-  Eigen::Vector3d min = Eigen::Vector3d::Zero();
-  Eigen::Vector3d max = Eigen::Vector3d::Zero();
+  geometry::OrientedBox box;
 };
 
 /// What a picture of a map shows; everything in the map frame.

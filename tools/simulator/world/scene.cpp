@@ -9,7 +9,16 @@ namespace {
 
 constexpr float kCell = 0.12F;  // lighting is stored per vertex, so this is its resolution [m]
 
+void add(const Eigen::Vector3d& point, geometry::Box3& box) {
+  box.min = box.min.cwiseMin(point);
+  box.max = box.max.cwiseMax(point);
+}
+
 }  // namespace
+
+Eigen::Vector3d SceneObject::center_when_turned() const {
+  return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * box_when_turned.center();
+}
 
 geometry::Box3 Scene::bounds() const {
   geometry::Box3 bounds = rooms.front().box;
@@ -41,8 +50,7 @@ std::uint16_t SceneBuilder::material(const cv::Mat& picture, const Material& loo
 
 void SceneBuilder::begin(const std::string& label, float x, float y, float z, float yaw_rad) {
   object_ = static_cast<std::uint16_t>(scene_.objects.size());
-  scene_.objects.push_back({label, {}});
-  scene_.objects.back().box = SceneObject().box;
+  scene_.objects.push_back({label, double{yaw_rad}});
   world_from_object_ = Eigen::Translation3f(x, y, z) * Eigen::AngleAxisf(yaw_rad, Eigen::Vector3f::UnitZ());
 }
 
@@ -52,11 +60,12 @@ void SceneBuilder::begin_building() {
 }
 
 void SceneBuilder::finish_shape(std::size_t first_vertex) {
-  auto& box = scene_.objects[object_].box;
+  SceneObject& object = scene_.objects[object_];
+  const Eigen::AngleAxisd turned_from_world(-object.yaw_rad, Eigen::Vector3d::UnitZ());
   for (std::size_t i = first_vertex; i < room().mesh.vertices.size(); ++i) {
     const Eigen::Vector3d p = room().mesh.vertices[i].position.cast<double>();
-    box.min = box.min.cwiseMin(p);
-    box.max = box.max.cwiseMax(p);
+    add(p, object.box);
+    add(turned_from_world * p, object.box_when_turned);
   }
 }
 

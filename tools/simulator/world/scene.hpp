@@ -12,10 +12,20 @@
 
 namespace rds::simulator {
 
+/// Contains nothing, so that points can be added to it.
+inline geometry::Box3 empty_box() {
+  return {Eigen::Vector3d::Constant(1e9), Eigen::Vector3d::Constant(-1e9)};
+}
+
 /// A thing that stands in a room. Things without a label (books, lamps, walls) are not part of the truth.
 struct SceneObject {
-  std::string label;  // as in VOC: chair, tvmonitor, diningtable, sofa, pottedplant, bottle; or empty
-  geometry::Box3 box{Eigen::Vector3d::Constant(1e9), Eigen::Vector3d::Constant(-1e9)};  // in the world [m]
+  std::string label;   // as in VOC: chair, tvmonitor, diningtable, sofa, pottedplant, bottle; or empty
+  double yaw_rad = 0;  // of its own axes about the world's z axis
+  geometry::Box3 box = empty_box();              // in the world [m]
+  geometry::Box3 box_when_turned = empty_box();  // the same in the world's axes turned by the yaw [m]
+
+  /// Of box_when_turned, in the world.
+  [[nodiscard]] Eigen::Vector3d center_when_turned() const;
 };
 
 /// Box that blocks light and people.

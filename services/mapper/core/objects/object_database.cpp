@@ -6,9 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include "services/mapper/core/objects/trimmed_box.hpp"
 
 namespace rds::mapper {
@@ -21,18 +18,29 @@ constexpr double kMiss = 0.05;
 constexpr double kSeenThrough = 0.6;
 constexpr double kMaxExistence = 3.5;   // as P = .97 of a voxel: what was removed goes after six views
 constexpr double kBorderWeight = 0.25;  // of a sighting that the picture's border cuts
-constexpr double kMinOverlap = 0.3;   // 3-D IoU that makes two sightings one object whatever the class radius
-constexpr double kOutward = 4;        // a view that shows more of the object counts so often
-constexpr double kInward = 0.1;       // one that shows less: every view shows a part only
-constexpr double kInViewShare = 0.8;  // of the projected box inside the picture
-constexpr double kOcclusionMarginM = 0.15;  // nearer than the object by this: something stands before it
-constexpr int kProbes = 5;                  // per side of the projected box
+constexpr double kMinOverlap = 0.3;  // 3-D IoU that makes two sightings one object whatever the class radius
+constexpr double kSamePlace = 0.5;  // … whatever their labels: two things share less than half of their room
+constexpr double kThinnestM = 0.05;           // as a voxel
+constexpr std::size_t kMostBeliefs = 4;       // labels that are told of an object
+constexpr std::size_t kMostSightings = 1024;  // remembered of an object
+constexpr double kOutward = 4;                // a view that shows more of the object counts so often
+constexpr double kInward = 0.1;               // one that shows less: every view shows a part only
+constexpr double kInViewShare = 0.8;          // of the projected box inside the picture
+constexpr double kOcclusionMarginM = 0.15;    // nearer than the object by this: something stands before it
+constexpr int kProbes = 5;                    // per side of the projected box
 
 double iou(const geometry::Box3& a, const geometry::Box3& b) {
   const Eigen::Vector3d overlap = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
   const double common = overlap.prod();
   const double all = a.size().prod() + b.size().prod() - common;
   return all > 0 ? common / all : 0;
+}
+
+/// Share of the room of two things that is of both. What was seen from one side alone has no depth yet; it
+/// gets some.
+double common_room(const geometry::Box3& a, const geometry::Box3& b) {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kThinnestM / 2);
+  return iou({a.min - margin, a.max + margin}, {b.min - margin, b.max + margin});
 }
 
 /// What the depth picture says about the place of an object.
@@ -61,15 +69,6 @@ DepthProbes probe(const geometry::Box2& box, double near_m, double far_m, const 
   return probes;
 }
 
-nlohmann::json rounded(const Eigen::Vector3d& v) {
-  const auto round = [](double x) { return std::round(x * 1e4) / 1e4 + 0.0; };
-  return {round(v.x()), round(v.y()), round(v.z())};
-}
-
-double seconds(std::int64_t stamp_ns) {
-  return static_cast<double>(stamp_ns) * 1e-9;
-}
-
 }  // namespace
 
 geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
@@ -82,7 +81,8 @@ geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::P
 
 void ObjectDatabase::integrate(const ObjectView& view, const LabelTable& labels) {
   for (auto& entry : entries_) entry.seen_now = false;
-  for (const auto& sighting : view.sightings) fuse(sighting, view, labels);
+  for (std::uint32_t i = 0; i < view.sightings.size(); ++i)
+    fuse(view.sightings[i], {view.keyframe_id, i}, view, labels.names()[view.sightings[i].label]);
   merge_duplicates();
   if (!view.looked_for) return;
   for (auto& entry : entries_)
@@ -104,64 +104,84 @@ bool ObjectDatabase::is_same(const std::string& label, const geometry::Box3& a,
          b.contains(a.center());
 }
 
-ObjectDatabase::Entry* ObjectDatabase::nearest(const std::string& label, const geometry::Box3& box) {
-  Entry* best = nullptr;
-  double best_distance = std::numeric_limits<double>::infinity();
+/// The object of which a sighting is: the nearest one with its label, or the one that fills the same place
+/// with another, if that overlaps more. Two sightings in one picture are two objects.
+ObjectDatabase::Entry* ObjectDatabase::object_of(const std::string& label, const geometry::Box3& box) {
+  Entry* nearest = nullptr;
+  double distance = std::numeric_limits<double>::infinity();
+  Entry* in_its_place = nullptr;
+  double overlap = kSamePlace;
   for (auto& entry : entries_) {
-    if (entry.object.label != label || entry.seen_now)
-      continue;  // two sightings in one picture are two objects
+    if (entry.seen_now) continue;
     const geometry::Box3 known{entry.min, entry.max};
-    const double distance = (known.center() - box.center()).norm();
-    if (distance < best_distance && is_same(label, known, box)) {
-      best = &entry;
-      best_distance = distance;
+    const double off = (known.center() - box.center()).norm();
+    if (entry.object.label == label && off < distance && is_same(label, known, box)) {
+      nearest = &entry;
+      distance = off;
+    }
+    if (entry.object.label != label && common_room(known, box) > overlap) {
+      in_its_place = &entry;
+      overlap = common_room(known, box);
     }
   }
-  return best;
+  const bool is_nearest = in_its_place == nullptr ||
+                          (nearest != nullptr && common_room({nearest->min, nearest->max}, box) >= overlap);
+  return is_nearest ? nearest : in_its_place;
 }
 
-/// Parts of one object that were taken for several before it was seen as a whole.
+/// Parts of one object that were taken for several before it was seen as a whole, and one object that was
+/// seen as two kinds of thing.
 void ObjectDatabase::merge_duplicates() {
   for (std::size_t i = 0; i < entries_.size(); ++i)
     for (std::size_t j = entries_.size(); j-- > i + 1;) {
-      auto& a = entries_[i];
-      const auto& b = entries_[j];
-      const bool apart = a.object.label != b.object.label || a.object.has_gone || b.object.has_gone ||
-                         (a.seen_now && b.seen_now) ||
-                         !is_same(a.object.label, {a.min, a.max}, {b.min, b.max});
-      if (apart) continue;
-      const double share = b.weight / (a.weight + b.weight);
-      a.min += (b.min - a.min) * share;
-      a.max += (b.max - a.max) * share;
-      a.weight += b.weight;
-      a.score_sum += b.score_sum;
-      a.existence = std::max(a.existence, b.existence);
-      a.seen_now = a.seen_now || b.seen_now;
-      a.object.observations += b.object.observations;
-      a.object.first_seen_ns = std::min(a.object.first_seen_ns, b.object.first_seen_ns);
-      a.object.last_seen_ns = std::max(a.object.last_seen_ns, b.object.last_seen_ns);
-      describe(a);
+      const Entry& a = entries_[i];
+      const Entry& b = entries_[j];
+      if (a.object.has_gone || b.object.has_gone || (a.seen_now && b.seen_now)) continue;
+      const geometry::Box3 box_a{a.min, a.max};
+      const geometry::Box3 box_b{b.min, b.max};
+      const bool one = a.object.label == b.object.label ? is_same(a.object.label, box_a, box_b)
+                                                        : common_room(box_a, box_b) > kSamePlace;
+      if (!one) continue;
+      merge(entries_[i], b);
       entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(j));
     }
+}
+
+void ObjectDatabase::merge(Entry& into, const Entry& other) {
+  const double share = other.weight / (into.weight + other.weight);
+  into.min += (other.min - into.min) * share;
+  into.max += (other.max - into.max) * share;
+  into.weight += other.weight;
+  into.score_sum += other.score_sum;
+  into.existence = std::max(into.existence, other.existence);
+  into.seen_now = into.seen_now || other.seen_now;
+  into.labels.add(other.labels);
+  into.sightings.insert(into.sightings.end(), other.sightings.begin(), other.sightings.end());
+  into.sightings.resize(std::min(into.sightings.size(), kMostSightings));
+  into.object.id = std::min(into.object.id, other.object.id);  // the one that is known for longer
+  into.object.observations += other.object.observations;
+  into.object.first_seen_ns = std::min(into.object.first_seen_ns, other.object.first_seen_ns);
+  into.object.last_seen_ns = std::max(into.object.last_seen_ns, other.object.last_seen_ns);
+  describe(into);
 }
 
 /// What the entry's sums say about its object.
 void ObjectDatabase::describe(Entry& entry) {
   auto& object = entry.object;
+  object.label = entry.labels.best();
   object.score = static_cast<float>(entry.score_sum / object.observations);
   object.center = (entry.min + entry.max) / 2;
   object.size = entry.max - entry.min;
 }
 
-void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view, const LabelTable& labels) {
+void ObjectDatabase::fuse(const ObjectSighting& sighting, SightingId id, const ObjectView& view,
+                          const std::string& label) {
   const auto box = boundary_in_map(sighting, view.map_from_camera);
   if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
-  const auto& label = labels.names()[sighting.label];
-  Entry* entry = nearest(label, box);
+  Entry* entry = object_of(label, box);
   if (entry == nullptr) {
     entry = &entries_.emplace_back();
     entry->object.id = next_id_++;
-    entry->object.label = label;
     entry->object.first_seen_ns = view.stamp_ns;
   }
   const double weight =
@@ -183,6 +203,8 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, const ObjectView& view
     entry->min[axis] += step(box.min[axis] - entry->min[axis], box.min[axis] < entry->min[axis]);
     entry->max[axis] += step(box.max[axis] - entry->max[axis], box.max[axis] > entry->max[axis]);
   }
+  entry->labels.add(label, double{sighting.score});
+  if (entry->sightings.size() < kMostSightings) entry->sightings.push_back(id);
   entry->score_sum += sighting.score;
   entry->existence = std::min(kMaxExistence, entry->existence + kHit);
   entry->seen_now = true;
@@ -220,25 +242,13 @@ bool ObjectDatabase::is_reported(const Entry& entry) const {
 
 std::vector<MapObject> ObjectDatabase::objects() const {
   std::vector<MapObject> reported;
-  for (const auto& entry : entries_)
-    if (is_reported(entry)) reported.push_back(entry.object);
+  for (const auto& entry : entries_) {
+    if (!is_reported(entry)) continue;
+    reported.push_back(entry.object);
+    reported.back().labels = entry.labels.beliefs(kMostBeliefs);
+  }
+  std::ranges::sort(reported, {}, &MapObject::id);
   return reported;
-}
-
-std::string to_json(std::span<const MapObject> objects) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const auto& o : objects)
-    list.push_back({{"id", o.id},
-                    {"label", o.label},
-                    {"score", std::round(double{o.score} * 1e4) / 1e4},
-                    {"center", rounded(o.center)},
-                    {"size", rounded(o.size)},
-                    {"observations", o.observations},
-                    {"movable", false},
-                    {"first_seen", seconds(o.first_seen_ns)},
-                    {"last_seen", seconds(o.last_seen_ns)},
-                    {"gone", o.has_gone}});
-  return list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace rds::mapper

@@ -11,14 +11,18 @@
 
 namespace rds::mapper {
 
-/// The objects of the map: sightings of the same class near each other are one object, fused with their
-/// weights.
+/// The objects of the map: sightings of the same label near each other are one object, fused with their
+/// weights, and so are sightings of one place, whatever their labels. All of them together say which label it
+/// bears.
 ///
 /// Each object carries log-odds of existence: sightings raise them, being in view without being detected
 /// lowers them a little, being seen through lowers them much; at 0 an object that was seen through has gone,
 /// any other is forgotten. One that has gone is kept, and comes back with a sighting near its place. Movable
 /// objects never enter. Source: paper §IV-C "Update 3D Object Database". Deviation: observation-weighted
-/// fusion and fading instead of half-and-half averaging without end.
+/// fusion and fading instead of half-and-half averaging without end; a distribution over labels.
+///
+/// An object is the sightings that were fused into it. So a database that is made again, from other poses or
+/// without some keyframes, takes over the ids of the one before it.
 class ObjectDatabase {
  public:
   explicit ObjectDatabase(const ObjectConfig& config) : config_(config) {}
@@ -30,12 +34,27 @@ class ObjectDatabase {
   /// Objects seen often and surely enough, in order of their ids, with those that have gone.
   [[nodiscard]] std::vector<MapObject> objects() const;
 
-  /// All that is known of every object, the one seen once too.
+  /// From here on ids are given that `other` has not given.
+  void reserve_ids_of(const ObjectDatabase& other);
+  /// Objects that are new since reserve_ids_of(before) get the id of the object of `before` of which they
+  /// have most sightings, of several whole ones the lowest, or else the next one. No two have the same.
+  void take_ids_from(const ObjectDatabase& before);
+
+  /// All that is known of every object, the one seen once too, but for its sightings.
   void put(map_file::ByteWriter& writer) const;
   /// Starts from such bytes. Refuses what put() cannot have written.
   void get(map_file::ByteReader& reader);
+  /// Ids and sightings: all that take_ids_from() asks of the database before.
+  void put_identities(map_file::ByteWriter& writer) const;
+  void get_identities(map_file::ByteReader& reader);
 
  private:
+  /// One of a keyframe's.
+  struct SightingId {
+    std::uint64_t keyframe = 0;
+    std::uint32_t index = 0;
+    auto operator<=>(const SightingId&) const = default;
+  };
   struct Entry {
     MapObject object;
     Eigen::Vector3d min = Eigen::Vector3d::Zero();
@@ -44,13 +63,16 @@ class ObjectDatabase {
     double score_sum = 0;
     double existence = 0;
     bool seen_now = false;
+    LabelDistribution labels;
+    std::vector<SightingId> sightings;
   };
 
-  void fuse(const ObjectSighting& sighting, const ObjectView& view, const LabelTable& labels);
-  Entry* nearest(const std::string& label, const geometry::Box3& box);
+  void fuse(const ObjectSighting& sighting, SightingId id, const ObjectView& view, const std::string& label);
+  Entry* object_of(const std::string& label, const geometry::Box3& box);
   [[nodiscard]] bool is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const;
   void merge_duplicates();
+  static void merge(Entry& into, const Entry& other);
   void let_go();
   [[nodiscard]] bool is_reported(const Entry& entry) const;
   static void describe(Entry& entry);
@@ -63,9 +85,5 @@ class ObjectDatabase {
 
 /// Boundary of a sighting in the map: per axis, 2nd to 98th percentile of its points.
 geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera);
-
-/// objects.json: [{id, label, score, center, size, observations, movable, first_seen, last_seen, gone}],
-/// metres with 4 decimals, stamps in seconds.
-std::string to_json(std::span<const MapObject> objects);
 
 }  // namespace rds::mapper

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
+
 #include <fmt/format.h>
 
 #include "common/map_file/geometry_bytes.hpp"
@@ -19,7 +21,7 @@ void ObjectDatabase::put(ByteWriter& writer) const {
   writer.put_count(entries_.size());
   for (const Entry& entry : entries_) {
     writer.put(entry.object.id);
-    writer.put_text(entry.object.label);
+    entry.labels.put(writer);
     writer.put(entry.object.observations);
     writer.put(entry.object.first_seen_ns);
     writer.put(entry.object.last_seen_ns);
@@ -33,10 +35,10 @@ void ObjectDatabase::put(ByteWriter& writer) const {
 void ObjectDatabase::get(ByteReader& reader) {
   next_id_ = reader.get<std::uint64_t>();
   entries_.assign(reader.get_count(kObjectBytes), {});
-  std::uint64_t last_id = 0;
+  std::set<std::uint64_t> ids;
   for (Entry& entry : entries_) {
     entry.object.id = reader.get<std::uint64_t>();
-    entry.object.label = reader.get_text();
+    entry.labels = LabelDistribution::get(reader);
     entry.object.observations = reader.get<std::uint32_t>();
     entry.object.first_seen_ns = reader.get<std::int64_t>();
     entry.object.last_seen_ns = reader.get<std::int64_t>();
@@ -44,12 +46,11 @@ void ObjectDatabase::get(ByteReader& reader) {
     entry.min = map_file::get_vector(reader);
     entry.max = map_file::get_vector(reader);
     for (double* sum : {&entry.weight, &entry.score_sum, &entry.existence}) *sum = reader.get<double>();
-    const bool possible = entry.object.id > last_id && entry.object.id < next_id_ &&
-                          entry.object.observations > 0 && entry.weight > 0 &&
+    const bool possible = ids.insert(entry.object.id).second && entry.object.id > 0 &&
+                          entry.object.id < next_id_ && entry.object.observations > 0 && entry.weight > 0 &&
                           (entry.min.array() <= entry.max.array()).all();
     if (!possible) reader.refuse(fmt::format("object {} with impossible values", entry.object.id));
     if (!reader.ok()) return entries_.clear();
-    last_id = entry.object.id;
     describe(entry);
   }
 }

@@ -5,6 +5,7 @@ namespace rds::mapper {
 
 ObjectView ObjectView::of(const KeyframeRecord& record) {
   ObjectView view;
+  view.keyframe_id = record.id;
   view.stamp_ns = record.stamp_ns;
   view.map_from_camera = record.map_from_camera;
   view.camera = record.grid.camera;

@@ -13,6 +13,7 @@ struct ObjectView {
   /// @param record  classified, its objects labelled.
   static ObjectView of(const KeyframeRecord& record);
 
+  std::uint64_t keyframe_id = 0;
   std::int64_t stamp_ns = 0;
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   geometry::CameraModel camera;

@@ -62,7 +62,7 @@ TEST(MapFile, SaysWhichFileAndWhatWasExpected) {
   Bytes bytes = to_bytes(kSections);
   bytes[8] = 1;
   write_bytes(file, bytes);
-  EXPECT_THAT(fault(), HasSubstr("has format version 1, expected 3"));
+  EXPECT_THAT(fault(), HasSubstr("has format version 1, expected 4"));
   bytes = to_bytes(kSections);
   bytes.pop_back();
   write_bytes(file, bytes);

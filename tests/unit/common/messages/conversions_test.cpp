@@ -211,6 +211,19 @@ TEST(Detections, SpatialBoxesSurviveTheMessage) {
   EXPECT_TRUE((*read)[0].box.size.isApprox(box.size));
 }
 
+TEST(Detections, OtherLabelsOfABoxAreFurtherHypotheses) {
+  const geometry::OrientedBox box{turned_pose(), {0.5, 1.8, 0.6}};
+  const std::vector<SpatialDetection> detections = {
+      {"sofa", .6F, box, "7", {{"chair", .3F}, {"bench", .1F}}}};
+  const auto message = to_detection_message(detections, {});
+  const auto& results = message.detections().at(0).results();
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_EQ(results[1].hypothesis().class_id(), "chair");
+  EXPECT_FLOAT_EQ(static_cast<float>(results[2].hypothesis().score()), .1F);
+  EXPECT_EQ(results[2].pose().pose(), message.detections()[0].bbox().center());
+  EXPECT_EQ(to_detections(message)->at(0).label, "sofa");
+}
+
 TEST(Detections, TakeTheBestHypothesisAndSkipTheUnlabelled) {
   auto message = to_detection_message(std::vector<ImageDetection>{{"cat", .3F, {0, 0, 4, 4}, 0}}, {});
   auto& results = message.detections()[0].results();

@@ -185,7 +185,8 @@ TEST_F(OnTheBus, AWorkerThatHangsIsAnError) {
   const Running probe(1);
   ASSERT_TRUE(connected());
   send(1, "hang");
-  EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kError; })) << "while it hangs: " << message_of(1);
+  EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kError; }))
+      << "while it hangs: " << message_of(1);
   go_on();
   EXPECT_TRUE(holds_within(20s, [&] { return level_of(1) == kOk; })) << "when it goes on: " << message_of(1);
 }

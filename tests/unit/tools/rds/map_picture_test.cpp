@@ -32,7 +32,7 @@ TEST(MapPicture, ShowsLabelledVoxelsInTheirColour) {
       tree.setNodeColor(x, 0.525F, z, color[0], color[1], color[2]);
     }
   MapScene scene{tree, {"", "chair", "bottle"}, {}, {{0.5, -0.5, 0}, {0.6, -0.5, 0}}};
-  scene.objects.push_back({"chair", {0, 0, 1}, {1, 0.5, 2}});
+  scene.objects.push_back({"chair", {geometry::Pose(Eigen::Translation3d(0.5, 0.25, 1.5)), {1, 0.5, 1}}});
   const auto picture = render_map(scene, small());
   EXPECT_EQ(picture.size(), cv::Size(640, 400));
   EXPECT_GT(count_near(picture, color), 4000);
@@ -50,7 +50,8 @@ TEST(MapPicture, PointsThatAreNotFiniteDoNoHarm) {
   octomap::ColorOcTree tree(0.05);
   tree.updateNode(0.5F, 0.5F, 0.5F, true);
   MapScene scene{tree, {}, {}, {{NAN, 0, 0}, {1e12, 0, 0}, {0, 0, 0}}};
-  scene.objects.push_back({"chair", Eigen::Vector3d::Constant(NAN), Eigen::Vector3d::Constant(1e30)});
+  scene.objects.push_back(
+      {"chair", {geometry::Pose(Eigen::Translation3d(NAN, NAN, NAN)), {1e30, 1e30, 1e30}}});
   EXPECT_NO_THROW(render_map(scene, small()));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/dataset_writer.hpp"
 
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -54,7 +55,20 @@ TEST_F(DatasetWriterTest, WritesPicturesListsAndTruth) {
   EXPECT_EQ(people["frames"][1]["timestamp"], "1.033333");
   const auto objects = nlohmann::json::parse(text_of(folder_ / "objects.json"));
   ASSERT_GT(objects.size(), 8U);
-  for (const char* key : {"id", "label", "center", "size"}) EXPECT_TRUE(objects[0].contains(key)) << key;
+  for (const auto& object : objects) {
+    const auto& oriented = object.at("oriented");
+    const double yaw = oriented.at("yaw").get<double>();
+    const double height = oriented.at("size").at(2).get<double>();
+    EXPECT_EQ(height, object.at("size").at(2)) << object;
+    const double c = std::abs(std::cos(yaw));
+    const double s = std::abs(std::sin(yaw));
+    const double x = oriented["size"].at(0).get<double>();
+    const double y = oriented["size"].at(1).get<double>();
+    // What stands turned fits into the hull of its own box, and fills it in each direction by a good part.
+    EXPECT_LE(object["size"].at(0).get<double>(), c * x + s * y + 1e-3) << object;
+    EXPECT_LE(object["size"].at(1).get<double>(), s * x + c * y + 1e-3) << object;
+    EXPECT_GT(object["size"].at(0).get<double>(), 0.6 * (c * x + s * y)) << object;
+  }
 }
 
 TEST_F(DatasetWriterTest, RefusesAFolderWithARecordingUnlessForced) {

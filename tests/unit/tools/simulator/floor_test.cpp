@@ -25,7 +25,7 @@ Scene empty_floor(const FloorLayout& layout) {
   Scene scene;
   for (const RoomPlan& room : layout.rooms) scene.rooms.push_back({room.box, {}, {}, {}});
   scene.openings = layout.openings;
-  scene.objects = {{"", scene.bounds()}};
+  scene.objects = {{.label = "", .box = scene.bounds()}};
   return scene;
 }
 

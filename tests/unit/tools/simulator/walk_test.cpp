@@ -11,7 +11,8 @@ Scene room_with_table() {
   Scene scene;
   const geometry::Box3 box{{-3, -2.5, 0}, {3, 2.5, 2.6}};
   scene.rooms = {{box, {}, {}, {}}};
-  scene.objects = {{"", box}, {"diningtable", {{-0.5, 0.6, 0}, {0.5, 1.4, 0.75}}}};
+  scene.objects = {{.label = "", .box = box},
+                   {.label = "diningtable", .box = {{-0.5, 0.6, 0}, {0.5, 1.4, 0.75}}}};
   return scene;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/run/results/map_image.hpp"
 
+#include <array>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -25,9 +26,12 @@ std::vector<tools::SceneObject> read_objects(const std::filesystem::path& file) 
   if (!json.is_array()) return objects;
   for (const auto& o : json) {
     if (o.value("gone", false)) continue;
-    const Eigen::Vector3d center = vector_of(o.at("center"));
-    const Eigen::Vector3d half = vector_of(o.at("size")) / 2;
-    objects.push_back({o.at("label").get<std::string>(), center - half, center + half});
+    const auto& oriented = o.at("oriented");
+    const auto q = oriented.at("orientation").get<std::array<double, 4>>();
+    geometry::OrientedBox box{
+        geometry::make_pose(vector_of(oriented.at("center")), Eigen::Quaterniond(q[3], q[0], q[1], q[2])),
+        vector_of(oriented.at("size"))};
+    objects.push_back({o.at("label").get<std::string>(), box});
   }
   return objects;
 }

@@ -4,33 +4,15 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/unit/services/mapper/core/lasting_storage.hpp"
 #include "tests/unit/services/mapper/core/random_keyframes.hpp"
 
 namespace rds::mapper {
 namespace {
 
+using test::LastingStorage;
 using ::testing::HasSubstr;
-
-using Rows = std::map<std::uint64_t, map_file::Bytes>;
-
-/// Records that outlast a mapper.
-class LastingStorage : public SpillStorage {
- public:
-  explicit LastingStorage(Rows& rows) : rows_(rows) {}
-  bool put(std::uint64_t id, std::span<const std::uint8_t> bytes) override {
-    rows_[id] = {bytes.begin(), bytes.end()};
-    return true;
-  }
-  std::optional<map_file::Bytes> get(std::uint64_t id) override {
-    const auto row = rows_.find(id);
-    return row == rows_.end() ? std::nullopt : std::optional(row->second);
-  }
-  void erase(std::uint64_t id) override { rows_.erase(id); }
-  void clear() override { rows_.clear(); }
-
- private:
-  Rows& rows_;
-};
+using Rows = LastingStorage::Rows;
 
 constexpr std::uint64_t kEpoch = 17;
 

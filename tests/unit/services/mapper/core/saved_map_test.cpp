@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include "services/mapper/core/objects/object_json.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "services/mapper/io/map_files.hpp"

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "services/mapper/core/objects/object_json.hpp"
 #include "services/mapper/core/octree/tree_bytes.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 

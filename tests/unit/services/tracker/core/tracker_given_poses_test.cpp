@@ -41,6 +41,21 @@ TEST(TrackerGivenPoses, FollowsGivenPosesThroughTheDark) {
   EXPECT_GT(step(tracker, 3).inliers, 90U);
 }
 
+TEST(TrackerGivenPoses, ALongGapInThemBeginsNoSubmap) {
+  const auto gap = [](std::int64_t stamp_ns) { return stamp_ns >= 3 * kFrameNs && stamp_ns < 30 * kFrameNs; };
+  TrackerConfig config = small_config();
+  config.young_map_s = 0;
+  Tracker tracker(config, [&](std::int64_t stamp_ns) -> std::optional<Pose> {
+    if (gap(stamp_ns)) return std::nullopt;
+    return truth(static_cast<int>(stamp_ns / kFrameNs));
+  });
+  for (int i = 0; i < 32; ++i) {
+    const FrameResult result = step(tracker, i);
+    EXPECT_EQ(result.state, gap(i * kFrameNs) ? State::kLost : State::kTracking) << i;
+    EXPECT_EQ(result.submap, Submaps::kMap) << i;
+  }
+}
+
 TEST(TrackerGivenPoses, HasNoPoseBeforeTheFirstGivenOne) {
   Tracker tracker(small_config(), poses_elsewhere());
   EXPECT_EQ(step(tracker, 5).state, State::kNotInitialized);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "services/mapper/core/objects/object_json.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -116,6 +117,54 @@ TEST(ObjectDatabase, ForgetsWhatWasFoundTwiceAndThenNeverAgain) {
   EXPECT_NE((Rgb{color.r, color.g, color.b}), label_color("chair"));
 }
 
+TEST(ObjectDatabase, AWrongFirstLabelHeals) {
+  SemanticMapper mapper(MapperConfig{});
+  std::uint64_t id = 0;
+  for (; id < 3; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("sofa", kChair, false));
+  ASSERT_EQ(mapper.map().objects().size(), 1U);
+  EXPECT_EQ(mapper.map().objects()[0].label, "sofa");
+  for (; id < 8; ++id) mapper.integrate(with_chair(id, 0.9F));
+  const auto objects = mapper.map().objects();
+  ASSERT_EQ(objects.size(), 1U) << to_json(objects);
+  EXPECT_EQ(objects[0].id, 1U);
+  EXPECT_EQ(objects[0].label, "chair");
+  EXPECT_EQ(objects[0].observations, 8U);
+  ASSERT_EQ(objects[0].labels.size(), 2U);
+  EXPECT_EQ(objects[0].labels[0].label, "chair");
+  EXPECT_EQ(objects[0].labels[1].label, "sofa");
+  EXPECT_GT(objects[0].labels[0].probability, 0.9);
+  EXPECT_NEAR(objects[0].size.x(), 80 * kChairM / 290, 0.08)
+      << "its voxels are all of them, whoever named them";
+}
+
+TEST(ObjectDatabase, TwoKindsOfThingInOnePlaceThatGrewTogetherAreOne) {
+  SemanticMapper mapper(MapperConfig{});
+  const cv::Rect part(100, 80, 80, 30);
+  std::uint64_t id = 0;
+  for (; id < 3; ++id)  // the upper part is seen as one thing, the whole as another one
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("sofa", part, false, 0.8F));
+  for (; id < 6; ++id) mapper.integrate(with_chair(id, 0.9F));
+  EXPECT_EQ(mapper.map().objects().size(), 2U) << "a third of its room may be another thing";
+  for (; id < 14; ++id)
+    mapper.integrate(SyntheticKeyframe(id).rectangle(kChair, kChairM).box("sofa", kChair, false, 0.5F));
+  const auto objects = mapper.map().objects();
+  ASSERT_EQ(objects.size(), 1U) << to_json(objects);
+  EXPECT_EQ(objects[0].id, 1U);
+}
+
+TEST(ObjectDatabase, ASmallThingBeforeALargeOneStaysItself) {
+  const cv::Rect bottle(130, 60, 16, 50);
+  SemanticMapper mapper(MapperConfig{});
+  for (std::uint64_t id = 0; id < 6; ++id)
+    mapper.integrate(SyntheticKeyframe(id)
+                         .rectangle(kChair, kChairM)
+                         .rectangle(bottle, kChairM - 0.1)
+                         .box("chair", kChair, false)
+                         .box("bottle", bottle, false));
+  EXPECT_EQ(mapper.map().objects().size(), 2U);
+}
+
 TEST(ObjectDatabase, MovableObjectsNeverEnter) {
   SemanticMapper mapper(MapperConfig{});
   for (std::uint64_t id = 0; id < 4; ++id)
@@ -190,22 +239,33 @@ TEST(ObjectDatabase, KeepsWhatIsHiddenOrOutOfViewOrNotLookedFor) {
 }
 
 TEST(ObjectDatabase, WritesJson) {
-  MapObject chair{.id = 3,
-                  .label = "ch\"air",
-                  .score = 0.75F,
-                  .center = {1, 2, 3},
-                  .size = {0.5, 0.25, 1},
-                  .observations = 7,
-                  .first_seen_ns = 1'305'031'102'175'304'000,
-                  .last_seen_ns = 1'305'031'103'500'000'000,
-                  .seen_through = 3,
-                  .has_gone = true};
+  MapObject chair{
+      .id = 3,
+      .label = "ch\"air",
+      .labels = {{"ch\"air", 0.8, 0.75}, {"sofa", 0.12345, 0.25}},
+      .score = 0.75F,
+      .center = {1, 2, 3},
+      .size = {0.5, 0.25, 1},
+      .upright = {{geometry::make_pose({1, 2, 3.5}, Eigen::Quaterniond(0.8, 0, 0, 0.6)), {0.5, 0.2, 1}},
+                  1.2870022},
+      .observations = 7,
+      .first_seen_ns = 1'305'031'102'175'304'000,
+      .last_seen_ns = 1'305'031'103'500'000'000,
+      .seen_through = 3,
+      .has_gone = true};
   const auto json = nlohmann::json::parse(to_json(std::vector{chair}));
   ASSERT_EQ(json.size(), 1U);
   EXPECT_EQ(json[0]["id"], 3);
   EXPECT_EQ(json[0]["label"], "ch\"air");
   EXPECT_EQ(json[0]["center"], (std::vector{1.0, 2.0, 3.0}));
   EXPECT_EQ(json[0]["size"], (std::vector{0.5, 0.25, 1.0}));
+  EXPECT_EQ(json[0]["labels"],
+            nlohmann::json::parse(
+                R"([{"label": "ch\"air", "probability": 0.8}, {"label": "sofa", "probability": 0.1235}])"));
+  EXPECT_EQ(json[0]["oriented"]["center"], (std::vector{1.0, 2.0, 3.5}));
+  EXPECT_EQ(json[0]["oriented"]["size"], (std::vector{0.5, 0.2, 1.0}));
+  EXPECT_EQ(json[0]["oriented"]["yaw"], 1.287);
+  EXPECT_EQ(json[0]["oriented"]["orientation"], (std::vector{0.0, 0.0, 0.6, 0.8}));
   EXPECT_EQ(json[0]["observations"], 7);
   EXPECT_EQ(json[0]["movable"], false);
   EXPECT_NEAR(json[0]["first_seen"], 1305031102.175304, 1e-6);

@@ -42,6 +42,26 @@ TEST(ObjectExtent, ASideThatFewViewsShowedCountsAsMuch) {
   EXPECT_NEAR(objects[0].center.x(), point_at(160, 120, kTableM).x(), 0.03);
 }
 
+TEST(ObjectExtent, TheUprightBoxIsTurnedAsTheObjectStands) {
+  SemanticMapper mapper(MapperConfig{});
+  const geometry::Pose turned(
+      Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));  // 29° about the direction up
+  for (std::uint64_t id = 0; id < 4; ++id)
+    mapper.integrate(
+        SyntheticKeyframe(id).rectangle(kTable, kTableM).box("diningtable", kTable, false).pose(turned));
+  const Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
+  const auto objects = mapper.map().objects(up);
+  ASSERT_EQ(objects.size(), 1U);
+  const geometry::OrientedBox& box = objects[0].upright.box;
+  EXPECT_TRUE(box.map_from_box.linear().col(2).isApprox(up, 1e-9));
+  const Eigen::Vector3d along_table = turned.linear().col(0);
+  EXPECT_GT(std::abs(box.map_from_box.linear().col(0).dot(along_table)), std::cos(0.05));
+  EXPECT_NEAR(box.size.x(), 160 * kTableM / 290, 0.08);
+  EXPECT_LT(box.size.y(), 0.11) << "a front of which nobody saw more is thin";
+  EXPECT_GT(objects[0].size.z(), 0.4) << "along the axes it is not";
+  EXPECT_LT((box.center() - turned * point_at(160, 120, kTableM)).norm(), 0.05);
+}
+
 TEST(ObjectExtent, AVoxelIsOfTheNearestObject) {
   SemanticMapper mapper(MapperConfig{});
   const cv::Rect left(60, 80, 80, 80);

@@ -19,7 +19,9 @@ using OctomapClient =
 constexpr auto kVendor = bus::Vendor::kFastDds;
 
 TEST_F(MapperOnTheBus, AnswersWithItsMap) {
-  start(config());
+  auto upright = config();
+  upright.mapper.grid.up = "-y";
+  start(upright);
   for (std::uint64_t id = 0; id < 2; ++id) send(id);
   ASSERT_TRUE(has_revision(2));
   const auto full = OctomapClient(kVendor, "octomap_full").call({});

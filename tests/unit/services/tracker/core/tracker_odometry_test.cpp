@@ -68,13 +68,13 @@ TEST(TrackerOdometry, CarriesACoveredCameraOn) {
 TEST(TrackerOdometry, ThatIsWrongCarriesNothingOnAndDoesNoHarm) {
   Tracker with = tracker_with(frozen);
   Tracker without = tracker_with({});
-  for (int i = 0; i < kSeen; ++i) {
+  for (int i = 0; i < kSeen / 2; ++i) {
     const FrameResult a = with.track(picture(i), {});
     const FrameResult b = without.track(picture(i), {});
     ASSERT_EQ(a.state, b.state) << i;
     ASSERT_TRUE(a.map_from_camera.matrix() == b.map_from_camera.matrix()) << i;
   }
-  EXPECT_EQ(with.track(dark_picture(kSeen * kFrameNs), {}).state, State::kLost);
+  EXPECT_EQ(with.track(dark_picture(kSeen / 2 * kFrameNs), {}).state, State::kLost);
 }
 
 TEST(TrackerOdometry, IsForgottenByAReset) {

@@ -3,16 +3,23 @@
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
+namespace {
 
-/// Where odometry, if it is trusted, expects the camera. A lost one is expected where it has been carried on
-/// to.
+// Up to two frames at 30 Hz; what a camera accelerates in between is less than what odometry errs by.
+constexpr double kShortGapS = 0.07;
+
+}  // namespace
+
+/// Where odometry, if it is trusted, expects the camera after a gap. A lost one is expected where it has been
+/// carried on to.
 void Tracker::expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context) {
   odometry_.go_to(stamp_ns);
   if (const auto motion = odometry_.since_begin())
     context.carried = CarriedPose{sure_map_from_camera() * motion->begin_from_camera, motion->covariance};
   if (state_ == State::kLost) {
     if (context.carried) context.motion.expect(context.carried->map_from_camera.inverse());
-  } else if (const auto last_from_camera = odometry_.step()) {
+  } else if (const auto last_from_camera = odometry_.step();
+             last_from_camera && context.motion.gap_s() > kShortGapS) {
     context.motion.expect((last_map_from_camera() * *last_from_camera).inverse());
   }
 }

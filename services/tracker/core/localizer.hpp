@@ -47,6 +47,8 @@ class Localizer {
   /// Begins a submap with a frame that was not found, in a frame of its own.
   /// @return false if it shows too little.
   bool begin_submap(const TrackingContext& context, PoseEstimate& lost) const;
+  /// True of a frame that shows enough for the first keyframe of a map.
+  [[nodiscard]] bool can_begin_map(const TrackedFrame& frame) const;
   /// Matches features in a followed frame that is to become a keyframe, near its pose.
   /// @return false if too few match: then it stays as it is.
   bool match_features(const TrackingContext& context, PoseEstimate& estimate);
@@ -71,7 +73,6 @@ class Localizer {
 
  private:
   void begin_map(const TrackingContext& context, PoseEstimate& first) const;
-  [[nodiscard]] bool can_begin_map(const TrackedFrame& frame) const;
   PoseEstimate match(const TrackingContext& context, State before, const KeyframeSelector& keyframes);
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                  TrackedFrame& frame);

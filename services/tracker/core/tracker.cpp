@@ -75,9 +75,9 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   prepare(given, regions, context);
   PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
   TrackedFrame& frame = estimate.frame;
-  const bool is_carried = estimate.state == State::kLost && context.carried;
-  if (estimate.state == State::kLost && !is_carried && is_submap_due(frame.time_ns))
+  if (estimate.state == State::kLost && is_submap_due(frame.time_ns))
     result.begins_submap = localizer_.begin_submap(context, estimate);
+  const bool is_carried = estimate.state == State::kLost && context.carried;
   result.state = state_ = estimate.state;
   if (is_carried) carry_on(*context.carried, frame, result);
   if (has_pose(state_)) {
@@ -177,8 +177,8 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
 
 /// What the frame tells those that come.
 void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
-  const bool is_carried = state_ == State::kLost && context.carried;
-  if (has_pose(state_) || is_carried)
+  const bool waits_for_light = context.carried && !localizer_.can_begin_map(frame);
+  if (has_pose(state_) || waits_for_light)
     lost_since_ns_.reset();
   else if (state_ == State::kLost && !lost_since_ns_)
     lost_since_ns_ = frame.time_ns;

@@ -179,7 +179,7 @@ class Tracker {
   KeyframeId searched_ = kNoId;      // newest keyframe that was looked for in other submaps
   time::ContinuousTime time_;
   State state_ = State::kNotInitialized;
-  std::optional<std::int64_t> lost_since_ns_;  // without a pose
+  std::optional<std::int64_t> lost_since_ns_;  // not while odometry carries on in the dark
 };
 
 }  // namespace rds::tracker

@@ -65,6 +65,22 @@ TEST(TrackerOdometry, CarriesACoveredCameraOn) {
   EXPECT_LT(error_of(found, kSeen + kCovered), 0.02);
 }
 
+TEST(TrackerOdometry, LeavesAnUnknownPlaceThatIsSeenToASubmap) {
+  Tracker tracker = tracker_with(five_percent_too_far);
+  for (int i = 0; i < kSeen; ++i) tracker.track(picture(i), {});
+  for (int i = kSeen; i < kSeen + kCovered; ++i) tracker.track(dark_picture(i * kFrameNs), {});
+  const int second = static_cast<int>(1'000'000'000 / kFrameNs);
+  for (int i = 0; i < second + 2; ++i) {
+    const std::int64_t stamp_ns = (kSeen + kCovered + i) * kFrameNs;
+    const FrameResult result = tracker.track(picture_of_strips(pose(2.7, 2.4, 0), stamp_ns), {});
+    if (i < second - 1) {
+      EXPECT_EQ(result.state, State::kWeak) << i;
+    }
+    if (result.begins_submap) return;
+  }
+  ADD_FAILURE() << "no submap has begun";
+}
+
 TEST(TrackerOdometry, ThatIsWrongCarriesNothingOnAndDoesNoHarm) {
   Tracker with = tracker_with(frozen);
   Tracker without = tracker_with({});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/trajectory.hpp"
 #include "tools/simulator/simulation.hpp"
 
 namespace rds::simulator {

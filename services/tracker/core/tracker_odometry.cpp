@@ -5,8 +5,8 @@
 namespace rds::tracker {
 namespace {
 
-// Up to two frames at 30 Hz; what a camera accelerates in between is less than what odometry errs by.
-constexpr double kShortGapS = 0.07;
+// Of cameras of 10 Hz and more: what they accelerate from frame to frame is no more than odometry errs by.
+constexpr double kShortGapS = 0.15;
 
 }  // namespace
 

@@ -228,7 +228,8 @@ void add_run_command(CLI::App& rds) {
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, odometry, no_dynamics] {
-    options->odometry = *odometry == play::kOdometryFile ? options->dataset / *odometry : *odometry;
+    options->odometry = *odometry;
+    if (*odometry == play::kOdometryFile) options->odometry = options->dataset / *odometry;
     options->dynamics = !*no_dynamics;
     if (options->view_keep && options->view.empty()) options->view = kViewPort;
     const int status = run(*options, *vendors, *where);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "common/geometry/pose.hpp"
 #include "common/image/rgbd_frame.hpp"
 #include "nav_msgs/msg/Odometry.h"
 #include "sensor_msgs/msg/CameraInfo.h"

@@ -11,6 +11,7 @@
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/map/map_diff_command.hpp"
 #include "tools/rds/map/map_export.hpp"
+#include "tools/rds/map/map_merge_command.hpp"
 #include "tools/rds/map/map_names_command.hpp"
 #include "tools/rds/map/map_source.hpp"
 
@@ -103,6 +104,7 @@ void add_map_command(CLI::App& rds) {
   auto* querying = add_subcommand(*map, "query", "What is at a point of the map frame", queried, query);
   querying->add_option("point", queried->point, "X Y Z [m]")->required()->expected(3);
   add_map_diff_command(*map);
+  add_map_merge_command(*map);
   add_map_names_commands(*map);
 }
 

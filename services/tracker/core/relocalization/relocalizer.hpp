@@ -9,6 +9,12 @@
 
 namespace rds::tracker {
 
+/// A keyframe that was found in another submap.
+struct FoundKeyframe {
+  geometry::LoopMatch match;
+  int inliers = 0;  // map points that agree
+};
+
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,
 /// refinement, then a wider search for the points of the keyframe and of its covisible keyframes. What is
 /// found by one plane alone is not believed: patterns of walls and floors repeat. Source: Mur-Artal et al.
@@ -24,8 +30,8 @@ class Relocalizer {
   bool localize(const TrackingContext& context, TrackedFrame& frame) const;
   /// Looks for the place that a keyframe shows among the keyframes of other submaps.
   /// @return nullopt if fewer than kMinInliers map points agree, or all of them lie in one plane.
-  std::optional<geometry::LoopMatch> find_in_others(SlamMap& map, const PoseSettings& settings,
-                                                    KeyframeId keyframe) const;
+  std::optional<FoundKeyframe> find_in_others(SlamMap& map, const PoseSettings& settings,
+                                              KeyframeId keyframe) const;
   /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
   /// centimetres and degrees: frame.points and camera_from_map hold the result.
   static void localize_near(const TrackingContext& context, const Keyframe& keyframe, TrackedFrame& frame);

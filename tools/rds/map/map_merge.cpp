@@ -100,10 +100,10 @@ Result<void> merge_semantic(const Source& earlier, const Source& later,
   const auto second = semantic_map(later, config);
   if (!second) return tl::unexpected(second.error());
   auto merged = mapper::merge_maps(*first, *second, moved, config);
-  mapper::SemanticMapper mapper(config);
-  mapper.start_from(std::move(merged.saved));
-  const Eigen::Vector3d up = mapper.up_in_map();
-  const mapper::SemanticMap& map = mapper.map();
+  mapper::SemanticMapper whole(config);
+  whole.start_from(std::move(merged.saved));
+  const Eigen::Vector3d up = whole.up_in_map();
+  const mapper::SemanticMap& map = whole.map();
   const auto objects = map.objects(up);
   merge.sections[map_file::kMapper] = mapper::to_bytes(map, up);
   merge.files = mapper::files_for_others(map.tree(), objects, mapper::make_grid(map.tree(), up, config.grid));

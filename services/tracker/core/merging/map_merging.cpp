@@ -82,7 +82,8 @@ tl::expected<LoopMatch, std::string> choose(const SlamMap& map, const Sightings&
       if (agree(map, match, found[i].match)) agreeing[i] = 0;
   }
   if (is_contradicted)
-    return tl::unexpected("shows places of it, but what both measured there contradicts each other");
+    return tl::unexpected<std::string>(
+        "shows places of it, but what both measured there contradicts each other");
   return tl::unexpected(fmt::format(
       "{} of its {} keyframes were found, expected {} that agree on how the maps lie to each other",
       found.size(), searched, kAgreeingSightings));
@@ -150,7 +151,8 @@ tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const S
                                                 const DepthConfig& depth) {
   const Keyframe* first = first_keyframe(earlier.map);
   const Keyframe* other = first_keyframe(later.map);
-  if (first == nullptr || other == nullptr) return tl::unexpected("one of the two maps has no keyframe");
+  if (first == nullptr || other == nullptr)
+    return tl::unexpected<std::string>("one of the two maps has no keyframe");
   if (std::string fault = other_camera(first->features->camera(), other->features->camera()); !fault.empty())
     return tl::unexpected(std::move(fault));
   auto united = unite(earlier.map, later.map);

@@ -9,8 +9,8 @@ namespace {
 /// Copies a map's contents behind those that are there.
 class Appending {
  public:
-  Appending(MapContents& to, IdTable<KeyframeRecord>& records)
-      : to_(to), records_(records), first_keyframe_(records.next_id()), first_point_(to.points.next_id()) {}
+  explicit Appending(MapContents& to)
+      : to_(to), first_keyframe_(to.records.next_id()), first_point_(to.points.next_id()) {}
 
   void append(const SlamMap& map) {
     map.keyframes().for_each([&](const Keyframe& k) { append(k); });
@@ -20,7 +20,7 @@ class Appending {
       if (const Keyframe* k = map.keyframe(r.id)) kept = k;
       append(r, map, kept);
     });
-    records_.skip_to(first_keyframe_ + map.records().next_id());
+    to_.records.skip_ids(first_keyframe_ + map.records().next_id());
   }
 
  private:
@@ -44,12 +44,11 @@ class Appending {
       record.saved_pose.reset();
     }
     record.id += first_keyframe_;
-    records_.skip_to(record.id);
-    records_.emplace(std::move(record));
+    to_.records.skip_ids(record.id);
+    to_.records.all().emplace(std::move(record));
   }
 
   MapContents& to_;
-  IdTable<KeyframeRecord>& records_;
   KeyframeId first_keyframe_;
   PointId first_point_;
 };
@@ -57,12 +56,12 @@ class Appending {
 }  // namespace
 
 tl::expected<SlamMap, std::string> unite(const SlamMap& earlier, const SlamMap& later) {
-  MapContents contents{earlier.keyframes(), earlier.points(), {}};
+  const KeyframeId first_of_later = earlier.records().next_id();
   IdTable<KeyframeRecord> records(earlier.records().all());
-  const KeyframeId first_of_later = records.next_id();
-  Appending(contents, records).append(later);
-  contents.records = KeyframeRecords(std::move(records), first_of_later);
+  MapContents contents{earlier.keyframes(), earlier.points(),
+                       KeyframeRecords(std::move(records), first_of_later)};
   contents.records.submaps().go_on(kLaterMap, first_of_later);
+  Appending(contents).append(later);
   return map_of(std::move(contents), earlier.pyramid());
 }
 

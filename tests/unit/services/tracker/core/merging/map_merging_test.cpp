@@ -148,7 +148,7 @@ TEST_F(MapMerging, ALaterMapThatHasDriftedIsJoinedAllTheWay) {
   const Way way{0, 2.1};
   const SavedMap earlier = map_of(way);
   SavedMap later = map_of(way);
-  const auto drift_at = [](double x) { return pose(0, 0, 0.07 * x, 0.02 * x); };
+  const auto drift_at = [](double x) { return pose(0, 0.07 * x, 0, 0.02 * x); };
   std::map<KeyframeId, Pose> drift;
   later.map.keyframes().for_each([&](Keyframe& k) {
     drift[k.id] = drift_at(k.map_from_camera.translation().x());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two runs on parts of a rendered floor that have a room in common, and the map that `rds map merge` makes of
 // what they saved.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "common/geometry/trajectory.hpp"
@@ -16,10 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// Of the 480 frames of the recording: the later part begins in a room that the earlier one has seen.
-constexpr int kEarlierFrames = 210;
-constexpr int kLaterStart = 150;
-constexpr int kLaterFrames = 210;
+// Of the recording: the earlier part goes from a corridor into a room, the later one from that room into
+// another.
+constexpr int kEarlierFrames = 190;
+constexpr int kLaterStart = 130;
+constexpr int kLaterFrames = 170;
+constexpr int kOtherRoom = 296;  // a frame that shows what the earlier part has not seen
 
 ProcessResult merge(const fs::path& a, const fs::path& b, const fs::path& out,
                     const std::vector<std::string>& further = {}) {
@@ -114,7 +118,7 @@ TEST_F(MapMerge, WhatCannotBeMergedIsSaidInASentenceAndNothingIsWritten) {
   EXPECT_THAT(there.standard_error, HasSubstr("is there already"));
   EXPECT_EQ(read_text(*place / "later/map.rds"), whole);
 
-  map("short", {"--start", "440", "--frames", "8"});
+  map("short", {"--start", std::to_string(kOtherRoom), "--frames", "8"});
   refuse(earlier, *place / "short", "keyframes were found, expected 3");
 }
 

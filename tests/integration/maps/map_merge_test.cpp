@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "common/geometry/trajectory.hpp"
+#include "common/map_file/saved_map.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -61,6 +62,16 @@ class MapMerge : public ::testing::Test {
     return evaluation::score_map({floor, floor, *place / name}).value().static_recall;
   }
 
+  /// The later map without one part.
+  static fs::path without(const std::string& part) {
+    auto sections = map_file::read_saved_map(*place / "later").value();
+    sections.erase(part);
+    const auto bytes = map_file::to_bytes(sections);
+    const fs::path file = *place / ("without_" + part + ".rds");
+    write_text(file, {bytes.begin(), bytes.end()});
+    return file;
+  }
+
   static inline std::unique_ptr<TemporaryFolder> place;
 };
 
@@ -94,6 +105,14 @@ TEST_F(MapMerge, TwoPartsOfAFloorAreOneMap) {
   EXPECT_GE(found(kLaterStart + kLaterFrames * 3 / 4), 0.8) << "… the later map has";
 }
 
+TEST_F(MapMerge, AMapWithoutTheLoopClosersPartIsMergedAndThatIsSaid) {
+  const ProcessResult result = merge(*place / "earlier", without("loop_closer"), *place / "silent");
+  ASSERT_EQ(result.status, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_output,
+              HasSubstr("without_loop_closer.rds was saved without the loop closer's part"));
+  EXPECT_THAT(result.standard_output, HasSubstr("map points of both are one"));
+}
+
 TEST_F(MapMerge, WhatCannotBeMergedIsSaidInASentenceAndNothingIsWritten) {
   const auto refuse = [&](const fs::path& a, const fs::path& b, const std::string& words) {
     const ProcessResult result = merge(a, b, *place / "refused");
@@ -113,6 +132,7 @@ TEST_F(MapMerge, WhatCannotBeMergedIsSaidInASentenceAndNothingIsWritten) {
   refuse(earlier, *place / "older.rds", "has format version 3, expected 4");
   refuse(earlier, *place / "later/map.ot", "is not a saved map");
   refuse(*place / "nowhere", earlier, "nowhere");
+  refuse(earlier, without("tracker"), "has no section 'tracker', expected a map that all services saved");
   const ProcessResult there = merge(earlier, *place / "later", *place / "later");
   EXPECT_EQ(there.status, 2);
   EXPECT_THAT(there.standard_error, HasSubstr("is there already"));

@@ -5,8 +5,8 @@ find_package(fastcdr REQUIRED)
 find_program(FASTDDSGEN fastddsgen REQUIRED)
 
 # rds_idl_library(NAME ROOTS dirs...)
-# Generates <build>/<package>/msg/<Name>.h and .cxx for every <root>/<package>/<Name>.idl and builds them as one static
-# library that needs Fast CDR only. Sets NAME_IDL_FILES to the files, for those who generate more from them.
+# Generates <build>/<package>/msg/<Name>.h and .cxx for every <root>/<package>/<Name>.idl (srv instead of msg for
+# <Name>_Request and <Name>_Response) and builds them as one static library that needs Fast CDR only. Sets NAME_IDL_FILES to the files, for those who generate more from them.
 function(rds_idl_library name)
   cmake_parse_arguments(A "" "" "ROOTS" ${ARGN})
   set(out ${CMAKE_CURRENT_BINARY_DIR}/generated)
@@ -25,7 +25,11 @@ function(rds_idl_library name)
     cmake_path(GET file STEM type)
     list(APPEND packages ${package})
     list(APPEND idl_${package} ${file})
-    list(APPEND generated_${package} ${out}/${package}/msg/${type}.h ${out}/${package}/msg/${type}.cxx)
+    set(kind msg)
+    if(type MATCHES "_(Request|Response)$")
+      set(kind srv)
+    endif()
+    list(APPEND generated_${package} ${out}/${package}/${kind}/${type}.h ${out}/${package}/${kind}/${type}.cxx)
   endforeach()
   list(REMOVE_DUPLICATES packages)
 
@@ -35,7 +39,7 @@ function(rds_idl_library name)
       OUTPUT ${generated_${package}}
       COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_fastddsgen.py --fastddsgen ${FASTDDSGEN} ${root_arguments}
               --scratch ${CMAKE_CURRENT_BINARY_DIR}/scratch/${package} --out ${out} ${idl_${package}}
-      DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_fastddsgen.py
+      DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_fastddsgen.py ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/idl_model.py
       COMMENT "fastddsgen ${package}" VERBATIM)
     list(APPEND sources ${generated_${package}})
   endforeach()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the IDL this project writes: one struct per file, the constants of `module <Struct>_Constants`, no keys,
-unions, enums or typedefs; and computes the hash ROS 2 gives a type (REP-2011, RIHS01)."""
+unions, enums or typedefs; and computes the hash ROS 2 gives a type (REP-2011, RIHS01).
+
+A service is two structs in `module srv`, `<Service>_Request` and `<Service>_Response`; each has a hash of its own, as its endpoints announce it."""
 
 import dataclasses
 import hashlib
@@ -15,7 +17,12 @@ PRIMITIVES = {
     "float": ("float32", 10, 4), "double": ("float64", 11, 8), "boolean": ("bool", 15, 1), "char": ("char", 13, 1), "octet": ("byte", 16, 1),
 }
 STRING, BOUNDED_STRING, NESTED = 17, 21, 1
-ARRAY_OFFSET, UNBOUNDED_SEQUENCE_OFFSET = 48, 144
+ARRAY_OFFSET, BOUNDED_SEQUENCE_OFFSET, UNBOUNDED_SEQUENCE_OFFSET = 48, 96, 144
+
+
+def kind_of(struct_name):
+    """The module that a struct is in."""
+    return "srv" if struct_name.endswith(("_Request", "_Response")) else "msg"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,6 +32,7 @@ class Field:
     array: int = 0  # > 0: fixed-size array
     sequence: bool = False
     string_bound: int = 0  # > 0: string<bound>
+    sequence_bound: int = 0  # > 0: sequence<type, bound>
 
     @property
     def nested(self):
@@ -39,16 +47,20 @@ class Struct:
     constants: tuple  # (IDL type, name, value)
 
     @property
+    def kind(self):
+        return kind_of(self.name)
+
+    @property
     def ros_name(self):
-        return f"{self.package}/msg/{self.name}"
+        return f"{self.package}/{self.kind}/{self.name}"
 
     @property
     def dds_name(self):
-        return f"{self.package}::msg::dds_::{self.name}_"
+        return f"{self.package}::{self.kind}::dds_::{self.name}_"
 
     @property
     def cpp_name(self):
-        return f"{self.package}::msg::{self.name}"
+        return f"{self.package}::{self.kind}::{self.name}"
 
     @property
     def header(self):
@@ -56,11 +68,12 @@ class Struct:
 
 
 _IDL_FILE = re.compile(
-    r"module (?P<package>\w+) \{ module msg \{ "
+    r"module (?P<package>\w+) \{ module (?P<kind>msg|srv) \{ "
     r"(?:module (?P<owner>\w+)_Constants \{ (?P<constants>(?:const [^;]+; )*)\}; )?"
     r"struct (?P<name>\w+) \{ (?P<fields>(?:[^;{}]+; )+)\}; \}; \};")
-_FIELD = re.compile(r"(?:sequence<(?P<element>[\w:]+)>|string<(?P<bound>\d+)>|(?P<plain>[\w:]+))"
-                    r" (?P<name>[a-z]\w*)(?:\[(?P<array>\d+)\])?")
+# A name that is a word of IDL is written with an underscore before it.
+_FIELD = re.compile(r"(?:sequence<(?P<element>[\w:]+)(?:, (?P<most>\d+))?>|string<(?P<bound>\d+)>|(?P<plain>[\w:]+))"
+                    r" _?(?P<name>[a-z]\w*)(?:\[(?P<array>\d+)\])?")
 _CONSTANT = re.compile(r"const (\w+) ([A-Z][A-Z0-9_]*) = (-?\d+)")
 
 
@@ -78,7 +91,7 @@ def _parse_field(text, path):
         raise ValueError(f"{path}: cannot read the member '{text}'")
     element = match["element"] or ("string" if match["bound"] else match["plain"])
     return Field(match["name"], _type_name(element, path), int(match["array"] or 0), bool(match["element"]),
-                 int(match["bound"] or 0))
+                 int(match["bound"] or 0), int(match["most"] or 0))
 
 
 def parse_idl(path):
@@ -89,6 +102,8 @@ def parse_idl(path):
         raise ValueError(f"{path}: expected 'module <package> {{ module msg {{ [constants] struct <Name> {{ … }}; }}; }};'")
     if match["owner"] not in (None, match["name"]) or match["name"] != pathlib.Path(path).stem:
         raise ValueError(f"{path}: file, struct and constants module must have one name")
+    if match["kind"] != kind_of(match["name"]):
+        raise ValueError(f"{path}: expected module {kind_of(match['name'])} around {match['name']}")
     fields = tuple(_parse_field(f.strip(), path) for f in match["fields"].split(";") if f.strip())
     return Struct(match["package"], match["name"], fields, tuple(_CONSTANT.findall(match["constants"] or "")))
 
@@ -122,8 +137,11 @@ def _field_description(field):
         type_id = BOUNDED_STRING if field.string_bound else STRING
     else:
         type_id = PRIMITIVES[field.type][1]
-    type_id += ARRAY_OFFSET if field.array else UNBOUNDED_SEQUENCE_OFFSET if field.sequence else 0
-    return {"name": field.name, "type": {"type_id": type_id, "capacity": field.array, "string_capacity": field.string_bound,
+    if field.array:
+        type_id += ARRAY_OFFSET
+    elif field.sequence:
+        type_id += BOUNDED_SEQUENCE_OFFSET if field.sequence_bound else UNBOUNDED_SEQUENCE_OFFSET
+    return {"name": field.name, "type": {"type_id": type_id, "capacity": field.array or field.sequence_bound, "string_capacity": field.string_bound,
                                          "nested_type_name": field.type if field.nested else ""}}
 
 
@@ -151,7 +169,8 @@ def msg_lines(struct):
     def ros_type(field):
         base = PRIMITIVES[field.type][0] if field.type in PRIMITIVES else field.type.replace("/msg/", "/")
         bound = f"<={field.string_bound}" if field.string_bound else ""
-        return base + bound + (f"[{field.array}]" if field.array else "[]" if field.sequence else "")
+        most = f"<={field.sequence_bound}" if field.sequence_bound else ""
+        return base + bound + (f"[{field.array}]" if field.array else f"[{most}]" if field.sequence else "")
     return ([f"{PRIMITIVES[t][0]} {name}={value}" for t, name, value in struct.constants] +
             [f"{ros_type(f)} {f.name}" for f in struct.fields])
 

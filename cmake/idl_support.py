@@ -34,7 +34,7 @@ def field_layout(field, structs):
     elif field.type != "string":
         kind, size = ("kBoolean" if field.type == "boolean" else "kPrimitive"), idl_model.PRIMITIVES[field.type][2]
     sequence = "true" if field.sequence else "false"
-    return f"{{FieldKind::{kind}, {size}, {field.array}, {sequence}, {field.string_bound}, {nested}}}"
+    return f"{{FieldKind::{kind}, {size}, {field.array or field.sequence_bound}, {sequence}, {field.string_bound}, {nested}}}"
 
 
 def fields_of(struct, structs):

@@ -54,6 +54,30 @@ class BackendReader {
   [[nodiscard]] virtual Guid guid() const = 0;
 };
 
+/// Where the answer to a request goes.
+struct Caller {
+  Guid client{};                // as replies name it: by the bus's own convention
+  std::int64_t request = 0;     // his number of it
+  ParticipantId participant{};  // that he belongs to
+};
+
+/// The serving side of a service: a reader of requests and a writer of replies.
+class BackendService {
+ public:
+  virtual ~BackendService() = default;
+  /// As those of a BackendReader.
+  virtual void wait() = 0;
+  virtual void wake() = 0;
+  /// Takes the next request into `sample`. @return false if there is none.
+  virtual bool take(Sample& sample, Caller& caller) = 0;
+  /// Any thread; waits for a moment until the caller's reader is known. @return false if it is not there.
+  virtual bool reply(const Caller& caller, const void* response) = 0;
+  /// Requests the bus knows that it did not deliver.
+  [[nodiscard]] virtual std::uint64_t lost() const = 0;
+  [[nodiscard]] virtual Guid request_reader() const = 0;
+  [[nodiscard]] virtual Guid reply_writer() const = 0;
+};
+
 /// One participant on a bus; outlives its readers and writers. Every creation throws BusError.
 class Backend {
  public:
@@ -62,6 +86,9 @@ class Backend {
                                                      const Qos& qos) = 0;
   virtual std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                                      const Qos& qos) = 0;
+  /// @param name  of ROS, in full, without a leading slash.
+  virtual std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
+                                                       const TypeOps& response) = 0;
   [[nodiscard]] virtual Guid guid() const = 0;
   /// Endpoints of all other participants.
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;

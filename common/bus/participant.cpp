@@ -6,6 +6,7 @@
 #include <malloc.h>
 
 #include "common/bus/participant_endpoints.hpp"
+#include "common/bus/server_endpoint.hpp"
 #include "common/bus/type_version.hpp"
 
 namespace rds::bus {
@@ -15,7 +16,7 @@ using detail::Endpoint;
 
 constexpr int kHighestDomain = 232;  // RTPS port numbers end there
 
-class BusParticipant final : public Participant {
+class BusParticipant final : public Participant, public detail::ServiceHost {
  public:
   explicit BusParticipant(const ParticipantOptions& options)
       : state_(std::make_shared<detail::ParticipantState>(options)) {}
@@ -36,6 +37,15 @@ class BusParticipant final : public Participant {
     });
   }
 
+  std::unique_ptr<detail::ServiceEndpoint> make_service(const std::string& name, const TypeOps& request,
+                                                        const TypeOps& response,
+                                                        detail::ServiceHandler handler) override {
+    return state_->explain_refusal([&] {
+      return std::make_unique<detail::ServerEndpoint>(state_, full_name(name), request, response,
+                                                      std::move(handler));
+    });
+  }
+
   [[nodiscard]] ParticipantId id() const override { return detail::participant_of(state_->backend->guid()); }
 
   [[nodiscard]] std::string full_name(const std::string& topic) const override {
@@ -46,6 +56,9 @@ class BusParticipant final : public Participant {
     std::vector<EndpointStatistics> result;
     const std::lock_guard lock(state_->mutex);
     for (const Endpoint* endpoint : state_->endpoints) result.push_back(endpoint->statistics());
+    for (const detail::ServiceEndpoint* service : state_->services)
+      if (auto asked = service->statistics(); asked.messages + asked.dropped > 0)
+        result.push_back(std::move(asked));
     std::ranges::sort(result, {},
                       [](const EndpointStatistics& s) { return std::pair(s.topic, s.publisher); });
     return result;

@@ -14,6 +14,7 @@
 namespace rds::bus::detail {
 
 class Endpoint;
+class ServiceEndpoint;
 
 inline std::unique_ptr<Backend> make_backend(const ParticipantOptions& options) {
   if (options.vendor == Vendor::kZenoh) return make_zenoh_backend(options);
@@ -53,6 +54,7 @@ struct ParticipantState {
   std::string identity;  // empty on an open bus
   std::mutex mutex;      // of what follows
   std::set<const Endpoint*> endpoints;
+  std::set<const ServiceEndpoint*> services;
   std::map<std::string, std::string> types;  // by topic
 };
 

@@ -16,14 +16,18 @@ void merge(YAML::Node target, const YAML::Node& values) {
 
 }  // namespace
 
+YAML::Node merged(const std::string& file, const YAML::Node& values) {
+  YAML::Node all = file.empty() ? YAML::Node() : YAML::LoadFile(file);
+  if (all.IsNull()) all = YAML::Node(YAML::NodeType::Map);
+  merge(all, values);
+  return all;
+}
+
 ConfigReader from_file_with(const std::string& file, const YAML::Node& values, const std::string& source) {
   if (file.empty()) return {values, source};
   const ConfigReader checked = ConfigReader::from_file(file);
   if (values.size() == 0) return checked;
-  YAML::Node all = YAML::LoadFile(file);
-  if (all.IsNull()) all = YAML::Node(YAML::NodeType::Map);
-  merge(all, values);
-  return {all, file + ", " + source};
+  return {merged(file, values), file + ", " + source};
 }
 
 }  // namespace rds::config

@@ -28,6 +28,7 @@ class Walker {
   bool walk_field(const FieldLayout& field) {
     std::uint32_t count = std::max(field.array_length, 1U);
     if (field.is_sequence && !read_length(count)) return false;
+    if (field.is_sequence && field.array_length > 0 && count > field.array_length) return false;
     if (count == 0) return true;
     if (count > remaining() / field.size) return false;
     if (field.kind == FieldKind::kPrimitive) return skip(field.size, std::size_t{count} * field.size);

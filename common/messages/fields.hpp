@@ -14,7 +14,7 @@ struct StructLayout;
 struct FieldLayout {
   FieldKind kind;
   std::uint32_t size;          // bytes of a primitive; fewest bytes of a string or struct
-  std::uint32_t array_length;  // 0 unless a fixed-size array
+  std::uint32_t array_length;  // of a fixed-size array; most elements of a sequence, 0: any number
   bool is_sequence;
   std::uint32_t string_bound;  // 0: unbounded
   const StructLayout* nested;  // of a struct

@@ -67,7 +67,9 @@ void list_from_json(const Json& json, T& list, const std::string& path) {
   if constexpr (requires { list.resize(json.size()); }) list.resize(json.size());
   if (json.size() != list.size()) fail(path, "expected " + std::to_string(list.size()) + " elements");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    value_from_json(json[i], list[i], path + "[" + std::to_string(i) + "]");
+    typename T::value_type element{};  // std::vector<bool> has no references
+    value_from_json(json[i], element, path + "[" + std::to_string(i) + "]");
+    list[i] = std::move(element);
   }
 }
 

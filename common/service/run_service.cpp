@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "common/service/run_service.hpp"
+
 #include <algorithm>
 #include <csignal>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "common/config/overrides.hpp"
 #include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
+#include "common/service/ros/parameter_services.hpp"
 #include "common/service/ros/ros_arguments.hpp"
 #include "common/service/service_process.hpp"
 
@@ -103,7 +106,20 @@ void take_ros_arguments(RosArguments&& arguments, Options& options) {
   }
 }
 
-int start(const std::string& name, const Options& options,
+/// What is a setting of every service, in the form of the shipped ones.
+constexpr const char* kOfEveryService = "frame_prefix: \"\"  # before the names of the robot's frames\n";
+
+/// The settings as ROS 2 asks for them; nothing where services are not offered.
+std::unique_ptr<ParameterServices> parameter_services(ServiceContext& context, const Options& options,
+                                                      const std::string& shipped_settings) {
+  if (shipped_settings.empty() || !offers_services(context.participant)) return nullptr;
+  YAML::Node given = config::merged(options.config_path, options.parameters);
+  given["frame_prefix"] = context.frame_prefix;
+  return std::make_unique<ParameterServices>(context.bus,
+                                             ParameterTable(kOfEveryService + shipped_settings, given));
+}
+
+int start(const std::string& name, const Options& options, const std::string& shipped_settings,
           const std::function<ServiceFactory(config::ConfigReader&)>& read) {
   auto reader = config::from_file_with(options.config_path, options.parameters, "ROS parameters");
   const ServiceFactory factory = read(reader);
@@ -125,6 +141,7 @@ int start(const std::string& name, const Options& options,
                          .participant = joining,
                          .node_namespace = bus::normal_namespace(options.node_namespace),
                          .frame_prefix = options.frame_prefix};
+  const auto parameters = parameter_services(context, options, shipped_settings);
   ServiceProcess process(context, factory, options.exit_when_hung_s);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
@@ -138,7 +155,7 @@ void give_way(int nice) {
   if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
 }
 
-int run_service(const std::string& name, int argc, char** argv,
+int run_service(const std::string& name, int argc, char** argv, const std::string& shipped_settings,
                 const std::function<ServiceFactory(config::ConfigReader&)>& read,
                 const std::function<void(CLI::App&)>& add_own_options) {
   const sigset_t signals =
@@ -163,7 +180,7 @@ int run_service(const std::string& name, int argc, char** argv,
   }
   set_up_log(name, options.log_level);
   try {
-    return start(name, options, read);
+    return start(name, options, shipped_settings, read);
   } catch (const config::ConfigError& e) {
     fmt::print(stderr, "{}\n", e.what());
   } catch (const std::exception& e) {

@@ -20,10 +20,6 @@
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace rds::service {
 
 /// What a service is given by its process.
@@ -142,30 +138,5 @@ class Service {
 
 /// Makes a service of a configuration that was read before.
 using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&)>;
-
-/// The whole main() of a service: command line, configuration, log, signals, commands, diagnostics, worker.
-/// @param read  reads the configuration. @throws config::ConfigError naming all that is wrong in it.
-/// @param add_options  adds options of the service's own to the command line, before it is read.
-/// @return 0 after a clean stop, 1 after a fault, 2 for bad usage or configuration.
-int run_service(const std::string& name, int argc, char** argv,
-                const std::function<ServiceFactory(config::ConfigReader&)>& read,
-                const std::function<void(CLI::App&)>& add_options = {});
-
-/// Lowers the priority of the process, and lets its threads share freed memory if that is above 0; says so
-/// where the priority is not allowed. Call before there are threads.
-void give_way(int nice);
-
-/// run_service() for a service whose configuration is read by `read(ConfigReader&, Config&)`; the process
-/// gives way to others by its `nice`.
-template <class ServiceType, class Config>
-int run_service(const std::string& name, int argc, char** argv) {
-  return run_service(name, argc, argv, [](config::ConfigReader& reader) -> ServiceFactory {
-    Config config;
-    read(reader, config);
-    reader.finish();
-    give_way(config.nice);
-    return [config](ServiceContext& context) { return std::make_unique<ServiceType>(context, config); };
-  });
-}
 
 }  // namespace rds::service

@@ -83,6 +83,7 @@ void ServiceProcess::activate() {
   Service& service = *made;
   service_.put(std::move(made));
   presence_.set_active(true);
+  if (offers_services(context_.participant)) command_services_.emplace(context_, presence_, service_);
   worker_ = std::jthread([this, &service](const std::stop_token& stop) { work(stop, service); });
 }
 
@@ -102,6 +103,7 @@ void ServiceProcess::stand_by() {
   worker_.request_stop();
   if (worker_.joinable()) worker_.join();
   const auto ended = service_.put(nullptr);
+  command_services_.reset();  // a node of the same name may be active now
   context_.diagnostics.forget_gauges();
   if (presence_.is_active()) presence_.set_active(false);
 }

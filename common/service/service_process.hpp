@@ -5,6 +5,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/service/command_services.hpp"
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
 #include "common/service/presence.hpp"
@@ -47,7 +48,8 @@ class ServiceProcess {
   ServiceSlot service_;
   bool failed_ = false;
   Presence presence_;
-  std::optional<CommandServer> commands_;  // once there is a worker that can execute them
+  std::optional<CommandServer> commands_;            // once there is a worker that can execute them
+  std::optional<CommandServices> command_services_;  // while it is the active one
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;
   std::jthread worker_;

@@ -163,6 +163,24 @@ void MapOutputs::refresh_views(const SemanticMapper& mapper) {
       });
 }
 
+void MapOutputs::make_grid_message(const SemanticMapper& mapper,
+                                   std::function<void(nav_msgs::msg::OccupancyGrid&&)> take) {
+  send_large([this, stamp = keyframe_.stamp_ns, take = std::move(take),
+              snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))] {
+    take(of_robot(grid_message(make_grid(*tree_of(*snapshot), snapshot->up, grid_config_), stamp),
+                  frame_prefix_));
+  });
+}
+
+void MapOutputs::make_octomap_message(const SemanticMapper& mapper, bool binary,
+                                      std::function<void(octomap_msgs::msg::Octomap&&)> take) {
+  send_large([this, binary, stamp = keyframe_.stamp_ns, take = std::move(take),
+              snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))] {
+    take(of_robot(binary ? binary_message(*tree_of(*snapshot), stamp) : full_message(*snapshot, stamp),
+                  frame_prefix_));
+  });
+}
+
 void MapOutputs::send_large(std::function<void()> write) {
   ++large_under_way_;
   sender_.send([this, write = std::move(write)] {

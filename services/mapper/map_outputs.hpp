@@ -54,6 +54,13 @@ class MapOutputs {
   /// has changed, and the last one is a second old. Called again and again.
   void refresh_views(const SemanticMapper& mapper);
 
+  // The map as it is, for one who has asked; handed on from the thread that makes large messages.
+  void make_grid_message(const SemanticMapper& mapper,
+                         std::function<void(nav_msgs::msg::OccupancyGrid&&)> take);
+  /// @param binary  as rds/map/binary, else as rds/map/full.
+  void make_octomap_message(const SemanticMapper& mapper, bool binary,
+                            std::function<void(octomap_msgs::msg::Octomap&&)> take);
+
   /// Where readers on other machines wait for the map: shares it as it is.
   void share_map(const SemanticMapper& mapper);
   /// True once after somebody new has subscribed to the map in any form.

@@ -67,7 +67,8 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       queue_(max_waiting(config), {config.expect_boxes, config.lockstep, config.boxes_timeout_s}),
       unplaced_(kMaxUnplaced),
       map_commands_(mailbox_, config.maps, map_file::kMapper),
-      inboxes_{{mailbox_, max_waiting(config)}, {mailbox_, kMaxMessages}, {mailbox_, kMaxMessages}} {
+      inboxes_{{mailbox_, max_waiting(config)}, {mailbox_, kMaxMessages}, {mailbox_, kMaxMessages}},
+      map_services_(context, mailbox_, outputs_) {
   mapper_.report_progress_to([this] { beat(); });
   context.diagnostics.counter("corrections lost") = 0;  // told from the start
   if (!config.map_file.empty()) {
@@ -126,7 +127,7 @@ void MapperService::run(const std::stop_token& stop) {
     const bool has_more_to_correct =
         !is_paused_ && (mapper_.is_correcting() || unplaced_.may_be_placed(poses_));
     return has_more_to_correct || !inboxes_.locked_empty() || !commands_.locked_empty() ||
-           map_commands_.locked_ready();
+           map_commands_.locked_ready() || map_services_.locked_ready();
   })) {
     handle_commands();
     map_commands_.settle();
@@ -141,6 +142,7 @@ void MapperService::idle() {
     outputs_.publish_all(mapper_, queue_.size());
   outputs_.refresh_views(mapper_);
   outputs_.share_map(mapper_);
+  map_services_.settle(mapper_);
   if (is_paused_) return;
   guarded(topics::kKeyframePoses.name, [this] { correct(); });
   integrate_ready();

@@ -12,6 +12,7 @@
 #include "services/mapper/input/known_poses.hpp"
 #include "services/mapper/input/unplaced_keyframes.hpp"
 #include "services/mapper/map_outputs.hpp"
+#include "services/mapper/map_services.hpp"
 #include "services/mapper/mapper_checkpoints.hpp"
 #include "services/mapper/mapper_service_config.hpp"
 
@@ -73,6 +74,7 @@ class MapperService : public service::Service {
   bool is_paused_ = false;
   map_commands::MapCommands map_commands_;
   Inboxes inboxes_;
+  MapServices map_services_;
   std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameImages>> keyframe_source_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks fill the inboxes
 };

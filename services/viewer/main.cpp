@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/service/run_service.hpp"
 #include "services/viewer/listen_address.hpp"
 #include "services/viewer/viewer_service.hpp"
 
@@ -42,5 +43,5 @@ int main(int argc, char** argv) {
       return std::make_unique<viewer::ViewerService>(context, config, token);
     };
   };
-  return service::run_service("rds-viewer", argc, argv, read_config, add_options);
+  return service::run_service("rds-viewer", argc, argv, "", read_config, add_options);
 }

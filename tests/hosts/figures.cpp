@@ -13,7 +13,8 @@ namespace rds::test {
 namespace {
 
 const std::string kChunksTo = "rds/transfer/";  // the reader
-constexpr const char* kAskedAgain = "transfer chunks asked again";
+constexpr const char* kSent = "transfer chunks sent";
+constexpr const char* kSentAgain = "transfer chunks sent again";
 
 double per(double part, std::size_t whole) {
   return whole == 0 ? 0 : part / static_cast<double>(whole);
@@ -27,7 +28,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 void add_transfer(const std::map<std::string, std::string>& statuses, HostFigures& figures) {
-  std::size_t chunks = 0;
+  double sent = 0;
   double again = 0;
   double most_bytes = 0;
   for (const auto& [service, text] : statuses) {
@@ -38,13 +39,13 @@ void add_transfer(const std::map<std::string, std::string>& statuses, HostFigure
       if (endpoint.value("publisher", true) || !topic.starts_with(kChunksTo) || topic.ends_with("offers"))
         continue;
       if (topic.ends_with("requests")) continue;  // the tracker reads them
-      chunks += endpoint.value("messages", std::size_t{0});
       most_bytes = std::max(most_bytes, endpoint.value("bytes", 0.0));
     }
     const auto said = status.value("figures", nlohmann::json::object());
-    again += std::stod(said.value(kAskedAgain, "0"));
+    sent += std::stod(said.value(kSent, "0"));
+    again += std::stod(said.value(kSentAgain, "0"));
   }
-  figures.repeats = per(again, chunks);
+  figures.repeats = sent > 0 ? again / sent : 0;
   figures.reader_bytes = per(most_bytes, figures.keyframes);
 }
 
@@ -65,7 +66,8 @@ std::string to_line(const std::string& label, const HostFigures& f, const HostFi
   return fmt::format(
       "{:<28} answered {} of {} ({:.3f}), p50 {:.0f} p95 {:.0f} ms ({:.0f} {:.0f}), gap {:.2f} s ({:.2f}), "
       "ATE live {:.4f} ({:.4f}) final {:.4f} ({:.4f}) m, recall {:.3f} ({:.3f}), residue {:.4f} ({:.4f}), "
-      "missing {}, link {:.0f} kB, reader {:.0f} kB a keyframe, repeats {:.3f}, localised {} of {}, total p99 "
+      "missing {}, link {:.0f} kB, reader {:.0f} kB a keyframe, repeats {:.3f}, localised {} of {}, total "
+      "p99 "
       "{:.1f} ms",
       label, f.answered, f.keyframes, f.share_answered(), f.p50_ms, f.p95_ms, one.p50_ms, one.p95_ms,
       f.longest_gap_s, one.longest_gap_s, f.ate_live_m, one.ate_live_m, f.ate_final_m, one.ate_final_m,

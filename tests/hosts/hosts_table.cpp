@@ -84,6 +84,7 @@ std::vector<Row> short_rows() {
 
 CoreRows core_rows(bus::Vendor vendor) {
   return {{.name = "cores_split", .vendor = vendor, .cores = Cores::kOfEachHost},
+          {.name = "cores_beside", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOfEachHost},
           {.name = "cores_shared", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOne},
           {.name = "cores_alone", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOneForTracker}};
 }

@@ -68,10 +68,11 @@ std::vector<Row> one_machine_rows();
 std::vector<Row> short_rows();
 /// All.
 std::vector<Row> all_rows();
-/// A vendor's rows of the reason for it all: A's programs have a core for themselves, share it with the other
-/// services, and the tracker alone has it.
+/// A vendor's rows of the reason for it all: A's programs have a core for themselves, have it on a machine
+/// where the others have the other core, share it with them, and the tracker alone has it.
 struct CoreRows {
   Row split;
+  Row beside;
   Row shared;
   Row alone;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A service, rds-hanging, whose worker hangs some seconds after its start, for the tests of what notices that.
+// A service, rds-hanging, whose worker hangs some seconds after its start, for the tests of what notices
+// that.
 #include <unistd.h>
 
-#include "common/service/service.hpp"
+#include "common/service/run_service.hpp"
 
 namespace rds::test {
 
@@ -39,5 +40,5 @@ class HangingService : public service::Service {
 
 int main(int argc, char** argv) {
   using namespace rds::test;
-  return rds::service::run_service<HangingService, HangingConfig>("rds-hanging", argc, argv);
+  return rds::service::run_service<HangingService, HangingConfig>("rds-hanging", argc, argv, "");
 }

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dds/dds.h>
-#include <dds/ddsi/ddsi_serdata.h>
 
 #include "common/bus/backend.hpp"
 #include "common/bus/cyclonedds/cyclonedds_discovery.hpp"
 #include "common/bus/cyclonedds/cyclonedds_domain.hpp"
 #include "common/bus/cyclonedds/cyclonedds_endpoints.hpp"
+#include "common/bus/cyclonedds/cyclonedds_reader.hpp"
+#include "common/bus/cyclonedds/cyclonedds_service.hpp"
 #include "common/bus/cyclonedds/cyclonedds_type.hpp"
+#include "common/bus/cyclonedds/cyclonedds_writer.hpp"
+#include "common/bus/cyclonedds/request_header.hpp"
+#include "common/bus/dds/security_properties.hpp"
+#include "common/bus/dds/service_topics.hpp"
 #include "common/bus/dds/user_data.hpp"
-#include "common/bus/security_properties.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -47,80 +51,6 @@ QosPtr endpoint_qos(const TypeOps& type, const Qos& qos) {
   return target;
 }
 
-struct Unref {
-  void operator()(ddsi_serdata* message) const { ddsi_serdata_unref(message); }
-};
-
-class CycloneWriter final : public BackendWriter {
- public:
-  CycloneWriter(dds_entity_t participant, dds_entity_t topic, const std::string& name, const QosPtr& qos)
-      : writer_(dds_create_writer(participant, topic, qos.get(), nullptr), "a writer on " + name) {}
-
-  bool write(const void* message) override { return dds_write(writer_.get(), message) == DDS_RETCODE_OK; }
-  [[nodiscard]] int matched() const override {
-    dds_publication_matched_status_t status{};
-    dds_get_publication_matched_status(writer_.get(), &status);
-    return static_cast<int>(status.current_count);
-  }
-  [[nodiscard]] Guid guid() const override { return guid_of(writer_.get()); }
-
- private:
-  Entity writer_;
-};
-
-class CycloneReader final : public BackendReader {
- public:
-  CycloneReader(dds_entity_t participant, dds_entity_t topic, const std::string& name, const QosPtr& qos,
-                const CycloneEndpoints& endpoints, VersionCheck<dds_instance_handle_t> versions)
-      : endpoints_(endpoints),
-        versions_(std::move(versions)),
-        reader_(dds_create_reader(participant, topic, qos.get(), nullptr), "a reader on " + name),
-        readable_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), "a condition"),
-        stop_(dds_create_guardcondition(participant), "a condition"),
-        wait_set_(dds_create_waitset(participant), "a wait set") {
-    dds_waitset_attach(wait_set_.get(), readable_.get(), 0);
-    dds_waitset_attach(wait_set_.get(), stop_.get(), 0);
-  }
-
-  void wait() override { dds_waitset_wait(wait_set_.get(), nullptr, 0, DDS_INFINITY); }
-  bool wait_for(std::chrono::seconds limit) override {
-    return dds_waitset_wait(wait_set_.get(), nullptr, 0, DDS_SECS(limit.count())) != 0;
-  }
-  void wake() override { dds_set_guardcondition(stop_.get(), true); }
-  bool take(Sample& sample) override {
-    ddsi_serdata* message = nullptr;
-    dds_sample_info_t info{};
-    while (dds_takecdr(reader_.get(), &message, 1, &info, DDS_ANY_STATE) > 0) {
-      const std::unique_ptr<ddsi_serdata, Unref> held(message);
-      if (!info.valid_data) continue;
-      sample.writer = endpoints_.participant_of_writer(info.publication_handle);
-      sample.another_version = versions_.others().contains(info.publication_handle);
-      if (!sample.another_version) ddsi_serdata_to_sample(message, &sample, nullptr, nullptr);
-      return true;
-    }
-    return false;
-  }
-  [[nodiscard]] std::uint64_t lost() const override {
-    dds_sample_lost_status_t status{};
-    dds_get_sample_lost_status(reader_.get(), &status);
-    return status.total_count;
-  }
-  [[nodiscard]] int matched() const override {
-    dds_subscription_matched_status_t status{};
-    dds_get_subscription_matched_status(reader_.get(), &status);
-    return static_cast<int>(status.current_count);
-  }
-  [[nodiscard]] Guid guid() const override { return guid_of(reader_.get()); }
-
- private:
-  const CycloneEndpoints& endpoints_;
-  VersionCheck<dds_instance_handle_t> versions_;
-  Entity reader_;
-  Entity readable_;
-  Entity stop_;
-  Entity wait_set_;
-};
-
 class CycloneBackend final : public Backend {
  public:
   explicit CycloneBackend(const ParticipantOptions& options)
@@ -137,15 +67,17 @@ class CycloneBackend final : public Backend {
 
   std::unique_ptr<BackendWriter> make_writer(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
-    const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
-    return std::make_unique<CycloneWriter>(participant_.get(), entity.get(), topic, endpoint_qos(type, qos));
+    return make_cyclone_writer(topic, type, qos);
   }
   std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
-    const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
-    return std::make_unique<CycloneReader>(
-        participant_.get(), entity.get(), topic, endpoint_qos(type, qos), endpoints_,
-        VersionCheck<dds_instance_handle_t>(endpoints_.directory(), topic, type));
+    return make_cyclone_reader(topic, type, qos);
+  }
+  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
+                                               const TypeOps& response) override {
+    return make_cyclonedds_service(make_cyclone_reader(request_topic(name), as_bytes(request), kServiceQos),
+                                   make_cyclone_writer(reply_topic(name), as_bytes(response), kServiceQos),
+                                   response);
   }
   [[nodiscard]] Guid guid() const override { return guid_of(participant_.get()); }
 
@@ -154,6 +86,20 @@ class CycloneBackend final : public Backend {
   }
 
  private:
+  std::unique_ptr<CycloneWriter> make_cyclone_writer(const std::string& topic, const TypeOps& type,
+                                                     const Qos& qos) {
+    const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
+    return std::make_unique<CycloneWriter>(participant_.get(), entity.get(), topic,
+                                           endpoint_qos(type, qos).get());
+  }
+  std::unique_ptr<CycloneReader> make_cyclone_reader(const std::string& topic, const TypeOps& type,
+                                                     const Qos& qos) {
+    const Entity entity(make_topic(topic, type), "topic " + topic + " of type " + type.dds_name);
+    return std::make_unique<CycloneReader>(
+        participant_.get(), entity.get(), topic, endpoint_qos(type, qos).get(), endpoints_,
+        VersionCheck<dds_instance_handle_t>(endpoints_.directory(), topic, type));
+  }
+
   /// Topics are counted by Cyclone DDS: an endpoint keeps its topic alive.
   dds_entity_t make_topic(const std::string& name, const TypeOps& type) {
     ddsi_sertype* carried = make_cyclonedds_type(type);

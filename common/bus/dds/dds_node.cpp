@@ -52,6 +52,35 @@ class AnnouncedReader final : public BackendReader {
   NodeAnnouncer& announcer_;
 };
 
+class AnnouncedService final : public BackendService {
+ public:
+  AnnouncedService(std::unique_ptr<BackendService> service, NodeAnnouncer& announcer)
+      : service_(std::move(service)), announcer_(announcer) {
+    announcer_.add_reader(request_reader());
+    announcer_.add_writer(reply_writer());
+  }
+  ~AnnouncedService() override {
+    announcer_.remove(request_reader());
+    announcer_.remove(reply_writer());
+  }
+  AnnouncedService(const AnnouncedService&) = delete;
+  AnnouncedService& operator=(const AnnouncedService&) = delete;
+
+  void wait() override { service_->wait(); }
+  void wake() override { service_->wake(); }
+  bool take(Sample& sample, Caller& caller) override { return service_->take(sample, caller); }
+  bool reply(const Caller& caller, const void* response) override {
+    return service_->reply(caller, response);
+  }
+  [[nodiscard]] std::uint64_t lost() const override { return service_->lost(); }
+  [[nodiscard]] Guid request_reader() const override { return service_->request_reader(); }
+  [[nodiscard]] Guid reply_writer() const override { return service_->reply_writer(); }
+
+ private:
+  std::unique_ptr<BackendService> service_;
+  NodeAnnouncer& announcer_;
+};
+
 class DdsNode final : public Backend {
  public:
   DdsNode(std::unique_ptr<Backend> participant, const ParticipantOptions& options)
@@ -68,6 +97,11 @@ class DdsNode final : public Backend {
                                              const Qos& qos) override {
     return std::make_unique<AnnouncedReader>(participant_->make_reader(kRosPrefix + topic, type, qos),
                                              announcer_);
+  }
+  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
+                                               const TypeOps& response) override {
+    return std::make_unique<AnnouncedService>(participant_->make_service(name, request, response),
+                                              announcer_);
   }
   [[nodiscard]] Guid guid() const override { return participant_->guid(); }
 

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <limits>
 #include <map>
 #include <mutex>
 
-#include <fastdds/dds/core/condition/GuardCondition.hpp>
-#include <fastdds/dds/core/condition/StatusCondition.hpp>
-#include <fastdds/dds/core/condition/WaitSet.hpp>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "common/bus/dds/service_topics.hpp"
 #include "common/bus/dds/user_data.hpp"
+#include "common/bus/fastdds/fastdds_reader.hpp"
+#include "common/bus/fastdds/fastdds_service.hpp"
 #include "common/bus/fastdds/fastdds_settings.hpp"
 #include "common/bus/fastdds/fastdds_type.hpp"
 
@@ -24,8 +21,6 @@ namespace rds::bus::detail {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
-
 /// The endpoints of other participants, kept up to date by Fast DDS's discovery thread.
 class DiscoveryListener final : public dds::DomainParticipantListener {
  public:
@@ -101,67 +96,6 @@ class FastWriter final : public BackendWriter {
   dds::DataWriter* writer_;
 };
 
-class FastReader final : public BackendReader {
- public:
-  FastReader(dds::Subscriber* subscriber, dds::Topic* topic, const dds::DataReaderQos& qos,
-             VersionCheck<Guid> versions)
-      : subscriber_(subscriber),
-        versions_(std::move(versions)),
-        reader_(subscriber->create_datareader(topic, qos)) {
-    if (reader_ == nullptr) throw BusError("Fast DDS refused a reader on " + topic->get_name());
-    reader_->get_statuscondition().set_enabled_statuses(dds::StatusMask::data_available());
-    wait_set_.attach_condition(reader_->get_statuscondition());
-    wait_set_.attach_condition(stop_);
-  }
-  ~FastReader() override {
-    wait_set_.detach_condition(stop_);
-    wait_set_.detach_condition(reader_->get_statuscondition());
-    subscriber_->delete_datareader(reader_);
-  }
-  FastReader(const FastReader&) = delete;
-  FastReader& operator=(const FastReader&) = delete;
-
-  void wait() override {
-    dds::ConditionSeq active;
-    wait_set_.wait(active, eprosima::fastrtps::c_TimeInfinite);
-  }
-  bool wait_for(std::chrono::seconds limit) override {
-    dds::ConditionSeq active;
-    return wait_set_.wait(active, {static_cast<std::int32_t>(limit.count()), 0}) == ReturnCode_t::RETCODE_OK;
-  }
-  void wake() override { stop_.set_trigger_value(true); }
-  bool take(Sample& sample) override {
-    dds::SampleInfo info;
-    Receipt receipt{sample, versions_};
-    while (reader_->take_next_sample(&receipt, &info) == ReturnCode_t::RETCODE_OK) {
-      if (!info.valid_data) continue;
-      const Guid writer = to_guid(info.sample_identity.writer_guid());
-      receipt.writer_is(writer);
-      sample.writer = participant_of(writer);
-      return true;
-    }
-    return false;
-  }
-  [[nodiscard]] std::uint64_t lost() const override {
-    dds::SampleLostStatus status;
-    reader_->get_sample_lost_status(status);
-    return static_cast<std::uint64_t>(std::max(status.total_count, 0));
-  }
-  [[nodiscard]] int matched() const override {
-    dds::SubscriptionMatchedStatus status;
-    reader_->get_subscription_matched_status(status);
-    return status.current_count;
-  }
-  [[nodiscard]] Guid guid() const override { return to_guid(reader_->guid()); }
-
- private:
-  dds::Subscriber* subscriber_;
-  VersionCheck<Guid> versions_;
-  dds::DataReader* reader_;
-  dds::WaitSet wait_set_;
-  dds::GuardCondition stop_;
-};
-
 class FastBackend final : public Backend {
  public:
   explicit FastBackend(const ParticipantOptions& options) {
@@ -190,8 +124,13 @@ class FastBackend final : public Backend {
   }
   std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                              const Qos& qos) override {
-    return std::make_unique<FastReader>(subscriber_, find_topic(topic, type), fastdds_reader_qos(type, qos),
-                                        VersionCheck<Guid>(listener_.directory(), topic, type));
+    return make_fast_reader(topic, type, qos);
+  }
+  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
+                                               const TypeOps& response) override {
+    return make_fastdds_service(make_fast_reader(request_topic(name), request, kServiceQos), publisher_,
+                                find_topic(reply_topic(name), response),
+                                fastdds_writer_qos(response, kServiceQos));
   }
   [[nodiscard]] Guid guid() const override { return to_guid(participant_->guid()); }
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
@@ -199,6 +138,12 @@ class FastBackend final : public Backend {
   }
 
  private:
+  std::unique_ptr<FastReader> make_fast_reader(const std::string& topic, const TypeOps& type,
+                                               const Qos& qos) {
+    return std::make_unique<FastReader>(subscriber_, find_topic(topic, type), fastdds_reader_qos(type, qos),
+                                        VersionCheck<Guid>(listener_.directory(), topic, type));
+  }
+
   /// Topics live as long as the participant: few, and shared by its endpoints.
   dds::Topic* find_topic(const std::string& name, const TypeOps& type) {
     const std::lock_guard lock(topics_mutex_);

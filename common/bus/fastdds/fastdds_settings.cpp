@@ -12,8 +12,8 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "common/bus/dds/dds_settings.hpp"
+#include "common/bus/dds/security_properties.hpp"
 #include "common/bus/dds/user_data.hpp"
-#include "common/bus/security_properties.hpp"
 
 namespace rds::bus::detail {
 namespace {

@@ -18,6 +18,10 @@ class ZenohBackend final : public Backend {
                                              const Qos& qos) override {
     return std::make_unique<ZenohReader>(node_, topic, type, qos);
   }
+  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& /*request*/,
+                                               const TypeOps& /*response*/) override {
+    throw BusError("service " + name + ": services are on fastdds and cyclonedds only");
+  }
   [[nodiscard]] Guid guid() const override { return node_.guid(); }
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {
     return node_.graph().discovered();

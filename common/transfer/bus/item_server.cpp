@@ -16,7 +16,8 @@ namespace {
 // Each holds a keyframe's pictures until they are compressed.
 constexpr std::size_t kMostWaiting = 8;
 constexpr std::size_t kMostRequests = 256;
-constexpr std::size_t kMostSpilledBytes = std::size_t{2} << 30U;  // of keyframes among people about 40 minutes
+constexpr std::size_t kMostSpilledBytes = std::size_t{2}
+                                          << 30U;  // of keyframes among people about 40 minutes
 /// Of one request; a reader's window is smaller.
 constexpr std::uint32_t kMostChunks = 4096;
 constexpr int kNice = 10;  // tracking has the processor first
@@ -44,14 +45,15 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       host_(host),
       items_(memory_bytes, std::make_unique<ItemFile>(), kMostSpilledBytes),
       offers_(topics::advertise(context.bus, channel.offers, process)),
+      chunks_sent_(context.diagnostics.counter("transfer chunks sent")),
+      chunks_sent_again_(context.diagnostics.counter("transfer chunks sent again")),
       shared_(mailbox_, kMostWaiting),
       requests_(mailbox_, kMostRequests) {
   for (const topics::Process reader : kServices)
     if (contains(channel.readers, reader)) warn_of(reader);
-  subscription_ =
-      topics::subscribe(context.bus, channel.requests, process, [this](const Request& request) {
-        if (request->writer() == context_.instance) requests_.push(request);
-      });
+  subscription_ = topics::subscribe(context.bus, channel.requests, process, [this](const Request& request) {
+    if (request->writer() == context_.instance) requests_.push(request);
+  });
   if (maker == nullptr)
     context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -165,14 +167,13 @@ void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
     const std::uint64_t first = request.firsts()[i];
     const Bytes* item = find(stream, number);
     if (item == nullptr) {
-      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), to->chunks);
+      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), *to);
       continue;
     }
     const std::uint64_t end =
         std::min<std::uint64_t>(first + std::min(request.counts()[i], kMostChunks), chunks_in(item->size()));
     for (std::uint64_t k = first; k < end; ++k)
-      send(chunk_of(number, *item, static_cast<std::uint32_t>(k)), stream, request.instance(),
-           to->chunks);
+      send(chunk_of(number, *item, static_cast<std::uint32_t>(k)), stream, request.instance(), *to);
   }
 }
 
@@ -180,8 +181,9 @@ const ItemServer::Bytes* ItemServer::find(Stream stream, std::uint64_t number) {
   return maker_ != nullptr ? maker_->find(stream, number) : items_.find(stream, number);
 }
 
-void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader,
-                      Lanes<rds_msgs::msg::TransferChunk>& to) {
+void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader, Reader& to) {
+  ++chunks_sent_;
+  if (to.sent.note(reader, stream, chunk.number, chunk.index)) ++chunks_sent_again_;
   rds_msgs::msg::TransferChunk message;
   message.instance(context_.instance);
   message.reader(reader);
@@ -191,7 +193,7 @@ void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader,
   message.item_bytes(chunk.item_bytes);
   message.index(chunk.index);
   message.data().assign(chunk.data.begin(), chunk.data.end());
-  to.write(message);
+  to.chunks.write(message);
 }
 
 }  // namespace rds::transfer

@@ -17,6 +17,7 @@
 #include "common/transfer/bus/lanes.hpp"
 #include "common/transfer/item_maker.hpp"
 #include "common/transfer/item_store.hpp"
+#include "common/transfer/sent_chunks.hpp"
 #include "rds_msgs/msg/TransferChunk.h"
 #include "rds_msgs/msg/TransferOffer.h"
 #include "rds_msgs/msg/TransferRequest.h"
@@ -57,6 +58,7 @@ class ItemServer {
         : chunks(lanes, std::move(advertise)) {}
     Lanes<rds_msgs::msg::TransferChunk> chunks;
     Backlog backlog;  // as it says
+    SentChunks sent;
     Time heard{};
   };
   using Request = std::shared_ptr<const rds_msgs::msg::TransferRequest>;
@@ -74,8 +76,7 @@ class ItemServer {
   void write(const ItemMaker::Offers& offers);
   void answer(const rds_msgs::msg::TransferRequest& request);
   [[nodiscard]] const Bytes* find(Stream stream, std::uint64_t number);
-  void send(const Chunk& chunk, Stream stream, std::uint64_t reader,
-            Lanes<rds_msgs::msg::TransferChunk>& to);
+  void send(const Chunk& chunk, Stream stream, std::uint64_t reader, Reader& to);
 
   /// Who says nothing for so long is gone: readers say every second that they are there.
   static constexpr std::chrono::seconds kSilent{10};
@@ -94,6 +95,8 @@ class ItemServer {
   ItemStore items_;
   std::map<std::string, Reader> readers_;  // by topic
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
+  service::Diagnostics::Counter& chunks_sent_;
+  service::Diagnostics::Counter& chunks_sent_again_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Shared> shared_;
   concurrency::Inbox<Request> requests_;

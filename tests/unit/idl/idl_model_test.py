@@ -50,6 +50,12 @@ class TypeHash(unittest.TestCase):
                          "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e")
 
 
+    def test_equals_what_ros_announces_of_a_service_s_endpoints(self):
+        for part, hash_of_part in (("_Request", "a1b0b5d6b967a5b8ac5bc8563c3ea678f349e312a6a4967227c5a96bc5ce38df"),
+                                   ("_Response", "31b937b82de3612426be79f231e386259f97e8dc843e3f2845288b4bfa296bdd")):
+            self.assertEqual(idl_model.type_hash(STRUCTS["rcl_interfaces/srv/ListParameters" + part], STRUCTS), "RIHS01_" + hash_of_part)
+
+
 class Definition(unittest.TestCase):
     def test_names_what_a_type_contains_each_once(self):
         text = idl_model.definition(STRUCTS["vision_msgs/msg/Detection2DArray"], STRUCTS)
@@ -66,14 +72,18 @@ class Definition(unittest.TestCase):
 class Parser(unittest.TestCase):
     def test_reads_every_kind_of_member(self):
         struct = parse("module p { module msg { module Name_Constants { const uint8 A = 1; };"
-                       " struct Name { uint8 a; string<9> b; sequence<float> c; double d[3]; q::msg::T e; }; }; };")
+                       " struct Name { uint8 a; string<9> b; sequence<float> c; double d[3]; q::msg::T e; sequence<uint8, 4> _map; }; }; };")
         self.assertEqual(idl_model.msg_lines(struct),
-                         ["uint8 A=1", "uint8 a", "string<=9 b", "float32[] c", "float64[3] d", "q/T e"])
+                         ["uint8 A=1", "uint8 a", "string<=9 b", "float32[] c", "float64[3] d", "q/T e", "uint8[<=4] map"])
 
     def test_refuses_what_is_outside_the_restricted_idl(self):
-        for member in ("long a;", "map<string, string> a;", "@optional uint8 a;", "sequence<uint8, 4> a;", "wstring a;"):
+        for member in ("long a;", "map<string, string> a;", "@optional uint8 a;", "sequence<string<4>> a;", "wstring a;"):
             with self.subTest(member), self.assertRaisesRegex(ValueError, "Name.idl"):
                 parse("module p { module msg { struct Name { " + member + " }; }; };")
+
+    def test_refuses_a_message_among_services(self):
+        with self.assertRaisesRegex(ValueError, "expected module msg around Name"):
+            parse("module p { module srv { struct Name { uint8 a; }; }; };")
 
     def test_refuses_a_struct_that_is_not_named_as_its_file(self):
         with self.assertRaisesRegex(ValueError, "one name"):

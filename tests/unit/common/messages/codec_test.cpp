@@ -3,6 +3,8 @@
 
 #include "common/messages/registry.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
+#include "rcl_interfaces/msg/ParameterDescriptor.h"
+#include "rcl_interfaces/msg/ParameterValue.h"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
 #include "rmw_dds_common/msg/ParticipantEntitiesInfo.h"
 #include "sensor_msgs/msg/Image.h"
@@ -94,6 +96,15 @@ TEST(Codec, RefusesABoundedStringBeyondItsBound) {
   EXPECT_FALSE(decode(encode(info), decoded));
 }
 
+TEST(Codec, RefusesMoreElementsThanASequenceMayHave) {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.integer_range().resize(1);
+  rcl_interfaces::msg::ParameterDescriptor decoded;
+  EXPECT_TRUE(decode(encode(descriptor), decoded));
+  descriptor.integer_range().resize(2);
+  EXPECT_FALSE(decode(encode(descriptor), decoded));
+}
+
 TEST(Codec, ReusesTheMemoryOfAMessage) {
   sensor_msgs::msg::Image image;
   image.data().assign(100'000, 7);
@@ -133,6 +144,12 @@ TEST(FromJson, NamesTheMemberThatIsWrong) {
   EXPECT_EQ(error(R"({"stamp": {"nanosec": -1}})"), "stamp.nanosec: -1 is out of range");
   EXPECT_EQ(error(R"({"frame_id": 3})"), "frame_id: expected a string");
   EXPECT_EQ(error(R"({"stamp": []})"), "stamp: expected an object");
+}
+
+TEST(FromJson, ReadsBooleansOneByOne) {
+  rcl_interfaces::msg::ParameterValue value;
+  ASSERT_TRUE(from_json(Json::parse(R"({"bool_array_value": [true, false, true]})"), value).has_value());
+  EXPECT_EQ(value.bool_array_value(), (std::vector<bool>{true, false, true}));
 }
 
 TEST(FromJson, LeavesOtherMembersAlone) {

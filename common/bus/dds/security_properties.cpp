@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/security_properties.hpp"
+#include "common/bus/dds/security_properties.hpp"
 
 #include <dlfcn.h>
 

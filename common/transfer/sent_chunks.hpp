@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/transfer/transfer.hpp"
+
+namespace rds::transfer {
+
+/// Which chunks of the items that were sent last went to which reader: what goes again is what a link's
+/// losses cost.
+class SentChunks {
+ public:
+  static constexpr std::size_t kItems = 64;  // a reader has 8 begun
+
+  /// Takes note that a chunk is sent. @return true if it was sent to this reader before
+  bool note(std::uint64_t reader, Stream stream, std::uint64_t number, std::uint32_t index) {
+    std::vector<bool>& chunks = chunks_of({reader, stream, number});
+    if (index >= chunks.size()) chunks.resize(index + std::size_t{1});
+    const bool before = chunks[index];
+    chunks[index] = true;
+    return before;
+  }
+
+ private:
+  struct ItemId {
+    std::uint64_t reader;
+    Stream stream;
+    std::uint64_t number;
+    bool operator==(const ItemId&) const = default;
+  };
+  struct Item {
+    ItemId id;
+    std::vector<bool> chunks;  // those that were sent
+  };
+
+  std::vector<bool>& chunks_of(const ItemId& id) {
+    for (auto item = items_.rbegin(); item != items_.rend(); ++item)
+      if (item->id == id) return item->chunks;
+    if (items_.size() == kItems) items_.pop_front();
+    return items_.emplace_back(Item{id, {}}).chunks;
+  }
+
+  std::deque<Item> items_;  // the newest last
+};
+
+}  // namespace rds::transfer

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "common/map_file/folder.hpp"
 #include "common/map_file/geometry_bytes.hpp"
 #include "services/loop_closer/core/map_bytes.hpp"
 #include "services/mapper/core/map_merging.hpp"
@@ -133,18 +132,6 @@ Result<void> merge_loop_closer(const Source& earlier, const Source& later, std::
   return {};
 }
 
-Result<void> write_all(const MapMerge& merge, const fs::path& folder) {
-  const auto place = map_file::Folder::open(folder);
-  if (!place) return tl::unexpected(place.error());
-  for (const auto& [name, bytes] : merge.files)
-    if (auto written = place->write(name, bytes, {}); !written) return written;
-  if (auto written = geometry::write_trajectory(folder / "keyframes.txt", merge.keyframes); !written)
-    return written;
-  auto written = place->write(map_file::kMapFile, map_file::to_bytes(merge.sections), {});
-  place->sync();
-  return written;
-}
-
 }  // namespace
 
 Result<MapMerge> merge_saved_maps(const fs::path& earlier_path, const fs::path& later_path) {
@@ -162,25 +149,6 @@ Result<MapMerge> merge_saved_maps(const fs::path& earlier_path, const fs::path& 
   if (auto merged = merge_semantic(*earlier, *later, tracked->moved, merge); !merged)
     return tl::unexpected(merged.error());
   return merge;
-}
-
-Result<void> write_map(const MapMerge& merge, const fs::path& folder) {
-  const fs::path target = folder.has_filename() ? folder : folder.parent_path();
-  const fs::path unfinished = target.parent_path() / ("." + target.filename().string() + ".merging");
-  std::error_code error;
-  if (fs::exists(target, error))
-    return tl::unexpected(fmt::format("{}: is there already, expected a new folder", target.string()));
-  fs::remove_all(unfinished, error);  // of a merge that was stopped
-  if (!fs::create_directories(unfinished, error))
-    return tl::unexpected(fmt::format("{}: cannot be made: {}", unfinished.string(), error.message()));
-  auto written = write_all(merge, unfinished);
-  if (written) {
-    fs::rename(unfinished, target, error);
-    if (error)
-      written = tl::unexpected(fmt::format("{}: cannot be written: {}", target.string(), error.message()));
-  }
-  if (!written) fs::remove_all(unfinished, error);
-  return written;
 }
 
 }  // namespace rds::tools

@@ -2,27 +2,15 @@
 #include "services/mapper/core/evidence/later_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-#include <stdexcept>
 
 namespace rds::mapper {
 namespace {
 
 using geometry::Pose;
-using geometry::PoseChange;
 using octomap::OcTreeKey;
 
-constexpr double kOriginKey = 32768;  // of coordinate 0
 constexpr int kBlockSide = 1 << kBlockBits;
-
-/// @param place  of a change, its camera before or after.
-template <class Place>
-const PoseChange& nearest(std::span<const PoseChange> changes, const Eigen::Vector3d& point, Place place) {
-  return *std::ranges::min_element(changes, {}, [&](const PoseChange& change) {
-    return ((change.*place).translation() - point).squaredNorm();
-  });
-}
 
 const FinalBlock* block_at(const FinalMap& map, std::uint64_t key) {
   const auto found = map.blocks.find(key);
@@ -157,18 +145,6 @@ class BlockMerge {
 
 }  // namespace
 
-MapMotion::MapMotion(std::span<const PoseChange> keyframes) : keyframes_(keyframes) {
-  if (keyframes.empty()) throw std::invalid_argument("MapMotion: a map that no keyframe moves");
-}
-
-Pose MapMotion::after_from_before(const Eigen::Vector3d& point_before) const {
-  return nearest(keyframes_, point_before, &PoseChange::before_from_camera).after_from_before();
-}
-
-Pose MapMotion::before_from_after(const Eigen::Vector3d& point_after) const {
-  return nearest(keyframes_, point_after, &PoseChange::after_from_camera).after_from_before().inverse();
-}
-
 FinalMap add_later(const FinalMap& earlier, const LaterMap& later, double voxel_m, VoxelChanges& changes) {
   FinalMap merged = earlier;
   BlockMerge merge(later, voxel_m, changes);
@@ -178,18 +154,6 @@ FinalMap add_later(const FinalMap& earlier, const LaterMap& later, double voxel_
       merged.blocks[key] = std::make_shared<const FinalBlock>(std::move(block));
   }
   return merged;
-}
-
-Eigen::Vector3d corner_of(const OcTreeKey& key, double voxel_m) {
-  return voxel_m * (Eigen::Vector3d(key[0], key[1], key[2]) - Eigen::Vector3d::Constant(kOriginKey));
-}
-
-OcTreeKey key_around(const Eigen::Vector3d& point, double voxel_m) {
-  const auto along = [&](int axis) {
-    const double key = std::floor(point[axis] / voxel_m) + kOriginKey;
-    return static_cast<std::uint16_t>(std::clamp(key, 0.0, 2 * kOriginKey - 1));
-  };
-  return {along(0), along(1), along(2)};
 }
 
 }  // namespace rds::mapper

@@ -3,25 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 
-#include "common/geometry/pose_change.hpp"
 #include "services/mapper/core/evidence/final_map.hpp"
+#include "services/mapper/core/evidence/map_motion.hpp"
 
 namespace rds::mapper {
-
-/// How a map goes from the frame that it was made in to another one: each place as the keyframe next to it.
-class MapMotion {
- public:
-  /// @param keyframes  at least one. @throws std::invalid_argument without one.
-  explicit MapMotion(std::span<const geometry::PoseChange> keyframes);
-  [[nodiscard]] geometry::Pose after_from_before(const Eigen::Vector3d& point_before) const;
-  [[nodiscard]] geometry::Pose before_from_after(const Eigen::Vector3d& point_after) const;
-
- private:
-  std::span<const geometry::PoseChange> keyframes_;
-};
 
 /// A map of a later time, and how it lies in an earlier one.
 struct LaterMap {
@@ -48,9 +35,5 @@ struct VoxelChanges {
 /// Grids that are turned to each other do not meet: a surface of the earlier map stays where any voxel of the
 /// later one that it touches is not free. Colours and votes on labels are sums.
 FinalMap add_later(const FinalMap& earlier, const LaterMap& later, double voxel_m, VoxelChanges& changes);
-
-/// Lowest corner of a voxel, and the key of the one around a point [m].
-Eigen::Vector3d corner_of(const octomap::OcTreeKey& key, double voxel_m);
-octomap::OcTreeKey key_around(const Eigen::Vector3d& point, double voxel_m);
 
 }  // namespace rds::mapper

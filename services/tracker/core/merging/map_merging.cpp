@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/loop_fusion.hpp"
-#include "services/tracker/core/mapping/submap_fit.hpp"
+#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/merging/common_place.hpp"
 #include "services/tracker/core/merging/map_union.hpp"
-#include "services/tracker/core/relocalization/relocalizer.hpp"
 
 namespace rds::tracker {
 namespace {
-
-using Sightings = std::vector<FoundKeyframe>;
 
 // Features are found again on a pyramid whose levels are 20 % apart.
 constexpr double kMaxFocalDifference = 0.1;
@@ -40,53 +36,6 @@ std::string other_camera(const geometry::CameraModel& earlier, const geometry::C
   return fmt::format(
       "was made with a camera of {}x{} pixels and a focal length of {:.1f} px, expected {}x{} and {:.1f}",
       later.width, later.height, later.fx, earlier.width, earlier.height, earlier.fx);
-}
-
-/// Where keyframes of the later map show what the earlier one shows, by their ids.
-Sightings find_later_in_earlier(SlamMap& map, const SlamMap& earlier, const PoseSettings& settings,
-                                KeyframeId first_of_later) {
-  Relocalizer relocalizer;
-  relocalizer.index_all(earlier);
-  std::vector<KeyframeId> later;
-  std::as_const(map).keyframes().for_each([&](const Keyframe& k) { later.push_back(k.id); }, first_of_later);
-  Sightings found;
-  for (const KeyframeId id : later)
-    if (auto seen = relocalizer.find_in_others(map, settings, id)) found.push_back(*seen);
-  return found;
-}
-
-/// How many sightings agree with each.
-std::vector<std::size_t> agreements(const SlamMap& map, const Sightings& found) {
-  std::vector<std::size_t> counts;
-  for (const FoundKeyframe& a : found)
-    counts.push_back(static_cast<std::size_t>(
-        std::ranges::count_if(found, [&](const FoundKeyframe& b) { return agree(map, a.match, b.match); })));
-  return counts;
-}
-
-/// The sighting that most others agree with, of those that nothing contradicts.
-tl::expected<LoopMatch, std::string> choose(const SlamMap& map, const Sightings& found, std::size_t searched,
-                                            const DepthConfig& depth) {
-  std::vector<std::size_t> agreeing = agreements(map, found);
-  bool is_contradicted = false;
-  while (!agreeing.empty()) {
-    const auto best = std::ranges::max_element(agreeing);  // the first of equal ones
-    if (*best < kAgreeingSightings) break;
-    const LoopMatch& match = found[static_cast<std::size_t>(best - agreeing.begin())].match;
-    const bool is_confirmed = std::ranges::any_of(found, [&](const FoundKeyframe& f) {
-      return agree(map, match, f.match) && confirms(map, f.match, depth);
-    });
-    if (is_confirmed && fits(map, move_of(map, match))) return match;
-    is_contradicted = true;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (agree(map, match, found[i].match)) agreeing[i] = 0;
-  }
-  if (is_contradicted)
-    return tl::unexpected<std::string>(
-        "shows places of it, but what both measured there contradicts each other");
-  return tl::unexpected(fmt::format(
-      "{} of its {} keyframes were found, expected {} that agree on how the maps lie to each other",
-      found.size(), searched, kAgreeingSightings));
 }
 
 Pose placed_by(const SlamMap& map, const LoopMatch& match) {
@@ -165,7 +114,7 @@ tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const S
   const Sightings found = find_later_in_earlier(map, earlier.map, settings, merged.first_of_later);
   joint.searched = later.map.keyframes().size();
   joint.found = found.size();
-  const auto chosen = choose(map, found, joint.searched, depth);
+  const auto chosen = choose_joint(map, found, joint.searched, depth);
   if (!chosen) return tl::unexpected(chosen.error());
   const Pose before = map.pose_of(chosen->later);
   move_submap(map, move_of(map, *chosen));

@@ -19,11 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// Of the recording: the earlier part goes from a corridor into a room, the later one from that room into
-// another.
-constexpr int kEarlierFrames = 190;
+// Of the recording: the earlier part goes from a corridor into a room, the later one from that room back
+// into another part of the corridor.
+constexpr int kEarlierFrames = 170;
 constexpr int kLaterStart = 130;
-constexpr int kLaterFrames = 170;
+constexpr int kLaterFrames = 135;
 
 ProcessResult merge(const fs::path& a, const fs::path& b, const fs::path& out,
                     const std::vector<std::string>& further = {}) {
@@ -49,9 +49,6 @@ class MapMerge : public ::testing::Test {
                "--frames", std::to_string(kFrames)});
     return static_cast<double>(geometry::read_trajectory(place / name / "trajectory.txt").value().size()) /
            kFrames;
-  }
-  evaluation::MapScore score_of(const std::string& name) const {
-    return evaluation::score_map({floor, floor, place / name}).value();
   }
   /// The later map without one part.
   fs::path without(const std::string& part) const {
@@ -80,15 +77,16 @@ void MapMerge::expect_one_frame(const nlohmann::json& report) const {
   EXPECT_EQ(keyframes.size(), report["keyframes"].get<std::size_t>());
   const auto errors = evaluation::evaluate_trajectory(truth, keyframes, {});
   ASSERT_TRUE(errors);
-  EXPECT_GE(errors->pairs.size(), keyframes.size() * 9 / 10) << "but for frames of both";
+  EXPECT_GE(errors->pairs.size(), keyframes.size() * 3 / 4) << "one of two that both have of a frame";
   EXPECT_LE(errors->absolute_m.rmse, 0.012);
 }
 
 void MapMerge::expect_the_surfaces_of_both() const {
-  const evaluation::MapScore merged = score_of("merged");
-  const double of_parts = std::min(score_of("earlier").static_recall, score_of("later").static_recall);
-  EXPECT_GE(merged.static_recall, of_parts - 0.02);
-  EXPECT_GE(merged.precision, 0.99);
+  constexpr int kEvery = 20;  // frames: enough to see all surfaces
+  const auto merged = evaluation::score_map({floor, floor, place / "merged", kEvery});
+  ASSERT_TRUE(merged) << merged.error();
+  EXPECT_GE(merged->static_recall, 0.98) << "one run over all frames has 1.000";
+  EXPECT_GE(merged->precision, 0.99);
 }
 
 void MapMerge::expect_refused(const fs::path& a, const fs::path& b, const std::string& words) const {
@@ -113,7 +111,7 @@ TEST_F(MapMerge, TwoPartsOfAFloorAreOneMapAndWhatIsNoMapIsRefused) {
   ASSERT_NO_FATAL_FAILURE(expect_one_frame(nlohmann::json::parse(result.standard_output)));
   expect_the_surfaces_of_both();
   EXPECT_GE(found_from(kEarlierFrames / 4), 0.8) << "in the part that only the earlier map has";
-  EXPECT_GE(found_from(kLaterStart + kLaterFrames * 3 / 4), 0.8) << "… the later map has";
+  EXPECT_GE(found_from(kLaterStart + kLaterFrames - 20), 0.8) << "… the later map has";
 
   ASSERT_EQ(merge(earlier, place / "later", place / "again").status, 0);
   for (const char* file : {"map.rds", "map.ot", "objects.json", "keyframes.txt"})

@@ -83,9 +83,11 @@ void add_map_command(CLI::App& rds) {
   add_subcommand(*map, "info", "Size, bounds and contents", std::make_shared<MapOptions>(), info);
 
   const auto saved = std::make_shared<MapOptions>();
-  auto* saving = add_subcommand(*map, "save", "Write the map as OctoMap .ot, or as .rds or by a name for the services to go on from",
-                                saved, save);
-  saving->add_option("file", saved->output, "File to write, or a name in the services' folder of maps")->required();
+  auto* saving = add_subcommand(
+      *map, "save", "Write the map as OctoMap .ot, or as .rds or by a name for the services to go on from",
+      saved, save);
+  saving->add_option("file", saved->output, "File to write, or a name in the services' folder of maps")
+      ->required();
 
   const auto exported = std::make_shared<MapOptions>();
   auto* exporting =

@@ -14,6 +14,7 @@ class PoseWithCovarianceStamped;
 namespace nav_msgs::msg {
 class OccupancyGrid;
 class Odometry;
+class Path;
 }  // namespace nav_msgs::msg
 namespace octomap_msgs::msg {
 class Octomap;
@@ -110,6 +111,7 @@ inline constexpr Topic<rds_msgs::msg::KeyFramePoses> kKeyframePoses{
     "rds/keyframe/poses",
     {{kTracker, bus::kPoses}, {kLoopCloser, bus::kLatched}},
     {{kTracker | kTransformer | kMapper | kPlayer | kViewer, bus::kLatchedEvery}}};
+inline constexpr Topic<nav_msgs::msg::Path> kTrajectory{"rds/trajectory", {{kTracker, bus::kLatched}}, {}};
 inline constexpr Topic<vision_msgs::msg::Detection2DArray> kDetections{
     "rds/detections", {{kDetector, bus::kStream}}, {{kTransformer | kPlayer, bus::kStream}}};
 inline constexpr Topic<vision_msgs::msg::Detection3DArray> kBoxes{
@@ -206,6 +208,7 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kKeyframeImages,
                                        kKeyframeFeatures,
                                        kKeyframePoses,
+                                       kTrajectory,
                                        kDetections,
                                        kBoxes,
                                        kMapDelta,

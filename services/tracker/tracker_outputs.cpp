@@ -73,6 +73,7 @@ TrackerOutputs::TrackerOutputs(service::ServiceContext& context, const FramesCon
       submap_frame_(context.frame("submap")),
       default_camera_frame_(context.frame("camera_color_optical_frame")),
       odometry_(context, frames),
+      path_(context),
       state_(topics::advertise(context.bus, topics::kTrackingState, topics::kTracker)),
       boxes_(topics::advertise(context.bus, topics::kPredictedBoxes, topics::kTracker)),
       obstacles_(topics::advertise(context.bus, topics::kObstacles, topics::kTracker)),
@@ -94,7 +95,7 @@ void TrackerOutputs::set_epoch(std::uint64_t map_epoch) {
 bool TrackerOutputs::has_new_reader() {
   const int readers = keyframe_poses_.matched();
   informed_readers_ = std::min(informed_readers_, readers);
-  return readers > informed_readers_;
+  return readers > informed_readers_ || path_.has_new_reader();
 }
 
 void TrackerOutputs::publish(const FrameReport& report) {
@@ -233,10 +234,12 @@ std::uint64_t TrackerOutputs::publish_poses(std::span<const KeyframePose> poses,
   message.loop_revision(loops.revision);
   message.loops_closed(loops.loops_closed);
   if (!poses.empty()) message.answered_keyframe_id(poses.back().id);
-  const bool has_new = has_new_reader();
-  informed_readers_ = keyframe_poses_.matched();
+  const int readers = keyframe_poses_.matched();
+  const bool has_new = readers > informed_readers_;
+  informed_readers_ = readers;
   messages::append_poses(pose_changes_.next(poses, has_new || exact, message), message);
   keyframe_poses_.write(message);
+  path_.publish(poses, exact);
   return pose_changes_.revision();
 }
 

@@ -21,6 +21,7 @@
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/odometry/odometry_output.hpp"
+#include "services/tracker/odometry/path_output.hpp"
 
 namespace rds::tracker {
 
@@ -66,7 +67,7 @@ class TrackerOutputs {
   /// A keyframe of the map, to the loop closer; those of a submap once that was joined to the map.
   void publish_features_of(const KeyframeData& keyframe, const FrameReport& report);
 
-  /// True while a new subscriber to the poses has not got all of them.
+  /// True while a new subscriber to poses or path has not got all of them.
   bool has_new_reader();
 
   OdometryOutput& odometry() { return odometry_; }
@@ -92,6 +93,7 @@ class TrackerOutputs {
   messages::MovedKeyframes moved_;  // since the loop closer was told of a keyframe
   int informed_readers_ = 0;        // subscribers that have got all poses
   OdometryOutput odometry_;
+  PathOutput path_;
   bus::Publisher<rds_msgs::msg::TrackingState> state_;
   bus::Publisher<rds_msgs::msg::PredictedBoxes> boxes_;
   bus::Publisher<sensor_msgs::msg::PointCloud2> obstacles_;

@@ -158,7 +158,8 @@ class Mutations : public ::testing::TestWithParam<const char*> {
     ASSERT_EQ(answers.size(), Fleet::kServices.size()) << "after " << after;
   }
 
-  /// Strangers that the others take for the tracker: it is silent, and they write as another instance.
+  /// Strangers that the others take for the tracker: it is silent, and they write as another instance. That
+  /// is over before the others' DDS gives it up (lease of 10 s): what follows then is another test's affair.
   void write_as_the_tracker(const std::vector<std::unique_ptr<Stranger>>& all) {
     const pid_t tracker = fleet_.services().front()->pid();
     ::kill(tracker, SIGSTOP);
@@ -167,10 +168,9 @@ class Mutations : public ::testing::TestWithParam<const char*> {
       stranger->speak_as(kInstance);
       write(*stranger, mutations());
       EXPECT_TRUE(fleet_.all_run()) << "after " << stranger->topic() << "\n" << fleet_.log();
-      EXPECT_EQ(commander_.ask_status(Fleet::kServices.size() - 1, {}, 10s).size(),
-                Fleet::kServices.size() - 1)
-          << "after " << stranger->topic();
     }
+    EXPECT_EQ(commander_.ask_status(Fleet::kServices.size() - 1, {}, 10s).size(),
+              Fleet::kServices.size() - 1);
     ::kill(tracker, SIGCONT);
     expect_well("all of them, written as the tracker");
   }

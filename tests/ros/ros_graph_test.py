@@ -31,7 +31,7 @@ ROBOTS = {"robot1": ["--namespace", "robot1", "--frame-prefix", "robot1/", "--ro
           "robot2": ["--ros-args", "-r", "__ns:=/robot2", "-p", "frame_prefix:=robot2/", *OWN_TF]}  # as a launch file starts them
 GLOBAL = ("/diagnostics",)
 # Reliable and latched, as the table of topics says.
-QOS = {"rds/odometry": (True, False), "tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
+QOS = {"rds/odometry": (True, False), "rds/trajectory": (True, True), "tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
        "rds/services": (True, True), "rds/transfer/requests": (False, False), "/diagnostics": (True, False)}
 
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keyframes as bytes and back.
+#include "services/loop_closer/core/map_bytes.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -39,7 +41,44 @@ KeyframeView get_view(ByteReader& reader) {
   return view;
 }
 
+struct SavedKeyframe {
+  std::uint64_t id = 0;
+  KeyframeView view;
+};
+
+tl::expected<std::vector<SavedKeyframe>, std::string> keyframes_from(std::span<const std::uint8_t> bytes) {
+  ByteReader reader(bytes);
+  const std::size_t count = reader.get_count(kKeyframeBytes);
+  std::vector<SavedKeyframe> keyframes;
+  for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+    const auto id = reader.get<std::uint64_t>();
+    keyframes.push_back({id, get_view(reader)});
+  }
+  if (const auto read = reader.finish(); !read) return tl::unexpected(read.error());
+  return keyframes;
+}
+
 }  // namespace
+
+tl::expected<map_file::Bytes, std::string> merge_maps(std::span<const std::uint8_t> earlier,
+                                                      std::span<const std::uint8_t> later,
+                                                      std::uint64_t first_of_later) {
+  const auto first = keyframes_from(earlier);
+  if (!first) return tl::unexpected(first.error());
+  const auto second = keyframes_from(later);
+  if (!second) return tl::unexpected(second.error());
+  ByteWriter writer;
+  writer.put_count(first->size() + second->size());
+  for (const SavedKeyframe& keyframe : *first) {
+    writer.put(keyframe.id);
+    put(writer, keyframe.view);
+  }
+  for (const SavedKeyframe& keyframe : *second) {
+    writer.put(keyframe.id + first_of_later);
+    put(writer, keyframe.view);
+  }
+  return writer.take();
+}
 
 map_file::Bytes LoopCloser::to_bytes() const {
   ByteWriter writer;

@@ -95,6 +95,19 @@ map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up) {
   return writer.take();
 }
 
+tl::expected<double, std::string> voxel_size_of(std::span<const std::uint8_t> bytes) {
+  constexpr double kMin = 0.01;  // that can be set
+  constexpr double kMax = 1;
+  ByteReader reader(bytes);
+  (void)LabelTable::get(reader);
+  map_file::get_vector(reader);
+  const auto voxel_m = reader.get<double>();
+  if (reader.ok() && (voxel_m < kMin || voxel_m > kMax))
+    reader.refuse(fmt::format("voxels of {} m", voxel_m));
+  if (!reader.ok()) return tl::unexpected(reader.finish().error());
+  return voxel_m;
+}
+
 ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config) {
   ByteReader reader(bytes);
   SavedMap saved{nullptr, ObjectDatabase(config.objects), LabelTable::get(reader),

@@ -29,6 +29,9 @@ ReadMap saved_map_from(octomap::ColorOcTree&& tree, const MapperConfig& config);
 /// From what to_bytes() gave: with labels, objects and the direction of gravity.
 ReadMap saved_map_from(std::span<const std::uint8_t> bytes, const MapperConfig& config);
 
+/// The size of a saved map's voxels [m]. @return or what is wrong with the bytes.
+tl::expected<double, std::string> voxel_size_of(std::span<const std::uint8_t> bytes);
+
 /// The map with all that further keyframes need of it; not the keyframes.
 /// @param up  unit vector against gravity in the map frame.
 map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up);

@@ -54,10 +54,10 @@ std::optional<JoinedSubmap> Tracker::join_submaps() {
   localizer_.relocalizer().index_pending(map);
   const auto seen = localizer_.relocalizer().find_in_others(map, localizer_.settings(), newest);
   if (!seen) return std::nullopt;
-  const auto agreeing = sightings_.add(map, *seen);
+  const auto agreeing = sightings_.add(map, seen->match);
   if (agreeing.empty()) return std::nullopt;
   const Pose before = last_map_from_camera();
-  const SubmapMove move = move_of(map, *seen);
+  const SubmapMove move = move_of(map, seen->match);
   JoinedSubmap joined{move.moved, {}};
   if (move.into == Submaps::kMap)
     std::as_const(map).keyframes().for_each([&](const Keyframe& k) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <future>
 #include <optional>
 #include <set>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/topics/topics.hpp"
 #include "nav_msgs/msg/Odometry.h"
+#include "nav_msgs/msg/Path.h"
 #include "tests/integration/camera/camera_driver.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
@@ -141,6 +143,25 @@ TEST_P(FramesBesideFastDds, AreNotToldWhereASettingSaysSo) {
   track();
   EXPECT_TRUE(seen().empty());
   EXPECT_EQ(odometry_.child_frame_id(), kOptical) << "odometry is";
+}
+
+TEST_P(Frames, APathOfKeyframesIsThereForWhoComesLate) {
+  start({});
+  track();
+  std::promise<nav_msgs::msg::Path> told;
+  const auto paths = driver_->bus().subscribe<nav_msgs::msg::Path>(
+      "rds/trajectory", bus::kLatched, [&, is_first = true](const auto& m) mutable {
+        if (std::exchange(is_first, false)) told.set_value(*m);
+      });
+  auto path = told.get_future();
+  ASSERT_EQ(path.wait_for(10s), std::future_status::ready);
+  const nav_msgs::msg::Path way = path.get();
+  EXPECT_EQ(way.header().frame_id(), "map");
+  ASSERT_FALSE(way.poses().empty());
+  EXPECT_EQ(messages::to_nanoseconds(way.poses().front().header().stamp()),
+            TrackerWithDriver::frames()[0].stamp_ns);
+  EXPECT_LT(messages::to_pose(way.poses().front().pose()).value().translation().norm(), 1e-3)
+      << "the map begins there";
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Frames, ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),

@@ -11,6 +11,7 @@
 #include "tools/rds/cli/exit.hpp"
 #include "tools/rds/map/map_diff_command.hpp"
 #include "tools/rds/map/map_export.hpp"
+#include "tools/rds/map/map_merge_command.hpp"
 #include "tools/rds/map/map_names_command.hpp"
 #include "tools/rds/map/map_source.hpp"
 
@@ -82,9 +83,11 @@ void add_map_command(CLI::App& rds) {
   add_subcommand(*map, "info", "Size, bounds and contents", std::make_shared<MapOptions>(), info);
 
   const auto saved = std::make_shared<MapOptions>();
-  auto* saving = add_subcommand(*map, "save", "Write the map as OctoMap .ot, or as .rds or by a name for the services to go on from",
-                                saved, save);
-  saving->add_option("file", saved->output, "File to write, or a name in the services' folder of maps")->required();
+  auto* saving = add_subcommand(
+      *map, "save", "Write the map as OctoMap .ot, or as .rds or by a name for the services to go on from",
+      saved, save);
+  saving->add_option("file", saved->output, "File to write, or a name in the services' folder of maps")
+      ->required();
 
   const auto exported = std::make_shared<MapOptions>();
   auto* exporting =
@@ -103,6 +106,7 @@ void add_map_command(CLI::App& rds) {
   auto* querying = add_subcommand(*map, "query", "What is at a point of the map frame", queried, query);
   querying->add_option("point", queried->point, "X Y Z [m]")->required()->expected(3);
   add_map_diff_command(*map);
+  add_map_merge_command(*map);
   add_map_names_commands(*map);
 }
 

@@ -44,7 +44,8 @@ Topics besides(const Topics& camera_topics) {
 std::vector<Role> roles(const Topics& camera_topics) {
   const Topics diagnostics{topics::kDiagnostics.name};
   const Topics transforms{topics::kTransforms.name, topics::kStaticTransforms.name};
-  const Topics poses{topics::kOdometry.name, topics::kTransforms.name, topics::kTrackingState.name};
+  const Topics poses{topics::kOdometry.name, topics::kTransforms.name, topics::kTrackingState.name,
+                     topics::kTrajectory.name};
   return {
       service("tracker", topics::kTracker, besides(camera_topics) + transforms),
       service("detector", topics::kDetector),

@@ -100,6 +100,21 @@ void FinalBlock::add(std::uint16_t cell, LogOdds log_odds, const VoxelLook& look
   looks[cell] = look;
 }
 
+const LogOdds* FinalMap::value(const octomap::OcTreeKey& voxel) const {
+  const auto block = blocks.find(packed(block_key(voxel)));
+  const std::uint16_t cell = cell_of(voxel);
+  const bool is_known = block != blocks.end() && block->second->occupancy.known.has(cell);
+  return is_known ? &block->second->occupancy.values[cell] : nullptr;
+}
+
+const VoxelLook* FinalMap::look(const octomap::OcTreeKey& voxel) const {
+  const LogOdds* log_odds = value(voxel);
+  if (log_odds == nullptr || *log_odds <= 0) return nullptr;
+  const auto& looks = blocks.at(packed(block_key(voxel)))->looks;
+  const auto look = looks.find(cell_of(voxel));
+  return look == looks.end() ? nullptr : &look->second;
+}
+
 void FinalMap::put(ByteWriter& writer) const {
   writer.put(static_cast<std::uint8_t>(origin_ms.has_value()));
   writer.put(origin_ms.value_or(0));

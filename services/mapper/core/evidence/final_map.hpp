@@ -25,6 +25,11 @@ struct FinalMap {
   std::map<std::uint64_t, std::shared_ptr<const FinalBlock>> blocks;
   std::optional<std::int64_t> origin_ms;  // that the blocks' times count from; nullopt: they count from none
 
+  /// Log-odds of a voxel; nullptr if nothing is known of it.
+  [[nodiscard]] const LogOdds* value(const octomap::OcTreeKey& voxel) const;
+  /// Of an occupied voxel; nullptr of any other.
+  [[nodiscard]] const VoxelLook* look(const octomap::OcTreeKey& voxel) const;
+
   void put(map_file::ByteWriter& writer) const;
   /// @param labels  of the label table. Refuses what put() cannot have written.
   static FinalMap get(map_file::ByteReader& reader, std::size_t labels);

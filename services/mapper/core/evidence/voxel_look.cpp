@@ -41,6 +41,15 @@ void VoxelLook::add(const VoxelLook& other) {
   for (const Votes& votes : other.votes_) vote(votes, 1);
 }
 
+VoxelLook VoxelLook::relabelled(std::span<const std::uint16_t> index_of) const {
+  VoxelLook look = *this;
+  look.votes_.clear();
+  for (const Votes& votes : votes_)  // a full table has no index for some
+    if (const std::uint16_t label = index_of[votes.label]; label != 0)
+      look.vote({label, votes.count, votes.against}, 1);
+  return look;
+}
+
 std::array<std::uint8_t, 3> VoxelLook::color() const {
   const auto channel = [&](std::size_t c) {
     return static_cast<std::uint8_t>((2 * rgb_sum_[c] + keyframes_) / (2 * keyframes_));

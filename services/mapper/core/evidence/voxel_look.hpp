@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/map_file/byte_reader.hpp"
@@ -27,6 +28,8 @@ class VoxelLook {
   /// What was added before.
   void remove(const SurfaceLook& look) { count(look, -1); }
   void add(const VoxelLook& other);
+  /// The same with the labels of another table. @param index_of  each label's index there, by its index here.
+  [[nodiscard]] VoxelLook relabelled(std::span<const std::uint16_t> index_of) const;
 
   [[nodiscard]] bool empty() const { return keyframes_ == 0; }
   [[nodiscard]] std::array<std::uint8_t, 3> color() const;

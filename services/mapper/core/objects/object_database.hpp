@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "common/map_file/byte_reader.hpp"
@@ -39,6 +40,18 @@ class ObjectDatabase {
   /// Objects that are new since reserve_ids_of(before) get the id of the object of `before` of which they
   /// have most sightings, of several whole ones the lowest, or else the next one. No two have the same.
   void take_ids_from(const ObjectDatabase& before);
+
+  /// Whether an object stands where it is known to stand.
+  using IsThere = std::function<bool(const MapObject& object)>;
+  /// Those that do not have gone. @return how many went now.
+  std::size_t let_go_unless(const IsThere& is_there);
+  /// How what lies at a point of the later map goes to this one.
+  using HereFromThere = std::function<geometry::Pose(const Eigen::Vector3d& point)>;
+  /// Adds the objects of a map of a later time: one that is there already, by place and label as sightings
+  /// are told, keeps its id, with the evidence of both, and has gone if it had gone later; others get the
+  /// next ids. Sightings are not taken over.
+  /// @return how many were there already.
+  std::size_t add_later(const ObjectDatabase& later, const HereFromThere& here_from_there);
 
   /// All that is known of every object, the one seen once too, but for its sightings.
   void put(map_file::ByteWriter& writer) const;

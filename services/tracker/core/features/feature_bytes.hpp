@@ -15,6 +15,8 @@ inline constexpr std::size_t kFeatureBytes = 24 + 2 + sizeof(Descriptor);
 
 /// Features are found again on the same image pyramid only.
 void put_pyramid(map_file::ByteWriter& writer, const ExtractionConfig& extraction);
+/// The levels and their factor; refuses impossible ones.
+ExtractionConfig get_pyramid(map_file::ByteReader& reader);
 /// Refuses another one than this.
 void expect_pyramid(map_file::ByteReader& reader, const ExtractionConfig& extraction);
 

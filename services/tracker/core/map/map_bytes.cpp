@@ -123,6 +123,13 @@ map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const Ex
   return writer.take();
 }
 
+tl::expected<ExtractionConfig, std::string> pyramid_of(std::span<const std::uint8_t> bytes) {
+  ByteReader reader(bytes);
+  const ExtractionConfig extraction = get_pyramid(reader);
+  if (!reader.ok()) return tl::unexpected(reader.finish().error());
+  return extraction;
+}
+
 tl::expected<SavedMap, std::string> map_from_bytes(std::span<const std::uint8_t> bytes,
                                                    std::span<const KeyframePose> poses,
                                                    const ExtractionConfig& extraction) {

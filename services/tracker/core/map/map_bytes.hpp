@@ -25,9 +25,12 @@ void put(map_file::ByteWriter& writer, const std::vector<Observation>& observati
 std::vector<Observation> get_observations(map_file::ByteReader& reader);
 
 /// What of a map cannot be computed again: what is known of the camera, keyframes with their features, map
-/// points and who sees what. Poses are kept apart, as keyframe_poses() gives them. Submaps, which have no place
-/// in the map, are left out.
+/// points and who sees what. Poses are kept apart, as keyframe_poses() gives them. Submaps, which have no
+/// place in the map, are left out.
 map_file::Bytes to_bytes(const SlamMap& map, const KnownCamera& camera, const ExtractionConfig& extraction);
+
+/// The image pyramid of the features in such bytes. @return or what is wrong with it.
+tl::expected<ExtractionConfig, std::string> pyramid_of(std::span<const std::uint8_t> bytes);
 
 /// The map that these bytes and poses describe, all its keyframes fixed. Ids of keyframes stay; those of
 /// points count anew. Covisibility and what is known of each point's appearance are computed from the

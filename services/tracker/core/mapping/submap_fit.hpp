@@ -15,7 +15,7 @@ struct SubmapFit {
 /// Places that look alike do so from near; what is around them does not. What is farther than it was seen
 /// from elsewhere may be hidden there and says nothing.
 SubmapFit fit_of(const SlamMap& map, const SubmapMove& move);
-/// Whether next to nothing contradicts the move.
+/// Whether next to nothing contradicts the move, or little more than either submap contradicts itself by.
 bool fits(const SlamMap& map, const SubmapMove& move);
 
 }  // namespace rds::tracker

@@ -8,7 +8,6 @@
 namespace rds::tracker {
 namespace {
 
-constexpr std::size_t kAgreeing = 3;
 constexpr std::size_t kNewest = 6;
 constexpr double kMaxDifferenceM = 0.10;  // as of loops: a place is found to a few centimetres
 constexpr double kMaxDifferenceRad = 0.05;
@@ -22,17 +21,20 @@ bool is_of_same_submaps(const Submaps& submaps, const LoopMatch& a, const LoopMa
   return submaps.of(a.later) == submaps.of(b.later) && submaps.of(a.earlier) == submaps.of(b.earlier);
 }
 
-/// Whether both place the newest keyframe alike.
-bool agree(const SlamMap& map, const LoopMatch& newest, const LoopMatch& before) {
-  if (!is_of_same_submaps(map.records().submaps(), newest, before)) return false;
-  const Pose by_newest = map.pose_of(newest.earlier) * newest.earlier_from_later;
-  const Pose by_before = earlier_from_later_submap(map, before) * map.pose_of(newest.later);
-  const Pose difference = by_newest.inverse() * by_before;
+}  // namespace
+
+bool are_one(const Pose& a, const Pose& b) {
+  const Pose difference = a.inverse() * b;
   return difference.translation().norm() <= kMaxDifferenceM &&
          geometry::rotation_angle_rad(difference.linear()) <= kMaxDifferenceRad;
 }
 
-}  // namespace
+bool agree(const SlamMap& map, const LoopMatch& newest, const LoopMatch& before) {
+  if (!is_of_same_submaps(map.records().submaps(), newest, before)) return false;
+  const Pose by_newest = map.pose_of(newest.earlier) * newest.earlier_from_later;
+  const Pose by_before = earlier_from_later_submap(map, before) * map.pose_of(newest.later);
+  return are_one(by_newest, by_before);
+}
 
 std::vector<LoopMatch> SubmapSightings::add(const SlamMap& map, const LoopMatch& seen) {
   std::erase_if(seen_, [&](const LoopMatch& s) {  // not all poses are kept for ever
@@ -44,7 +46,7 @@ std::vector<LoopMatch> SubmapSightings::add(const SlamMap& map, const LoopMatch&
   agreeing.push_back(seen);
   seen_.push_back(seen);
   if (seen_.size() > kNewest) seen_.pop_front();
-  if (agreeing.size() < kAgreeing) agreeing.clear();
+  if (agreeing.size() < kAgreeingSightings) agreeing.clear();
   return agreeing;
 }
 

@@ -8,6 +8,13 @@
 
 namespace rds::tracker {
 
+/// Sightings that have to agree on how two submaps lie to each other.
+inline constexpr std::size_t kAgreeingSightings = 3;
+/// Whether two poses of a keyframe are one, as far as sightings tell.
+bool are_one(const Pose& a, const Pose& b);
+/// Whether both sightings are of the same two submaps, and place the keyframe of the first alike.
+bool agree(const SlamMap& map, const LoopMatch& newest, const LoopMatch& before);
+
 /// Where keyframes of one submap were found in another one. One picture can deceive; three of the newest six
 /// sightings that place the submaps alike do not.
 /// Source: Mur-Artal & Tardós 2017 (consecutive detections); Campos et al. 2021, §VI-A.

@@ -140,8 +140,8 @@ bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) 
   });
 }
 
-std::optional<geometry::LoopMatch> Relocalizer::find_in_others(SlamMap& map, const PoseSettings& settings,
-                                                               KeyframeId id) const {
+std::optional<FoundKeyframe> Relocalizer::find_in_others(SlamMap& map, const PoseSettings& settings,
+                                                         KeyframeId id) const {
   const Keyframe* keyframe = std::as_const(map).keyframe(id);
   if (keyframe == nullptr) return std::nullopt;
   image::RgbdFrame no_picture;
@@ -158,7 +158,8 @@ std::optional<geometry::LoopMatch> Relocalizer::find_in_others(SlamMap& map, con
     if (tried++ == kCandidatesElsewhere) break;
     if (!localize_against(context, place.id, frame)) continue;
     const Pose found_from_map = std::as_const(map).keyframe(place.id)->map_from_camera.inverse();
-    return geometry::LoopMatch{id, place.id, found_from_map * frame.camera_from_map.inverse()};
+    return FoundKeyframe{{id, place.id, found_from_map * frame.camera_from_map.inverse()},
+                         frame.static_matches()};
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 
 namespace rds::tracker {
 
+<<<<<<< HEAD
 /// Where somebody says that the camera is, in a level map: over the ground, and which way it looks.
 struct SoughtPlace {
   Pose map_from_camera = Pose::Identity();
@@ -17,6 +18,12 @@ struct SoughtPlace {
 
   /// True of a camera that stands and looks so. Of one that looks steeply up or down only the place counts.
   [[nodiscard]] bool contains(const Pose& map_from_other) const;
+=======
+/// A keyframe that was found in another submap.
+struct FoundKeyframe {
+  geometry::LoopMatch match;
+  int inliers = 0;  // map points that agree
+>>>>>>> main
 };
 
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,
@@ -37,8 +44,8 @@ class Relocalizer {
   bool localize_around(const TrackingContext& context, const SoughtPlace& place, TrackedFrame& frame) const;
   /// Looks for the place that a keyframe shows among the keyframes of other submaps.
   /// @return nullopt if fewer than kMinInliers map points agree, or all of them lie in one plane.
-  std::optional<geometry::LoopMatch> find_in_others(SlamMap& map, const PoseSettings& settings,
-                                                    KeyframeId keyframe) const;
+  std::optional<FoundKeyframe> find_in_others(SlamMap& map, const PoseSettings& settings,
+                                              KeyframeId keyframe) const;
   /// Finds the points of a keyframe and of its covisible keyframes in a frame whose pose is known to a few
   /// centimetres and degrees: frame.points and camera_from_map hold the result.
   static void localize_near(const TrackingContext& context, const Keyframe& keyframe, TrackedFrame& frame);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "services/loop_closer/core/map_bytes.hpp"
+
 #include <gmock/gmock.h>
 
 #include "services/loop_closer/core/loop_closer.hpp"
@@ -104,6 +106,22 @@ TEST_F(SavedKeyframes, AKeyframeWithoutAPoseIsNamed) {
   LoopCloser closer;
   poses.pop_back();
   EXPECT_THAT(closer.start_from(bytes, poses).error(), HasSubstr("keyframe 31, which has no pose"));
+}
+
+TEST_F(SavedKeyframes, ThoseOfTwoMapsAreKeyframesOfOne) {
+  constexpr std::uint64_t kFirst = 100;
+  const auto both = merge_maps(bytes, bytes, kFirst);
+  ASSERT_TRUE(both) << both.error();
+  std::vector<KeyframePose> of_both = poses;
+  for (const KeyframePose& p : poses) of_both.push_back({p.id + kFirst, p.stamp_ns, p.map_from_camera});
+  LoopCloser closer;
+  const auto read = closer.start_from(*both, of_both);
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(closer.keyframes(), 2 * kSaved);
+  EXPECT_EQ(closer.to_bytes(), *both);
+  EXPECT_EQ(merge_maps(bytes, LoopCloser().to_bytes(), kFirst).value(), bytes);
+  EXPECT_FALSE(merge_maps(bytes, std::span(bytes).first(bytes.size() / 2), kFirst));
+  EXPECT_FALSE(merge_maps(std::span(bytes).first(bytes.size() / 2), bytes, kFirst));
 }
 
 }  // namespace

@@ -61,6 +61,18 @@ TEST(VoxelLook, WhatIsRemovedWasNeverThere) {
   EXPECT_EQ(after.take(), before.take());
 }
 
+TEST(VoxelLook, ItsVotesGoToTheSameLabelsOfAnotherTable) {
+  VoxelLook voxel = look_of(kTable, 2);
+  voxel.add(kChair);
+  constexpr std::array<std::uint16_t, 4> kSwapped{0, 1, 3, 2};
+  const VoxelLook swapped = voxel.relabelled(kSwapped);
+  EXPECT_EQ(voxel.label(), 2);
+  EXPECT_EQ(swapped.label(), 3);
+  EXPECT_EQ(swapped.color(), voxel.color());
+  constexpr std::array<std::uint16_t, 4> kFullTable{0, 1, 0, 3};
+  EXPECT_EQ(voxel.relabelled(kFullTable).label(), 3);
+}
+
 TEST(VoxelLook, OutlastsItsBytesAndRefusesImpossibleOnes) {
   VoxelLook voxel = look_of(kTable, 2);
   voxel.add(kChair);

@@ -9,7 +9,6 @@
 
 namespace rds::tracker {
 
-<<<<<<< HEAD
 /// Where somebody says that the camera is, in a level map: over the ground, and which way it looks.
 struct SoughtPlace {
   Pose map_from_camera = Pose::Identity();
@@ -18,12 +17,12 @@ struct SoughtPlace {
 
   /// True of a camera that stands and looks so. Of one that looks steeply up or down only the place counts.
   [[nodiscard]] bool contains(const Pose& map_from_other) const;
-=======
+};
+
 /// A keyframe that was found in another submap.
 struct FoundKeyframe {
   geometry::LoopMatch match;
   int inliers = 0;  // map points that agree
->>>>>>> main
 };
 
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,

@@ -55,6 +55,16 @@ void ServiceProcess::end_if_hung(double since_last_look_s) {
   _exit(1);
 }
 
+void ServiceProcess::end_if_deaf(double since_last_look_s) {
+  const auto others = std::ranges::count_if(presence_.peers().present(), [this](const Peer& peer) {
+    return peer.status.instance() != context_.instance;
+  });
+  if (!deafness_watch_.look(static_cast<std::size_t>(others), since_last_look_s)) return;
+  spdlog::critical(
+      "ended: it was stopped for a while, and has heard of no other service since; to be started again");
+  _exit(1);
+}
+
 void ServiceProcess::watch(const std::stop_token& stop) {
   const sigset_t signals = stop_signals();
   std::optional<std::chrono::steady_clock::time_point> stopping_since;
@@ -66,7 +76,9 @@ void ServiceProcess::watch(const std::stop_token& stop) {
       _exit(128 + received);
     }
     const auto now = std::chrono::steady_clock::now();
-    end_if_hung(std::chrono::duration<double>(now - last_look).count());
+    const double since_last_look_s = std::chrono::duration<double>(now - last_look).count();
+    end_if_hung(since_last_look_s);
+    end_if_deaf(since_last_look_s);
     last_look = now;
     if (received > 0) {
       stopping_since = now;

@@ -9,6 +9,7 @@
 #include "common/service/commands.hpp"
 #include "common/service/diagnostics_publisher.hpp"
 #include "common/service/presence.hpp"
+#include "common/service/process/deafness_watch.hpp"
 #include "common/service/process/hang_watch.hpp"
 #include "common/service/service_slot.hpp"
 
@@ -36,6 +37,7 @@ class ServiceProcess {
 
   void watch(const std::stop_token& stop);
   void end_if_hung(double since_last_look_s);
+  void end_if_deaf(double since_last_look_s);
   void activate();
   void stand_by();
   void change_role();
@@ -52,6 +54,7 @@ class ServiceProcess {
   std::optional<CommandServices> command_services_;  // while it is the active one
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;
+  DeafnessWatch deafness_watch_;
   std::jthread worker_;
 };
 

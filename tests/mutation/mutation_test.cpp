@@ -163,7 +163,7 @@ class Mutations : public ::testing::TestWithParam<const char*> {
   void write_as_the_tracker(const std::vector<std::unique_ptr<Stranger>>& all) {
     const pid_t tracker = fleet_.services().front()->pid();
     ::kill(tracker, SIGSTOP);
-    std::this_thread::sleep_for(service::Peers::kGoneAfter + 1s);
+    std::this_thread::sleep_for(service::Peers::kGoneAfter + 300ms);
     for (const auto& stranger : all) {
       stranger->speak_as(kInstance);
       write(*stranger, mutations());

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_services.py TRACKER MAPPER: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
+"""ros_services.py TRACKER MAPPER [reset]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
 
-TRACKER, MAPPER  full names ("/rds_tracker"). The grid and commands need nav_msgs and std_srvs; where they are not installed, "grid" and "commands" are missing.
+TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty. The grid and commands need nav_msgs and std_srvs; where they are not installed, "grid" and "commands" are missing.
 """
 
 import json
@@ -50,24 +50,33 @@ class Asker:
         return dict(self.node.get_service_names_and_types_by_node(name, above or "/"))
 
 
-def main():
-    tracker, mapper = sys.argv[1:3]
-    rclpy.init()
-    node = rclpy.create_node("asker")
-    asker = Asker(node)
+def reset(asker, mapper):
+    from std_srvs.srv import Trigger
+    return asker.ask(Trigger, f"{mapper}/reset").success
+
+
+def look(asker, tracker, mapper):
     told = {of: asker.parameters(of) for of in (tracker, mapper)}
     for of in (tracker, mapper):
         told[of]["state"] = asker.ask(GetState, f"{of}/get_state").current_state.label
         told[of]["services"] = asker.services(of)
     try:
         from nav_msgs.srv import GetMap
-        from std_srvs.srv import SetBool, Trigger
+        from std_srvs.srv import SetBool
         grid = asker.ask(GetMap, f"{mapper}/map").map
         told["grid"] = {"frame": grid.header.frame_id, "width": grid.info.width, "height": grid.info.height, "occupied": sum(c == 100 for c in grid.data)}
         told["commands"] = [asker.ask(SetBool, f"{tracker}/pause", data=data).message for data in (True, False)]
-        told["commands"].append(asker.ask(Trigger, f"{mapper}/reset").success)
     except ImportError:
         pass
+    return told
+
+
+def main():
+    tracker, mapper = sys.argv[1:3]
+    rclpy.init()
+    node = rclpy.create_node("asker")
+    asker = Asker(node)
+    told = reset(asker, mapper) if sys.argv[3:] == ["reset"] else look(asker, tracker, mapper)
     print(json.dumps(told), flush=True)
     node.destroy_node()
     rclpy.shutdown()

@@ -178,7 +178,7 @@ class Viewer(unittest.TestCase):
         self.need_node()
         recorded = self.folder / "bag.db3"
         record = self.start("record", PROGRAMS / "rds", "record", recorded, *RECORDED, "--domain", DOMAIN, "--loopback")
-        run, out = self.start_run("0.5")  # so that the page is there before the run is over
+        run, out = self.start_run("0.25")  # so that the page is there before the run is over, however slowly it is drawn
         page = self.child("node", FOLDER / "page.mjs", self.url, PICTURES)
         programs = {name: self.child("node", FOLDER / "foxglove.mjs", f"ws://127.0.0.1:{self.port}", name) for name in ("foxglove.sdk.v1", "foxglove.websocket.v1")}
         for program in programs.values():

@@ -6,7 +6,7 @@
 namespace rds::service {
 
 /// Notices a process that was stopped for so long that the bus gave it up, and that hears of nobody since:
-/// now and then (one stop in ten, beside a flood of messages) two participants of Fast DDS that forget each
+/// now and then (4 of 21 stops of ten seconds beside a flood) two participants of Fast DDS that forget each
 /// other in turn, and not at once, do not find each other again. Started again, they do.
 class DeafnessWatch {
  public:

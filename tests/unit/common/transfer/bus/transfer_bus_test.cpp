@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <ranges>
 #include <thread>
 
@@ -25,7 +26,7 @@ constexpr std::uint64_t kEpoch = 77;
 constexpr std::size_t kMemory = std::size_t{16} << 20U;
 
 ItemServer::Bytes item_of(std::uint64_t number) {
-  ItemServer::Bytes item(100'000 + 1000 * number);
+  ItemServer::Bytes item(100'000 + 1000 * (number % 1000));
   for (std::size_t i = 0; i < item.size(); ++i) item[i] = static_cast<std::uint8_t>(i * 31 + number);
   return item;
 }
@@ -72,7 +73,31 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   }
   /// Until readers are known nothing is kept.
   void share(ItemServer& server, std::uint64_t number) {
-    server.share(kEpoch, Stream::kKeyframeImages, number, [number] { return item_of(number); });
+    server.share(kEpoch, Stream::kKeyframeImages, number, [this, number] {
+      made(number);
+      return item_of(number);
+    });
+  }
+  void made(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    made_ = number;
+    changed_.notify_all();
+  }
+  /// As long as it takes for the first one to arrive. @return the next number
+  std::uint64_t share_until_readers_are_known(ItemServer& server) {
+    std::uint64_t number = 0;
+    for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
+      share(server, number);
+      std::this_thread::sleep_for(50ms);
+    }
+    return number;
+  }
+  /// No faster than they are made: of what waits the server forgets the oldest.
+  void share_each(ItemServer& server, std::uint64_t first, std::uint64_t end) {
+    for (std::uint64_t number = first; number < end; ++number) {
+      share(server, number);
+      ASSERT_TRUE(wait_for([&] { return made_ == number; })) << number;
+    }
   }
 
   Node here_{GetParam(), "tracker"};
@@ -80,6 +105,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::uint64_t, int> arrived_;
+  std::optional<std::uint64_t> made_;
   ItemClient::Where where_ = ItemClient::Where::kUnknown;
 };
 
@@ -87,18 +113,12 @@ TEST_P(TransferBus, EveryItemComesOnce) {
   ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
   const auto client = make_client(kServerRoom);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kElsewhere; }));
-  std::uint64_t number = 0;
-  for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
-    share(server, number);
-    std::this_thread::sleep_for(50ms);
-  }
-  const std::uint64_t first = arrived_.begin()->first;
-  for (const std::uint64_t end = number + 30; number < end; ++number) {
-    share(server, number);
-    std::this_thread::sleep_for(20ms);
-  }
-  EXPECT_TRUE(wait_for([&] { return arrived_.size() == number - first; }))
-      << arrived_.size() << " of " << number - first;
+  const std::uint64_t first = share_until_readers_are_known(server);
+  share_each(server, first, first + 30);
+  const auto is_here = [&](std::uint64_t number) { return arrived_.contains(number); };
+  EXPECT_TRUE(wait_for([&] { return std::ranges::all_of(std::views::iota(first, first + 30), is_here); }))
+      << arrived_.size();
+  const std::lock_guard lock(mutex_);
   for (const auto& [id, times] : arrived_) EXPECT_EQ(times, 1) << id;
 }
 
@@ -106,20 +126,13 @@ TEST_P(TransferBus, WhoComesLaterHasEverythingThatIsKept) {
   ItemServer server(here_.context, topics::kTracker, kKeyframes, 2'000'000, kRobot);
   {
     const auto first = make_client(kServerRoom);
-    std::uint64_t number = 0;
-    for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
-      share(server, number);
-      std::this_thread::sleep_for(50ms);
-    }
+    share_until_readers_are_known(server);
   }
   arrived_.clear();
-  for (std::uint64_t number = 100; number < 120; ++number) {
-    share(server, number);
-    std::this_thread::sleep_for(20ms);
-  }
+  share_each(server, 1100, 1120);
   const auto later = make_client(kServerRoom);
   const auto is_here = [&](std::uint64_t number) { return arrived_.contains(number); };
-  EXPECT_TRUE(wait_for([&] { return std::ranges::all_of(std::views::iota(100U, 120U), is_here); }))
+  EXPECT_TRUE(wait_for([&] { return std::ranges::all_of(std::views::iota(1100U, 1120U), is_here); }))
       << "nine of 218 kB are in the two megabytes of memory, the others in the file: " << arrived_.size();
 }
 

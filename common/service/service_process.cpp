@@ -56,10 +56,8 @@ void ServiceProcess::end_if_hung(double since_last_look_s) {
 }
 
 void ServiceProcess::end_if_deaf(double since_last_look_s) {
-  const auto others = std::ranges::count_if(presence_.peers().present(), [this](const Peer& peer) {
-    return peer.status.instance() != context_.instance;
-  });
-  if (!deafness_watch_.look(static_cast<std::size_t>(others), since_last_look_s)) return;
+  if (!deafness_watch_.look(presence_.peers().hears_another_than(context_.instance), since_last_look_s))
+    return;
   spdlog::critical(
       "ended: it was stopped for a while, and has heard of no other service since; to be started again");
   _exit(1);

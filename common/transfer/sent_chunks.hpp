@@ -16,12 +16,14 @@ class SentChunks {
  public:
   static constexpr std::size_t kItems = 64;  // a reader has 8 begun
 
-  /// Takes note that a chunk is sent. @return true if it was sent to this reader before
-  bool note(std::uint64_t reader, Stream stream, std::uint64_t number, std::uint32_t index) {
-    std::vector<bool>& chunks = chunks_of({reader, stream, number});
-    if (index >= chunks.size()) chunks.resize(index + std::size_t{1});
-    const bool before = chunks[index];
-    chunks[index] = true;
+  /// Takes note that a chunk is sent. @return true if it was sent to this reader before; never of one that
+  /// says that there is no such item
+  bool note(std::uint64_t reader, Stream stream, const Chunk& chunk) {
+    std::vector<bool>& chunks = chunks_of({reader, stream, chunk.number});
+    chunks.resize(chunks_in(chunk.item_bytes));  // what is asked for may lie anywhere
+    if (chunk.index >= chunks.size()) return false;
+    const bool before = chunks[chunk.index];
+    chunks[chunk.index] = true;
     return before;
   }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """ros_services.py TRACKER MAPPER [reset]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
 
-TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty. The grid and commands need nav_msgs and std_srvs; where they are not installed, "grid" and "commands" are missing.
+TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty.
 """
 
 import json
@@ -9,8 +9,10 @@ import sys
 
 import rclpy
 from lifecycle_msgs.srv import GetState
+from nav_msgs.srv import GetMap
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, GetParameterTypes, ListParameters, SetParameters, SetParametersAtomically
+from std_srvs.srv import SetBool, Trigger
 
 LIMIT_S = 20
 VALUES = {ParameterType.PARAMETER_BOOL: "bool_value", ParameterType.PARAMETER_INTEGER: "integer_value", ParameterType.PARAMETER_DOUBLE: "double_value",
@@ -51,7 +53,6 @@ class Asker:
 
 
 def reset(asker, mapper):
-    from std_srvs.srv import Trigger
     return asker.ask(Trigger, f"{mapper}/reset").success
 
 
@@ -60,14 +61,9 @@ def look(asker, tracker, mapper):
     for of in (tracker, mapper):
         told[of]["state"] = asker.ask(GetState, f"{of}/get_state").current_state.label
         told[of]["services"] = asker.services(of)
-    try:
-        from nav_msgs.srv import GetMap
-        from std_srvs.srv import SetBool
-        grid = asker.ask(GetMap, f"{mapper}/map").map
-        told["grid"] = {"frame": grid.header.frame_id, "width": grid.info.width, "height": grid.info.height, "occupied": sum(c == 100 for c in grid.data)}
-        told["commands"] = [asker.ask(SetBool, f"{tracker}/pause", data=data).message for data in (True, False)]
-    except ImportError:
-        pass
+    grid = asker.ask(GetMap, f"{mapper}/map").map
+    told["grid"] = {"frame": grid.header.frame_id, "width": grid.info.width, "height": grid.info.height, "occupied": sum(c == 100 for c in grid.data)}
+    told["commands"] = [asker.ask(SetBool, f"{tracker}/pause", data=data).message for data in (True, False)]
     return told
 
 

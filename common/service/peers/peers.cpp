@@ -55,6 +55,16 @@ bool Peers::is_active(const Peer& peer) {
   return peer.status.role() == Role::ACTIVE && Clock::now() - peer.heard <= kGoneAfter;
 }
 
+bool Peers::is_present(const Peer& peer) {
+  return peer.status.role() != Role::STOPPED && Clock::now() - peer.heard <= kGoneAfter;
+}
+
+bool Peers::hears_another_than(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(
+      peers_, [&](const auto& entry) { return entry.first != instance && is_present(entry.second); });
+}
+
 bool Peers::is_there(std::uint64_t instance) const {
   const std::lock_guard lock(mutex_);
   const auto peer = peers_.find(instance);
@@ -63,8 +73,9 @@ bool Peers::is_there(std::uint64_t instance) const {
 
 bool Peers::has_active(std::string_view kind) const {
   const std::lock_guard lock(mutex_);
-  return std::ranges::any_of(
-      peers_, [&](const auto& entry) { return entry.second.status.service() == kind && is_active(entry.second); });
+  return std::ranges::any_of(peers_, [&](const auto& entry) {
+    return entry.second.status.service() == kind && is_active(entry.second);
+  });
 }
 
 std::optional<Peers::Clock::duration> Peers::silent_for(std::uint64_t instance) const {
@@ -90,9 +101,8 @@ std::vector<Peer> Peers::present() const {
   std::vector<Peer> present;
   {
     const std::lock_guard lock(mutex_);
-    const auto now = Clock::now();
     for (const auto& [instance, peer] : peers_)
-      if (peer.status.role() != Role::STOPPED && now - peer.heard <= kGoneAfter) present.push_back(peer);
+      if (is_present(peer)) present.push_back(peer);
   }
   std::ranges::sort(present, {},
                     [](const Peer& p) { return std::pair(p.status.service(), p.status.instance()); });

@@ -48,6 +48,8 @@ class Peers {
   [[nodiscard]] bool is_there(std::uint64_t instance) const;
   /// Whether any of this kind has.
   [[nodiscard]] bool has_active(std::string_view kind) const;
+  /// Whether any service but this one has been heard of lately, and has not left.
+  [[nodiscard]] bool hears_another_than(std::uint64_t instance) const;
   /// Since its last status; nullopt if none was heard.
   [[nodiscard]] std::optional<Clock::duration> silent_for(std::uint64_t instance) const;
   /// Whether it said good-bye.
@@ -59,6 +61,7 @@ class Peers {
 
  private:
   static bool is_active(const Peer& peer);
+  static bool is_present(const Peer& peer);
   void take(const rds_msgs::msg::ServiceStatus& status);
   void forget_silent();  // under the lock
 

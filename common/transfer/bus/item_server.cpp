@@ -183,7 +183,7 @@ const ItemServer::Bytes* ItemServer::find(Stream stream, std::uint64_t number) {
 
 void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader, Reader& to) {
   ++chunks_sent_;
-  if (to.sent.note(reader, stream, chunk.number, chunk.index)) ++chunks_sent_again_;
+  if (to.sent.note(reader, stream, chunk)) ++chunks_sent_again_;
   rds_msgs::msg::TransferChunk message;
   message.instance(context_.instance);
   message.reader(reader);

@@ -96,13 +96,11 @@ map_file::Bytes to_bytes(const SemanticMap& map, const Eigen::Vector3d& up) {
 }
 
 tl::expected<double, std::string> voxel_size_of(std::span<const std::uint8_t> bytes) {
-  constexpr double kMin = 0.01;  // that can be set
-  constexpr double kMax = 1;
   ByteReader reader(bytes);
   (void)LabelTable::get(reader);
   map_file::get_vector(reader);
   const auto voxel_m = reader.get<double>();
-  if (reader.ok() && (voxel_m < kMin || voxel_m > kMax))
+  if (reader.ok() && (voxel_m < OctreeConfig::kMinResolutionM || voxel_m > OctreeConfig::kMaxResolutionM))
     reader.refuse(fmt::format("voxels of {} m", voxel_m));
   if (!reader.ok()) return tl::unexpected(reader.finish().error());
   return voxel_m;

@@ -189,7 +189,6 @@ void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
   motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
   if (frame.by_depth_only) return;  // later frames are still matched with the one before
   motion_.start_from(frame.time_ns);
-  odometry_.begin_step();
   compare_with_odometry(map_from_camera);
   const KeyframeId reference = localizer_.features().reference();
   const Pose reference_from_camera = mapper_.map().pose_of(reference).inverse() * map_from_camera;

@@ -14,14 +14,11 @@ constexpr double kShortGapS = 0.15;
 /// carried on to.
 void Tracker::expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context) {
   odometry_.go_to(stamp_ns);
-  if (const auto motion = odometry_.since_begin())
-    context.carried = CarriedPose{sure_map_from_camera() * motion->begin_from_camera, motion->covariance};
-  if (state_ == State::kLost) {
-    if (context.carried) context.motion.expect(context.carried->map_from_camera.inverse());
-  } else if (const auto last_from_camera = odometry_.step();
-             last_from_camera && context.motion.gap_s() > kShortGapS) {
-    context.motion.expect((last_map_from_camera() * *last_from_camera).inverse());
-  }
+  const auto motion = odometry_.since_begin();
+  if (!motion) return;
+  context.carried = CarriedPose{sure_map_from_camera() * motion->begin_from_camera, motion->covariance};
+  if (state_ == State::kLost || context.motion.gap_s() > kShortGapS)
+    context.motion.expect(context.carried->map_from_camera.inverse());
 }
 
 /// Vision has lost the camera. The tracker itself stays lost: nothing of the frame supports a pose, or gets

@@ -16,7 +16,7 @@ struct DeadReckoningErrors {
   double turn_noise_rad = 0.005;  // after a metre or a radian; likewise
   double slips_per_second = 0.25;
   double slip_s = 0.2;  // that each of them lasts
-  double slip = 0.1;    // what is told then is so much more
+  double slip = 0.3;    // what is told then is so much more
 };
 
 /// What dead reckoning tells of a path: for each of its poses where the camera would be, in a frame of its

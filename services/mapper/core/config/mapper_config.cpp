@@ -33,7 +33,7 @@ void read(ConfigReader& r, ObjectConfig& c) {
 }
 
 void read(ConfigReader& r, OctreeConfig& c) {
-  r.value("resolution_m", c.resolution_m, 0.01, 1.0, "m");
+  r.value("resolution_m", c.resolution_m, OctreeConfig::kMinResolutionM, OctreeConfig::kMaxResolutionM, "m");
   r.value("color_by_label", c.color_by_label);
 }
 

@@ -46,6 +46,9 @@ struct ObjectConfig {
 };
 
 struct OctreeConfig {
+  static constexpr double kMinResolutionM = 0.01;
+  static constexpr double kMaxResolutionM = 1;
+
   double resolution_m = 0.05;
   bool color_by_label = true;  // a labelled voxel shows its label's colour
   bool carve_rays = true;      // not read: rays make free space

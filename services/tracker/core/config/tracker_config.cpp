@@ -10,8 +10,8 @@ namespace {
 
 void read(config::ConfigReader& r, ExtractionConfig& c) {
   r.value("features", c.features, 100, 10000);
-  r.value("levels", c.levels, 1, 12);
-  r.value("scale_factor", c.scale_factor, 1.05, 2.0);
+  r.value("levels", c.levels, 1, ExtractionConfig::kMostLevels);
+  r.value("scale_factor", c.scale_factor, ExtractionConfig::kMinFactor, ExtractionConfig::kMaxFactor);
   r.value("fast_threshold", c.fast_threshold, 2, 100, "grey levels");
   r.value("fast_threshold_low", c.fast_threshold_low, 2, 100, "grey levels");
 }

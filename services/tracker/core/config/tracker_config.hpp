@@ -12,6 +12,10 @@ namespace rds::tracker {
 
 /// ORB features.
 struct ExtractionConfig {
+  static constexpr int kMostLevels = 12;
+  static constexpr double kMinFactor = 1.05;
+  static constexpr double kMaxFactor = 2;
+
   int features = 1000;         // wanted per picture
   int levels = 8;              // of the pyramid
   double scale_factor = 1.2;   // between levels

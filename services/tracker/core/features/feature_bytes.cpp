@@ -8,10 +8,6 @@
 namespace rds::tracker {
 namespace {
 
-constexpr int kMostLevels = 12;  // that may be set, as the factors
-constexpr double kMinFactor = 1.05;
-constexpr double kMaxFactor = 2;
-
 enum Flag : std::uint8_t { kMovable = 1, kMatchable = 2, kMovableNow = 4, kAllFlags = 7 };
 
 }  // namespace
@@ -25,8 +21,9 @@ ExtractionConfig get_pyramid(map_file::ByteReader& reader) {
   ExtractionConfig extraction;
   extraction.levels = reader.get<int>();
   extraction.scale_factor = reader.get<double>();
-  const bool is_possible = extraction.levels >= 1 && extraction.levels <= kMostLevels &&
-                           extraction.scale_factor >= kMinFactor && extraction.scale_factor <= kMaxFactor;
+  const bool is_possible = extraction.levels >= 1 && extraction.levels <= ExtractionConfig::kMostLevels &&
+                           extraction.scale_factor >= ExtractionConfig::kMinFactor &&
+                           extraction.scale_factor <= ExtractionConfig::kMaxFactor;
   if (!is_possible)
     reader.refuse(
         fmt::format("features of {} levels with factor {}", extraction.levels, extraction.scale_factor));

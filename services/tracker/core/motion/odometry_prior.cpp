@@ -54,24 +54,12 @@ void OdometryPrior::go_to(std::int64_t stamp_ns) {
   const std::int64_t before_ns = std::exchange(now_ns_, stamp_ns);
   if (!before || !now_ || before->segment != now_->segment || stamp_ns <= before_ns) {
     window_.reset();
-    step_.reset();
     return;
   }
   const Twist step = se3_log(before->odom_from_body.inverse() * now_->odom_from_body);
   const double step_s = static_cast<double>(stamp_ns - before_ns) / kNsPerSecond;
   scale_covariance_.diagonal().array() += kScaleSigmaPerSecond * kScaleSigmaPerSecond * step_s;
-  for (auto* window : {&window_, &step_})
-    if (*window) (*window)->path.extend(step, scale_, step_s);
-}
-
-std::optional<geometry::Pose> OdometryPrior::step() const {
-  if (!step_ || !is_trusted()) return std::nullopt;
-  return step_->body_from_camera.inverse() * step_->path.begin_from_end() * now_->body_from_camera;
-}
-
-void OdometryPrior::begin_step() {
-  step_.reset();
-  if (now_) step_ = Window{now_->body_from_camera, {}};
+  if (window_) window_->path.extend(step, scale_, step_s);
 }
 
 void OdometryPrior::begin_window() {

@@ -41,10 +41,8 @@ class OdometryPrior {
 
   /// A picture was taken: goes on to its time.
   void go_to(std::int64_t stamp_ns);
-  /// The camera's motion since begin_step(): last_from_camera; nullopt where it is not known or trusted.
-  [[nodiscard]] std::optional<geometry::Pose> step() const;
-  void begin_step();
-  /// The camera's motion since the window began; nullopt, too, where it is known to worse than kMaxSigma….
+  /// The camera's motion since the window began; nullopt where it is not known or trusted, or known to worse
+  /// than kMaxSigma….
   [[nodiscard]] std::optional<Motion> since_begin() const;
 
   /// Vision is sure of the camera's pose. @param begin_from_camera  its motion since the window began.
@@ -70,7 +68,6 @@ class OdometryPrior {
   std::optional<OdometryPose> now_;
   std::int64_t now_ns_ = 0;
   std::optional<Window> window_;
-  std::optional<Window> step_;  // since the last pose
   OdometryScale scale_ = OdometryScale::Ones();
   Eigen::Matrix2d scale_covariance_ = initial_scale_covariance();
   std::deque<double> innovations_;  // squared, normalised, of the last windows in which something moved

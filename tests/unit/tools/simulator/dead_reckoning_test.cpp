@@ -41,8 +41,8 @@ TEST(DeadReckoning, TellsMoreWhereItSlips) {
   DeadReckoningErrors errors = kNone;
   errors.slips_per_second = 0.25;
   const double told_m = way_m(dead_reckoning(straight(60), errors, 1));
-  EXPECT_GT(told_m, 30 * 1.001);
-  EXPECT_LT(told_m, 30 * 1.02) << "a slip of 0.2 s every four seconds, by 0.1";
+  EXPECT_GT(told_m, 30 * 1.005);
+  EXPECT_LT(told_m, 30 * 1.05) << "a slip of 0.2 s every four seconds, by 0.3";
 }
 
 TEST(DeadReckoning, IsTheSameWithTheSameSeed) {

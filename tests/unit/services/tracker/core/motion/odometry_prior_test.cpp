@@ -24,7 +24,6 @@ class Driven {
   void see(int frames) {
     for (int i = 0; i < frames; ++i) {
       prior_.go_to(DrivenRobot::stamp_ns(++frame_));
-      prior_.begin_step();
       const Pose seen = robot_.truth(frame_) * se3_exp(noise());
       if (prior_.observe(begin_.inverse() * seen)) begin_ = seen;
     }
@@ -108,23 +107,12 @@ TEST(OdometryPrior, StopsWhereTheWayIsAGuess) {
   EXPECT_FALSE(robot.error());
 }
 
-TEST(OdometryPrior, TellsTheNextStep) {
-  Driven robot(five_percent_too_far);
-  robot.see(10 * kSecond);
-  robot.cover(1);
-  const auto step = robot.prior().step();
-  ASSERT_TRUE(step);
-  EXPECT_NEAR(step->translation().norm(), DrivenRobot::kSpeed * DrivenRobot::kStepS * std::hypot(1, 0.2),
-              5e-4);
-}
-
 TEST(OdometryPrior, TrustsNoneThatIsNew) {
   Driven robot(five_percent_too_far);
   robot.see(kSecond);
   EXPECT_FALSE(robot.prior().is_trusted());
   robot.cover(1);
   EXPECT_FALSE(robot.error());
-  EXPECT_FALSE(robot.prior().step());
 }
 
 /// Odometry that has nothing to do with the robot's motion.
@@ -182,7 +170,6 @@ TEST(OdometryPrior, SaysNothingWithoutOdometry) {
   prior.go_to(0);
   EXPECT_FALSE(prior.observe(Pose::Identity()));
   prior.go_to(1);
-  EXPECT_FALSE(prior.step());
   EXPECT_FALSE(prior.since_begin());
 }
 

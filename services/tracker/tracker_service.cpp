@@ -17,6 +17,7 @@
 #include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
+#include "services/tracker/keyframe_pictures.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -48,12 +49,7 @@ void tell(const UpDirection& up) {
 TrackerService::TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config)
     : Service(context),
       config_(config),
-      tracker_(
-          config.tracker, read_given_poses(config.poses_file, config.poses_max_gap_s), executor_with_helper(),
-          time::now_us,
-          config.inputs.odometry.empty()
-              ? RobotOdometry()
-              : [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); }),
+      tracker_(config.tracker, ports()),
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, config.frames, epoch_.id()),
@@ -74,6 +70,16 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
           answers_.push(std::move(m));
       }));
   if (epoch_.is_resuming()) publish_poses();
+}
+
+TrackerPorts TrackerService::ports() {
+  TrackerPorts ports{.given_poses = read_given_poses(config_.poses_file, config_.poses_max_gap_s),
+                     .executor = executor_with_helper(),
+                     .now_us = time::now_us,
+                     .keep_picture = KeyframePictures()};
+  if (!config_.inputs.odometry.empty())
+    ports.odometry = [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); };
+  return ports;
 }
 
 void TrackerService::run(const std::stop_token& stop) {

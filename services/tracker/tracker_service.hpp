@@ -36,6 +36,7 @@ class TrackerService : public service::Service {
   using BoxesMessage = KeyframeAnswers::Boxes;
   using PosesMessage = KeyframeAnswers::Poses;
 
+  TrackerPorts ports();
   void take(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);

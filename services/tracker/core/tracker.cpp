@@ -43,10 +43,9 @@ void describe(const TrackedFrame& frame, FrameResult& result) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, Executor executor, Stopwatch now_us,
-                 RobotOdometry odometry)
+Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
     : config_(config),
-      ports_{std::move(given_poses), std::move(executor), std::move(now_us), std::move(odometry)},
+      ports_(std::move(ports)),
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth.max_depth_m),
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
@@ -55,8 +54,7 @@ Tracker::Tracker(const TrackerConfig& config, GivenPoses given_poses, Executor e
       mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
 
 void Tracker::reset() {
-  *this = Tracker(config_, std::move(ports_.given_poses), std::move(ports_.executor),
-                  std::move(ports_.now_us), std::move(ports_.odometry));
+  *this = Tracker(config_, std::move(ports_));
 }
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
@@ -162,8 +160,8 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
   KeyframeRecords& records = mapper_.map().records();
   records.submaps().go_on(submap_, records.next_id());
   if (need == KeyframeNeed::kMap) {
-    result.keyframe =
-        mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
+    Picture kept = localizer_.follows_points() ? ports_.keep_picture(frame.images) : nullptr;
+    result.keyframe = mapper_.insert(frame, std::move(kept), removal_.latest());
     localizer_.features().set_newest_keyframe(result.keyframe->id);
     localizer_.relocalizer().add(result.keyframe->id);
     keyframes_.note_in_map(result.keyframe->id, frame.time_ns);

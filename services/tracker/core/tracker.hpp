@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,18 @@ namespace rds::tracker {
 /// map_from_camera at a time [ns], known from elsewhere (a robot's odometry, a motion capture); nullopt where
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
+using Picture = std::shared_ptr<const ImagePyramid>;
+/// The same picture, where it is to lie as long as its keyframe is in the map.
+using KeepPicture = std::function<Picture(Picture)>;
+
+/// What the tracker gets from outside of its core.
+struct TrackerPorts {
+  GivenPoses given_poses = {};           // what the camera's poses are; if empty they are estimated
+  Executor executor = execute_serially;  // runs what can be done at the same time
+  Stopwatch now_us = [] { return std::int64_t{0}; };  // for the times in results, which are 0 without
+  RobotOdometry odometry = {};                        // of the robot; if empty there is none
+  KeepPicture keep_picture = [](Picture picture) { return picture; };
+};
 
 /// A submap that is part of an older one from now on.
 struct JoinedSubmap {
@@ -44,13 +57,7 @@ struct JoinedSubmap {
 /// nothing enters the map; keyframes are then for other services only. Same calls, same results, bit by bit.
 class Tracker {
  public:
-  /// @param given_poses  what the camera's poses are; if empty they are estimated.
-  /// @param executor     runs what can be done at the same time.
-  /// @param now_us       for the times in results, which are 0 without.
-  /// @param odometry     of the robot; if empty there is none.
-  explicit Tracker(
-      const TrackerConfig& config, GivenPoses given_poses = {}, Executor executor = execute_serially,
-      Stopwatch now_us = [] { return std::int64_t{0}; }, RobotOdometry odometry = {});
+  explicit Tracker(const TrackerConfig& config, TrackerPorts ports = {});
 
   /// Tracks the next picture.
   ///
@@ -152,12 +159,6 @@ class Tracker {
   void enter(SubmapId submap);
 
   /// What the tracker is given besides pictures.
-  struct Ports {
-    GivenPoses given_poses;
-    Executor executor;
-    Stopwatch now_us;
-    RobotOdometry odometry;
-  };
   /// A pose that moves with the map.
   struct PlacedPose {
     KeyframeId reference = kNoId;
@@ -165,7 +166,7 @@ class Tracker {
   };
 
   TrackerConfig config_;
-  Ports ports_;
+  TrackerPorts ports_;
   SelfCalibration calibration_;
   MovableSegmenter removal_;
   MotionModel motion_;

@@ -16,4 +16,20 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, int levels) : levels_{gray} {
   }
 }
 
+ImagePyramid ImagePyramid::copied_to(std::uint8_t* memory) const {
+  std::vector<cv::Mat> copies;
+  for (const cv::Mat& level : levels_) {
+    copies.emplace_back(level.size(), level.type(), memory);
+    level.copyTo(copies.back());
+    memory += copies.back().total();
+  }
+  return ImagePyramid(std::move(copies));
+}
+
+std::size_t ImagePyramid::bytes() const {
+  std::size_t bytes = 0;
+  for (const cv::Mat& level : levels_) bytes += level.total();
+  return bytes;
+}
+
 }  // namespace rds::tracker

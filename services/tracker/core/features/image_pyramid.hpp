@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +19,11 @@ class ImagePyramid {
  public:
   /// @param gray  CV_8UC1; shared, not copied.
   ImagePyramid(const cv::Mat& gray, int levels);
+
+  /// The same pixels, in memory of bytes() that outlasts it.
+  [[nodiscard]] ImagePyramid copied_to(std::uint8_t* memory) const;
+  /// Of all levels.
+  [[nodiscard]] std::size_t bytes() const;
 
   [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }
   [[nodiscard]] const cv::Mat& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
@@ -39,6 +46,8 @@ class ImagePyramid {
   }
 
  private:
+  explicit ImagePyramid(std::vector<cv::Mat> levels) : levels_(std::move(levels)) {}
+
   std::vector<cv::Mat> levels_;
 };
 

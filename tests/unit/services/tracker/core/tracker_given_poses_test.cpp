@@ -15,7 +15,7 @@ GivenPoses poses_elsewhere() {
 }
 
 TEST(TrackerGivenPoses, FollowsGivenPosesAndMovesNone) {
-  Tracker tracker(small_config(), poses_elsewhere());
+  Tracker tracker(small_config(), {.given_poses = poses_elsewhere()});
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(tracker.expected_camera_from_map(i * kFrameNs).matrix() ==
                   poses_elsewhere()(i * kFrameNs).value_or(Pose::Identity()).inverse().matrix(),
@@ -34,7 +34,7 @@ TEST(TrackerGivenPoses, FollowsGivenPosesAndMovesNone) {
 }
 
 TEST(TrackerGivenPoses, FollowsGivenPosesThroughTheDark) {
-  Tracker tracker(small_config(), poses_elsewhere());
+  Tracker tracker(small_config(), {.given_poses = poses_elsewhere()});
   EXPECT_EQ(tracker.track(test::dark_picture(0), {}).state, State::kTracking);
   EXPECT_EQ(tracker.track(test::dark_picture(kFrameNs), {}).inliers, 0U);
   step(tracker, 2);
@@ -45,10 +45,11 @@ TEST(TrackerGivenPoses, ALongGapInThemBeginsNoSubmap) {
   const auto gap = [](std::int64_t stamp_ns) { return stamp_ns >= 3 * kFrameNs && stamp_ns < 30 * kFrameNs; };
   TrackerConfig config = small_config();
   config.young_map_s = 0;
-  Tracker tracker(config, [&](std::int64_t stamp_ns) -> std::optional<Pose> {
+  const GivenPoses given = [&](std::int64_t stamp_ns) -> std::optional<Pose> {
     if (gap(stamp_ns)) return std::nullopt;
     return truth(static_cast<int>(stamp_ns / kFrameNs));
-  });
+  };
+  Tracker tracker(config, {.given_poses = given});
   for (int i = 0; i < 32; ++i) {
     const FrameResult result = step(tracker, i);
     EXPECT_EQ(result.state, gap(i * kFrameNs) ? State::kLost : State::kTracking) << i;
@@ -57,7 +58,7 @@ TEST(TrackerGivenPoses, ALongGapInThemBeginsNoSubmap) {
 }
 
 TEST(TrackerGivenPoses, HasNoPoseBeforeTheFirstGivenOne) {
-  Tracker tracker(small_config(), poses_elsewhere());
+  Tracker tracker(small_config(), {.given_poses = poses_elsewhere()});
   EXPECT_EQ(step(tracker, 5).state, State::kNotInitialized);
   EXPECT_EQ(step(tracker, 6).keyframe->id, 0U);
   tracker.reset();

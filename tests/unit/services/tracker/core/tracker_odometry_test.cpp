@@ -33,8 +33,7 @@ std::optional<OdometryPose> frozen(std::int64_t /*stamp_ns*/) {
 }
 
 Tracker tracker_with(RobotOdometry odometry) {
-  return Tracker(
-      small_config(), {}, execute_serially, [] { return std::int64_t{0}; }, std::move(odometry));
+  return Tracker(small_config(), {.odometry = std::move(odometry)});
 }
 
 double error_of(const FrameResult& result, int frame) {
@@ -107,8 +106,7 @@ TEST(TrackerOdometry, OfARobotIsNotReadWherePosesAreGiven) {
   const GivenPoses given = [](std::int64_t stamp_ns) {
     return std::optional(swaying(static_cast<int>(stamp_ns / kFrameNs)));
   };
-  Tracker tracker(
-      small_config(), given, execute_serially, [] { return std::int64_t{0}; }, five_percent_too_far);
+  Tracker tracker(small_config(), {.given_poses = given, .odometry = five_percent_too_far});
   for (int i = 0; i < kSeen; ++i) tracker.track(picture(i), {});
   EXPECT_FALSE(tracker.odometry().is_trusted());
 }

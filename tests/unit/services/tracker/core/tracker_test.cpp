@@ -105,6 +105,25 @@ TEST(Tracker, GivesTheSameBytesTwice) {
     EXPECT_EQ(step(a, i).map_from_camera.matrix(), step(b, i).map_from_camera.matrix());
 }
 
+TEST(Tracker, ReadsKeyframesPicturesWhereTheyAreKept) {
+  int kept = 0;
+  const KeepPicture blank = [&](const Picture& picture) {
+    ++kept;
+    const cv::Mat& finest = picture->level(0);
+    return std::make_shared<const ImagePyramid>(cv::Mat::zeros(finest.size(), finest.type()), picture->levels());
+  };
+  Tracker tracker(small_config());
+  Tracker blind(small_config(), {.keep_picture = blank});
+  unsigned inliers = 0;
+  unsigned blind_inliers = 0;
+  for (int i = 0; i < 6; ++i) {
+    inliers += step(tracker, i).inliers;
+    blind_inliers += step(blind, i).inliers;
+  }
+  EXPECT_GE(kept, 1);
+  EXPECT_NE(inliers, blind_inliers) << "points are followed from the pictures that were given back";
+}
+
 TEST(Tracker, ForgetsEverythingOnReset) {
   Tracker tracker(small_config());
   for (int i = 0; i < 3; ++i) step(tracker, i);

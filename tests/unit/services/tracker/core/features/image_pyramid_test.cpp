@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/features/image_pyramid.hpp"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace rds::tracker {
@@ -24,6 +26,16 @@ TEST(ImagePyramid, HalvesUntilNothingIsLeft) {
 TEST(ImagePyramid, SharesThePicture) {
   const cv::Mat image = slope(32, 32);
   EXPECT_EQ(ImagePyramid(image, 2).level(0).data, image.data);
+}
+
+TEST(ImagePyramid, IsCopiedWithAllLevels) {
+  const ImagePyramid pyramid(slope(45, 10), 3);
+  std::vector<std::uint8_t> memory(pyramid.bytes());
+  const ImagePyramid copy = pyramid.copied_to(memory.data());
+  EXPECT_EQ(memory.size(), 45U * 10 + 22 * 5 + 11 * 2);
+  ASSERT_EQ(copy.levels(), 3);
+  for (int l = 0; l < 3; ++l) EXPECT_EQ(cv::countNonZero(copy.level(l) != pyramid.level(l)), 0) << l;
+  EXPECT_EQ(copy.level(2).data + copy.level(2).total(), memory.data() + memory.size());
 }
 
 TEST(ImagePyramid, ALevelShowsTheSameAtTheSamePlace) {

@@ -57,13 +57,11 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, config.frames, epoch_.id()),
-      input_(context, mailbox_, config.camera, config.lockstep.enabled),
+      input_(context, mailbox_, config.camera, config.lockstep.enabled, look_up()),
       robot_(context, mailbox_,
              {config.inputs, config.frames.base,
               config.lockstep.enabled ? std::optional(config.lockstep.timeout_s) : std::nullopt},
-             [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
-               return outputs_.odometry().look_up(target, source, stamp_ns);
-             }),
+             look_up()),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
       map_commands_(mailbox_, config.maps, map_file::kTracker) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
@@ -74,6 +72,12 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
           answers_.push(std::move(m));
       }));
   if (epoch_.is_resuming()) publish_poses();
+}
+
+RobotInputs::LookUp TrackerService::look_up() {
+  return [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
+    return outputs_.odometry().look_up(target, source, stamp_ns);
+  };
 }
 
 void TrackerService::run(const std::stop_token& stop) {

@@ -36,6 +36,8 @@ class TrackerService : public service::Service {
   using BoxesMessage = KeyframeAnswers::Boxes;
   using PosesMessage = KeyframeAnswers::Poses;
 
+  /// Of frames in the transforms that others publish.
+  RobotInputs::LookUp look_up();
   void take(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/topics/camera_presets.hpp"
+
 namespace rds::tracker {
 namespace {
 
@@ -39,6 +41,14 @@ Fault fault_of(const StreamSight& stream, const std::vector<std::string>& others
                        stream.topic, stream.other_type, setting);
   return fmt::format("nobody publishes {}{}: set {}, or {}", stream.topic, but_there_is(others), setting,
                      remedy);
+}
+
+/// "camera.color", and the preset of a driver whose colour pictures are there.
+std::string color_setting(const std::vector<std::string>& others) {
+  for (const topics::CameraPreset& preset : topics::kCameraPresets)
+    if (std::ranges::find(others, preset.color) != others.end())
+      return fmt::format("camera.preset to {}, or camera.color", preset.name);
+  return "camera.color";
 }
 
 Fault fault_of_color(const CameraSight& sight) {

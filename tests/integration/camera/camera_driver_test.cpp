@@ -62,7 +62,8 @@ TEST_P(Driver, ThatPublishesCompressedPicturesAloneIsRead) {
 
 TEST_P(Driver, ThatIsSilentlyWrongGetsASentence) {
   expect_warning("another topic", {.color_topic = "camera/rgb/image_raw"},
-                 {"nobody publishes camera/color/image_raw", "camera/rgb/image_raw", "set camera.color"});
+                 {"nobody publishes camera/color/image_raw", "camera/rgb/image_raw",
+                  "set camera.preset to xtion, or camera.color"});
   expect_warning("no camera_info", {.info_topic = ""},
                  {"nobody publishes camera/color/camera_info", "calibration"});
   expect_warning("no depth", {.depth_topic = ""},

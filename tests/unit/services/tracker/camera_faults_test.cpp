@@ -42,7 +42,7 @@ TEST(CameraFaults, NameOtherTopicsOfPictures) {
   EXPECT_THAT(camera_faults(sight),
               ElementsAre(Pair("camera colour",
                                AllOf(HasSubstr("nobody publishes color"), HasSubstr("camera/rgb/image_raw"),
-                                     HasSubstr("set camera.color")))));
+                                     HasSubstr("set camera.preset to xtion, or camera.color")))));
 }
 
 TEST(CameraFaults, NameTheTypeThatIsNotRead) {

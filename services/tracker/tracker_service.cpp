@@ -74,12 +74,6 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
   if (epoch_.is_resuming()) publish_poses();
 }
 
-RobotInputs::LookUp TrackerService::look_up() {
-  return [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
-    return outputs_.odometry().look_up(target, source, stamp_ns);
-  };
-}
-
 void TrackerService::run(const std::stop_token& stop) {
   stop_ = stop;
   const auto frames_wait = [this] { return paused_ && config_.lockstep.enabled; };  // else they are dropped
@@ -309,6 +303,12 @@ void TrackerService::start_mapping() {
   if (answers_.is_mapping()) return;
   auto job = tracker_.take_mapping_job();
   if (job) answers_.ask_for_mapping(std::move(*job), frame_index_);
+}
+
+RobotInputs::LookUp TrackerService::look_up() {
+  return [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
+    return outputs_.odometry().look_up(target, source, stamp_ns);
+  };
 }
 
 void TrackerService::publish_poses() {

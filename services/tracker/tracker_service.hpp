@@ -36,8 +36,6 @@ class TrackerService : public service::Service {
   using BoxesMessage = KeyframeAnswers::Boxes;
   using PosesMessage = KeyframeAnswers::Poses;
 
-  /// Of frames in the transforms that others publish.
-  RobotInputs::LookUp look_up();
   void take(const image::RgbdFrame& frame);
   void begin_after_break();
   void process(const image::RgbdFrame& frame);
@@ -53,6 +51,8 @@ class TrackerService : public service::Service {
   void join_submaps(const FrameReport& report);
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
+  /// Of frames in the transforms that others publish.
+  RobotInputs::LookUp look_up();
   void publish_poses();
   service::CommandOutcome reset();
   service::CommandOutcome begin_epoch();

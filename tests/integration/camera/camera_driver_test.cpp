@@ -67,6 +67,13 @@ TEST_P(Driver, ThatPublishesCompressedPicturesAloneIsRead) {
   expect_tracked({.compressed = true});
 }
 
+TEST_P(Driver, OfAPresetIsReadByItsName) {
+  expect_tracked({.color_topic = "camera/rgb/image_raw",
+                  .info_topic = "camera/rgb/camera_info",
+                  .depth_topic = "camera/depth/image_raw"},
+                 "{camera: {preset: xtion}}");
+}
+
 TEST_P(Driver, ThatIsSilentlyWrongGetsASentence) {
   expect_warning("another topic", {.color_topic = "camera/rgb/image_raw"},
                  {"nobody publishes camera/color/image_raw", "camera/rgb/image_raw",

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 namespace rds::geometry {
 namespace {
 
@@ -34,6 +36,26 @@ Eigen::Vector2d Lens::project(const Eigen::Vector3d& point_in_camera) const {
   const Eigen::Vector2d bent =
       model == LensModel::kEquidistant ? bend_equidistant(coefficients, p) : bend_rational(coefficients, p);
   return {fx * bent.x() + cx, fy * bent.y() + cy};
+}
+
+std::optional<Eigen::Vector3d> Lens::ray(const Eigen::Vector2d& pixel) const {
+  constexpr int kIterations = 20;
+  constexpr double kExactPx = 1e-3;
+  constexpr double kStep = 1e-5;       // of the derivatives
+  constexpr double kLeastArea = 0.01;  // of a pixel, to that of the pinhole's
+  const auto projected = [this](double x, double y) { return project({x, y, 1}); };
+  Eigen::Vector2d at((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::Vector2d off = pixel - projected(at.x(), at.y());
+    Eigen::Matrix2d derivative;
+    derivative << (projected(at.x() + kStep, at.y()) - projected(at.x() - kStep, at.y())) / (2 * kStep),
+        (projected(at.x(), at.y() + kStep) - projected(at.x(), at.y() - kStep)) / (2 * kStep);
+    const bool is_folded = !(derivative.determinant() > kLeastArea * fx * fy);
+    if (is_folded) return std::nullopt;
+    if (off.norm() < kExactPx) return Eigen::Vector3d(at.x(), at.y(), 1);
+    at += derivative.inverse() * off;
+  }
+  return std::nullopt;
 }
 
 CameraModel Lens::camera() const {

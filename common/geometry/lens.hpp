@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "common/geometry/camera_model.hpp"
 
@@ -29,6 +30,10 @@ struct Lens {
 
   /// Where the lens shows a point of the camera's frame [m], z > 0: image pixel.
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& point_in_camera) const;
+
+  /// Ray (x, y, 1) that the lens shows at an image pixel, by Newton's method from the pinhole's; nullopt
+  /// where there is none: the distortion does not reach so far, or folds back.
+  [[nodiscard]] std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 
   /// Whether CameraModel says the same: camera() is then the camera of its pictures as they are.
   [[nodiscard]] bool is_plain() const { return model == LensModel::kPlumbBob; }

@@ -11,6 +11,9 @@ class DiagnosticArray;
 namespace geometry_msgs::msg {
 class PoseWithCovarianceStamped;
 }
+namespace map_msgs::msg {
+class OccupancyGridUpdate;
+}
 namespace nav_msgs::msg {
 class OccupancyGrid;
 class Odometry;
@@ -138,6 +141,8 @@ inline constexpr Topic<visualization_msgs::msg::MarkerArray> kMapMarkers{
     "rds/map/markers", {{kMapper, bus::kLatched}}, {}};
 inline constexpr Topic<nav_msgs::msg::OccupancyGrid> kMapGrid{
     "rds/map/grid", {{kMapper, bus::kLatched}}, {{kViewer, bus::kLatched}}};
+inline constexpr Topic<map_msgs::msg::OccupancyGridUpdate> kMapGridUpdates{
+    "rds/map/grid_updates", {{kMapper, bus::kStream}}, {}};
 
 // To readers on other machines, in place of the topics of keyframes (common/transfer).
 inline constexpr const char* kTransferPrefix = "rds/transfer/";
@@ -219,6 +224,7 @@ inline constexpr std::tuple kAllTopics{kColor,
                                        kMapObjects,
                                        kMapMarkers,
                                        kMapGrid,
+                                       kMapGridUpdates,
                                        kTransferOffers,
                                        kTransferRequests,
                                        kTransferToDetector,

@@ -54,8 +54,8 @@ MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid,
               topics::advertise(context.bus, topics::kMapPoints, topics::kMapper),
               topics::advertise(context.bus, topics::kMapInfo, topics::kMapper),
               topics::advertise(context.bus, topics::kMapObjects, topics::kMapper),
-              topics::advertise(context.bus, topics::kMapMarkers, topics::kMapper),
-              topics::advertise(context.bus, topics::kMapGrid, topics::kMapper)},
+              topics::advertise(context.bus, topics::kMapMarkers, topics::kMapper)},
+      grid_(context.bus),
       full_map_latency_(context.diagnostics.latency("full map")),
       sharing_(context) {}
 
@@ -147,15 +147,14 @@ void MapOutputs::publish_all(const SemanticMapper& mapper, std::size_t keyframes
 }
 
 bool MapOutputs::has_viewers() const {
-  return topics_.objects.matched() + topics_.markers.matched() + topics_.grid.matched() +
-             topics_.binary.matched() + topics_.points.matched() >
+  return topics_.objects.matched() + topics_.markers.matched() + grid_.matched() + topics_.binary.matched() +
+             topics_.points.matched() >
          0;
 }
 
 void MapOutputs::refresh_views(const SemanticMapper& mapper) {
-  if (mapper.map().revision == views_.revision || Clock::now() - views_.made < kViewPeriod || is_busy() ||
-      !has_viewers())
-    return;
+  if (Clock::now() - views_.made < kViewPeriod || is_busy() || !has_viewers()) return;
+  if (mapper.map().revision == views_.revision && !grid_.owes_whole()) return;
   views_ = {mapper.map().revision, Clock::now()};
   send_large(
       [this, stamp = keyframe_.stamp_ns, snapshot = std::make_shared<MapSnapshot>(take_snapshot(mapper))] {
@@ -203,8 +202,7 @@ void MapOutputs::write_views(const octomap::ColorOcTree& tree, const MapSnapshot
                              std::int64_t stamp_ns) {
   topics_.objects.write(of_robot(objects_message(snapshot.objects, stamp_ns), frame_prefix_));
   topics_.markers.write(of_robot(markers_message(snapshot.objects, stamp_ns), frame_prefix_));
-  topics_.grid.write(
-      of_robot(grid_message(make_grid(tree, snapshot.up, grid_config_), stamp_ns), frame_prefix_));
+  grid_.write(of_robot(grid_message(make_grid(tree, snapshot.up, grid_config_), stamp_ns), frame_prefix_));
   if (topics_.binary.matched() > 0)
     topics_.binary.write(of_robot(binary_message(tree, stamp_ns), frame_prefix_));
   if (topics_.points.matched() > 0)

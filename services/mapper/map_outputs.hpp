@@ -9,13 +9,14 @@
 
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/MapInfo.h"
+#include "services/mapper/grid/grid_publisher.hpp"
 #include "services/mapper/map_messages.hpp"
 #include "services/mapper/sender.hpp"
 #include "services/mapper/sharing/map_sharing.hpp"
 
 namespace rds::mapper {
 
-/// A publisher of each topic that the mapper writes.
+/// A publisher of each topic that the mapper writes, but for the grid's.
 struct MapPublishers {
   bus::Publisher<rds_msgs::msg::OctreeDelta> delta;
   bus::Publisher<octomap_msgs::msg::Octomap> full;
@@ -24,7 +25,6 @@ struct MapPublishers {
   bus::Publisher<rds_msgs::msg::MapInfo> info;
   bus::Publisher<vision_msgs::msg::Detection3DArray> objects;
   bus::Publisher<visualization_msgs::msg::MarkerArray> markers;
-  bus::Publisher<nav_msgs::msg::OccupancyGrid> grid;
 };
 
 /// All topics that the mapper writes, in the order of the calls; large messages are made on a thread of their
@@ -48,7 +48,8 @@ class MapOutputs {
   /// A delta, and after it the full map where that is due, else the MapInfo alone.
   /// @param keyframes_waiting  MapInfo tells how far the mapper is.
   void publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting);
-  /// Full map, its MapInfo, objects, markers and grid; binary map and points where somebody reads them.
+  /// Full map, its MapInfo, objects, markers and grid (GridPublisher); binary map and points where somebody
+  /// reads them.
   void publish_all(const SemanticMapper& mapper, std::size_t keyframes_waiting);
   /// What other programs look at (objects, markers, grid, binary map, points), where somebody does, the map
   /// has changed, and the last one is a second old. Called again and again.
@@ -102,6 +103,7 @@ class MapOutputs {
   int readers_ = 0;
   std::atomic<int> large_under_way_ = 0;
   MapPublishers topics_;
+  GridPublisher grid_;  // for the sender's thread, or, while not is_busy(), the worker's
   service::LatencyWindow& full_map_latency_;
   MapSharing sharing_;
   Sender sender_;  // last: its thread uses the members above

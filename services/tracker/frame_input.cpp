@@ -44,9 +44,10 @@ std::string info_beside(const std::string& topic) {
 }  // namespace
 
 FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-                       const CameraTopics& topics, bool lockstep)
+                       const CameraTopics& topics, bool lockstep, PictureRegistration::LookUp look_up)
     : context_(context),
       topics_(topics),
+      registration_(std::move(look_up)),
       pairer_(std::llround(topics.pairing_tolerance_s * 1e9)),
       frames_(mailbox, lockstep ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
       stamps_(!lockstep),
@@ -55,8 +56,8 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
       color_{.topic = topics.color},
       depth_{.topic = topics.depth} {
   const auto lens = [](const auto& m) { return messages::to_lens(*m); };
-  info_.raw =
-      read<CameraInfo>(info_, info_.topic, lens, [this](const auto&, const auto& l) { return take_info(l); });
+  info_.raw = read<CameraInfo>(info_, info_.topic, lens,
+                               [this](const auto& m, const auto& l) { return take_info(m->header(), l); });
   depth_info_.raw =
       read<CameraInfo>(depth_info_, depth_info_.topic, lens, [this](const auto&, const auto& l) {
         const std::lock_guard lock(mutex_);
@@ -118,35 +119,41 @@ bus::Subscription FrameInput::read(Stream& stream, const std::string& topic, Con
       });
 }
 
-FrameInput::Taken FrameInput::take_info(const geometry::Lens& lens) {
+FrameInput::Taken FrameInput::take_info(const std_msgs::msg::Header& header, const geometry::Lens& lens) {
   const std::lock_guard lock(mutex_);
-  registration_.set_color_lens(lens);
-  FramePairer::Frames waiting = pairer_.set_camera(lens.camera());
-  if (lens.is_plain()) pass_on(std::move(waiting));  // others were taken before their table was known
+  const bool is_first = !registration_.knows_lens();
+  registration_.set_color_lens(lens, header.frame_id());
+  if (is_first && !registration_.leaves_early_pictures()) pairer_.forget_waiting();
+  pass_on(pairer_.set_camera(lens.camera()));
   return {};
 }
 
 FrameInput::Taken FrameInput::take_color(const std_msgs::msg::Header& header, image::ColorImage picture) {
-  const auto table = [&] {
+  const auto [make, is_early] = [&] {
     const std::lock_guard lock(mutex_);
-    return registration_.color(picture.pixels.size(), header.frame_id());
+    return std::pair(registration_.color(picture.pixels.size(), header.frame_id()),
+                     !registration_.knows_lens());
   }();
-  if (!table) return tl::unexpected(table.error());
-  if (*table) picture = (*table)->color(picture);
+  if (!make) return tl::unexpected(make.error());
+  if (*make) picture = (*make)(picture);
   const std::lock_guard lock(mutex_);
+  if (is_early && !registration_.leaves_early_pictures()) return {};
   pass_on(pairer_.add_color(to_nanoseconds(header.stamp()), std::move(picture)));
   return {};
 }
 
 FrameInput::Taken FrameInput::take_depth(const std_msgs::msg::Header& header, image::DepthImage picture) {
-  const auto table = [&] {
+  const std::int64_t stamp_ns = to_nanoseconds(header.stamp());
+  const auto [make, is_early] = [&] {
     const std::lock_guard lock(mutex_);
-    return registration_.depth(picture.values.size(), header.frame_id());
+    return std::pair(registration_.depth(picture.values.size(), header.frame_id(), stamp_ns),
+                     !registration_.knows_lens());
   }();
-  if (!table) return tl::unexpected(table.error());
-  if (*table) picture = (*table)->depth(picture);
+  if (!make) return tl::unexpected(make.error());
+  if (*make) picture = (*make)(picture);
   const std::lock_guard lock(mutex_);
-  pass_on(pairer_.add_depth(to_nanoseconds(header.stamp()), std::move(picture)));
+  if (is_early && !registration_.leaves_early_pictures()) return {};
+  pass_on(pairer_.add_depth(stamp_ns, std::move(picture)));
   return {};
 }
 
@@ -232,8 +239,6 @@ CameraSight FrameInput::sight(const std::vector<DiscoveredEndpoint>& endpoints) 
   add_others(endpoints, sight);
   const std::lock_guard lock(mutex_);
   sight.since_frame_s = seconds_since(framed_);
-  sight.color_frame = registration_.color_frame();
-  sight.depth_frame = registration_.depth_frame();
   if (const auto gap_ns = pairer_.partner_gap_ns()) sight.partner_ms = static_cast<double>(*gap_ns) / 1e6;
   return sight;
 }

@@ -22,14 +22,15 @@
 namespace rds::tracker {
 
 /// The camera's topics, paired, as an inbox of frames, and how their stamps follow each other. Pictures of
-/// rgb8, bgr8, 16UC1 and 32FC1 stay in the messages' memory; all others are made on their topic's thread of
-/// the bus. Four times a second a thread of its own looks who publishes what: where nobody publishes pictures
-/// as they are, compressed ones are read, and what is wrong with the camera is told by diagnostics.
+/// rgb8, bgr8, 16UC1 and 32FC1 stay in the messages' memory; all others are made, and depth of another camera
+/// is registered, on their topic's thread of the bus. Four times a second a thread of its own looks who
+/// publishes what: where nobody publishes pictures as they are, compressed ones are read, and what is wrong
+/// with the camera is told by diagnostics.
 class FrameInput {
  public:
-  /// @param lockstep  no frame is dropped, and time breaks at once.
+  /// @param lockstep  no frame is dropped, and time breaks at once. @param look_up  as tf says; any thread.
   FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox, const CameraTopics& topics,
-             bool lockstep);
+             bool lockstep, PictureRegistration::LookUp look_up);
 
   [[nodiscard]] concurrency::Inbox<image::RgbdFrame>& frames() { return frames_; }
   [[nodiscard]] const concurrency::Inbox<image::RgbdFrame>& frames() const { return frames_; }
@@ -37,7 +38,7 @@ class FrameInput {
   [[nodiscard]] std::uint64_t dropped() const { return frames_.dropped(); }
   /// Takes each frame's stamp, in order. For the worker.
   [[nodiscard]] time::StampWatch& stamps() { return stamps_; }
-  /// frame_id of the newest colour picture; empty before the first.
+  /// frame_id of the newest colour picture, before it of its camera_info; empty before both.
   [[nodiscard]] std::string camera_frame() const;
 
  private:
@@ -61,7 +62,7 @@ class FrameInput {
   void read_packed(Stream& stream, const std::string& topic);
   void choose_packing(Stream& stream, const std::vector<std::string>& packed_topics,
                       const std::vector<bus::DiscoveredEndpoint>& endpoints);
-  Taken take_info(const geometry::Lens& lens);
+  Taken take_info(const std_msgs::msg::Header& header, const geometry::Lens& lens);
   Taken take_color(const std_msgs::msg::Header& header, image::ColorImage picture);
   Taken take_depth(const std_msgs::msg::Header& header, image::DepthImage picture);
   void pass_on(FramePairer::Frames frames);  // under the lock

@@ -53,13 +53,11 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
       epoch_(context, config, tracker_),
       objects_(config.prediction),
       outputs_(context, config.frames, epoch_.id()),
-      input_(context, mailbox_, config.camera, config.lockstep.enabled),
+      input_(context, mailbox_, config.camera, config.lockstep.enabled, look_up()),
       robot_(context, mailbox_,
              {config.inputs, config.frames.base,
               config.lockstep.enabled ? std::optional(config.lockstep.timeout_s) : std::nullopt},
-             [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
-               return outputs_.odometry().look_up(target, source, stamp_ns);
-             }),
+             look_up()),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
       map_commands_(mailbox_, config.maps, map_file::kTracker) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
@@ -311,6 +309,12 @@ void TrackerService::start_mapping() {
   if (answers_.is_mapping()) return;
   auto job = tracker_.take_mapping_job();
   if (job) answers_.ask_for_mapping(std::move(*job), frame_index_);
+}
+
+RobotInputs::LookUp TrackerService::look_up() {
+  return [this](const std::string& target, const std::string& source, std::int64_t stamp_ns) {
+    return outputs_.odometry().look_up(target, source, stamp_ns);
+  };
 }
 
 void TrackerService::publish_poses() {

@@ -52,6 +52,8 @@ class TrackerService : public service::Service {
   void join_submaps(const FrameReport& report);
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
+  /// Of frames in the transforms that others publish.
+  RobotInputs::LookUp look_up();
   void publish_poses();
   service::CommandOutcome reset();
   service::CommandOutcome begin_epoch();

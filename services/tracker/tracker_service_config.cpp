@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/tracker_service_config.hpp"
 
+#include "common/topics/camera_presets.hpp"
+
 namespace rds::tracker {
 namespace {
 
-void read(config::ConfigReader& reader, CameraTopics& topics) {
-  reader.value("color", topics.color);
-  reader.value("camera_info", topics.camera_info);
-  reader.value("depth", topics.depth);
-  reader.value("depth_info", topics.depth_info);
-  reader.choice("transport", topics.transport, {"auto", "raw", "compressed"});
-  reader.value("best_effort", topics.best_effort);
-  reader.value("pairing_tolerance_s", topics.pairing_tolerance_s, 0.0, 0.5, "s");
+void read(config::ConfigReader& reader, CameraTopics& camera) {
+  const topics::CameraPreset preset = topics::read_camera_preset(reader, "preset");
+  topics::read_topic(reader, "color", preset.color, camera.color);
+  topics::read_topic(reader, "camera_info", preset.camera_info, camera.camera_info);
+  topics::read_topic(reader, "depth", preset.depth, camera.depth);
+  reader.value("depth_info", camera.depth_info);
+  reader.choice("transport", camera.transport, {"auto", "raw", "compressed"});
+  reader.value("best_effort", camera.best_effort);
+  reader.value("pairing_tolerance_s", camera.pairing_tolerance_s, 0.0, 0.5, "s");
 }
 
 void read(config::ConfigReader& reader, FramesConfig& config) {

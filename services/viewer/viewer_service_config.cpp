@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "common/topics/camera_presets.hpp"
 #include "services/viewer/listen_address.hpp"
 
 namespace rds::viewer {
@@ -40,8 +41,9 @@ void read(config::ConfigReader& reader, ViewerServiceConfig& config) {
   reader.value("max_clients", config.max_clients, 1, 100);
   reader.value("picture_hz", config.picture_hz, 0.1, 60.0, "Hz");
   reader.value("picture_quality", config.picture_quality, 1, 100);
-  reader.value("color_topic", config.color_topic);
-  reader.value("camera_info_topic", config.camera_info_topic);
+  const topics::CameraPreset preset = topics::read_camera_preset(reader, "camera_preset");
+  topics::read_topic(reader, "color_topic", preset.color, config.color_topic);
+  topics::read_topic(reader, "camera_info_topic", preset.camera_info, config.camera_info_topic);
 }
 
 std::string access_token(const ViewerServiceConfig& config) {

@@ -59,11 +59,14 @@ class Launch(unittest.TestCase):
         self.assertIn("<name>rds_slam</name>", (share / "package.xml").read_text(encoding="utf-8"))
         self.assertNotIn("@", (share / "package.xml").read_text(encoding="utf-8").split("<maintainer")[0])
         commands = launch_file.commands(share / "launch" / "rds_slam.launch.xml", lambda package: self.ask_index(f"get_package_prefix('{package}')"), self.folder,
-                                        namespace="robot1", frame_prefix="robot1/", color="camera/rgb")
+                                        namespace="robot1", frame_prefix="robot1/", camera="xtion", depth="mine/depth")
         peers = [self.start(command) for command in commands]
         graph = self.graph()
         self.assertEqual(graph["nodes"], [f"/robot1/{name}" for name in NODES])
-        self.assertIn("/robot1/camera/rgb", graph["by_node"]["/robot1/rds_tracker"]["subscribers"])
+        read = {name: graph["by_node"][f"/robot1/{name}"]["subscribers"] for name in ("rds_tracker", "rds_transformer")}
+        self.assertIn("/robot1/camera/rgb/image_raw", read["rds_tracker"])
+        self.assertIn("/robot1/mine/depth", read["rds_tracker"])
+        self.assertIn("/robot1/camera/rgb/camera_info", read["rds_transformer"])
         self.assertTrue(all(peer.lives() for peer in peers))
 
 

@@ -32,6 +32,7 @@ ROBOTS = {"robot1": ["--namespace", "robot1", "--frame-prefix", "robot1/", "--ro
 GLOBAL = ("/diagnostics",)
 # Reliable and latched, as the table of topics says.
 QOS = {"rds/odometry": (True, False), "rds/trajectory": (True, True), "tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
+       "rds/map/grid_updates": (True, False),
        "rds/services": (True, True), "rds/transfer/requests": (False, False), "/diagnostics": (True, False)}
 
 

@@ -63,7 +63,7 @@ class RosServices(unittest.TestCase):
 
     def check_parameters(self, told):
         for node, name, value, description in ((TRACKER, "extraction.features", 800, "wanted per picture"), (TRACKER, "extraction.scale_factor", 1.2, "between levels"),
-                                               (TRACKER, "camera.color", "camera/color/image_raw", None), (TRACKER, "dynamics", True, None),
+                                               (TRACKER, "camera.preset", "rds", None), (TRACKER, "dynamics", True, None),
                                                (TRACKER, "frame_prefix", "robot1/", "before the names of the robot's frames"),
                                                (MAPPER, "expect_boxes", False, None), (MAPPER, "octree.resolution_m", 0.05, None)):
             with self.subTest(name):

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/topics/camera_presets.hpp"
+
 namespace rds::tracker {
 namespace {
 
@@ -41,6 +43,14 @@ Fault fault_of(const StreamSight& stream, const std::vector<std::string>& others
                      remedy);
 }
 
+/// "camera.color", and the preset of a driver whose colour pictures are there.
+std::string color_setting(const std::vector<std::string>& others) {
+  for (const topics::CameraPreset& preset : topics::kCameraPresets)
+    if (std::ranges::find(others, preset.color) != others.end())
+      return fmt::format("camera.preset to {}, or camera.color", preset.name);
+  return "camera.color";
+}
+
 Fault fault_of_color(const CameraSight& sight) {
   const bool others_come = comes(sight.info) || comes(sight.depth);
   const bool is_there = sight.color.publishers > 0 || !sight.color.other_type.empty();
@@ -49,7 +59,8 @@ Fault fault_of_color(const CameraSight& sight) {
   if (sight.color.refused_s >= kSilentS &&
       (is_there ? !others_come && sight.color.other_type.empty() : !is_camera_there))
     return std::nullopt;  // a driver that does nothing yet, or none
-  return fault_of(sight.color, sight.other_pictures, "camera.color", "switch the driver's colour stream on");
+  return fault_of(sight.color, sight.other_pictures, color_setting(sight.other_pictures),
+                  "switch the driver's colour stream on");
 }
 
 Fault fault_of_pairing(const CameraSight& sight) {
@@ -60,17 +71,6 @@ Fault fault_of_pairing(const CameraSight& sight) {
       "pictures of {} and {} have no partner: their stamps are {:.0f} ms apart; switch the driver's "
       "synchronisation on (enable_sync:=true), or raise camera.pairing_tolerance_s",
       sight.color.topic, sight.depth.topic, *sight.partner_ms);
-}
-
-Fault fault_of_frames(const CameraSight& sight) {
-  if (!comes(sight.depth) || sight.color_frame.empty() || sight.depth_frame.empty() ||
-      sight.color_frame == sight.depth_frame)
-    return std::nullopt;
-  return fmt::format(
-      "{} is in frame '{}', colour in '{}', so depth is not registered to colour: switch the driver's "
-      "alignment on "
-      "(align_depth.enable:=true) and set camera.depth to that topic",
-      sight.depth.topic, sight.depth_frame, sight.color_frame);
 }
 
 }  // namespace
@@ -89,7 +89,6 @@ std::map<std::string, std::string> camera_faults(const CameraSight& sight) {
     note("camera depth", fault_of(sight.depth, sight.other_pictures, "camera.depth",
                                   "switch the driver's depth on (align_depth.enable:=true)"));
   note("camera pairing", fault_of_pairing(sight));
-  note("camera frames", fault_of_frames(sight));
   return faults;
 }
 

@@ -29,9 +29,7 @@ struct CameraSight {
   StreamSight depth;
   double since_frame_s = StreamSight::kNever;  // since a colour and a depth picture made a frame
   std::optional<double> partner_ms =
-      {};                        // between the stamps of a colour picture and the depth nearest to it
-  std::string color_frame = {};  // of the last pictures
-  std::string depth_frame = {};
+      {};  // between the stamps of a colour picture and the depth nearest to it
   std::vector<std::string> other_pictures = {};  // topics of pictures that are not read
   std::vector<std::string> other_infos = {};     // topics of camera_info that are not read
 };
@@ -42,7 +40,7 @@ std::map<std::string, std::string> camera_faults(const CameraSight& sight);
 
 /// The names that camera_faults() uses.
 inline const std::vector<std::string> kCameraFaults{"camera colour", "camera info", "camera depth",
-                                                    "camera pairing", "camera frames"};
+                                                    "camera pairing"};
 
 /// Tells of faults that last: what is missing for a moment, while processes start or frames wait, is no
 /// fault.

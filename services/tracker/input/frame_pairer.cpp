@@ -13,6 +13,12 @@ using time::StampStep;
 constexpr std::size_t kMaxWaiting = 5;  // as the topics keep
 }  // namespace
 
+void FramePairer::forget_waiting() {
+  unpaired_ += colors_.size() + depths_.size();
+  colors_.clear();
+  depths_.clear();
+}
+
 FramePairer::Frames FramePairer::set_camera(const geometry::CameraModel& camera) {
   camera_ = camera;
   return take_complete();

@@ -22,6 +22,8 @@ class FramePairer {
 
   explicit FramePairer(std::int64_t tolerance_ns) : tolerance_ns_(tolerance_ns) {}
 
+  /// Pictures that wait are given up.
+  void forget_waiting();
   /// Pictures wait until the camera is known. @return the frames that were waiting for it.
   Frames set_camera(const geometry::CameraModel& camera);
 

@@ -49,12 +49,12 @@ TEST_P(NodeServices, TellSettingsAsParameters) {
   EXPECT_EQ(listed->result().names().size(), 5U);
 
   GetParameters_Request names;
-  names.names({"extraction.features", "camera.color", "unheard_of"});
+  names.names({"extraction.features", "camera.preset", "unheard_of"});
   const auto got = ask<GetParameters_Request, GetParameters_Response>("get_parameters", names);
   ASSERT_TRUE(got);
   ASSERT_EQ(got->values().size(), 3U);
   EXPECT_EQ(got->values()[0].integer_value(), 800);
-  EXPECT_EQ(got->values()[1].string_value(), "camera/color/image_raw");
+  EXPECT_EQ(got->values()[1].string_value(), "rds");
   EXPECT_EQ(got->values()[2].type(), 0);
 
   DescribeParameters_Request described;

@@ -2,6 +2,7 @@
 #include "tests/integration/camera/camera_driver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -116,6 +117,36 @@ cv::Mat millimetres(const image::DepthImage& depth) {
   return values;
 }
 
+geometry::CameraModel half_of(geometry::CameraModel camera) {
+  camera.width /= 2, camera.height /= 2, camera.fx /= 2, camera.fy /= 2;
+  camera.cx /= 2, camera.cy /= 2;  // every other pixel, from the first on
+  return camera;
+}
+
+geometry::Pose color_from_depth() {  // turned a little, as cameras are
+  return geometry::make_pose({-0.05, 0.002, -0.001}, Eigen::Quaterniond(Eigen::AngleAxisd(
+                                                         0.01, Eigen::Vector3d(1, 2, 1).normalized())));
+}
+
+/// The depth picture that a camera elsewhere has of the same: every point falls on one of its pixels.
+image::DepthImage seen_from_depth(const image::RgbdFrame& frame, const geometry::CameraModel& camera) {
+  const geometry::Pose depth_from_color = color_from_depth().inverse();
+  cv::Mat1w values(camera.height, camera.width, std::uint16_t{0});
+  for (int y = 0; y < frame.depth.values.rows; ++y)
+    for (int x = 0; x < frame.depth.values.cols; ++x) {
+      const double z = frame.depth.at(x, y);
+      if (z <= 0) continue;
+      const Eigen::Vector3d point = depth_from_color * (z * frame.camera.ray({x, y}));
+      const Eigen::Vector2d pixel = camera.project(point);
+      const cv::Point at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+      if (!cv::Rect(0, 0, camera.width, camera.height).contains(at)) continue;
+      const auto millimetres = static_cast<std::uint16_t>(std::lround(1000 * point.z()));
+      std::uint16_t& nearest = values(at);
+      if (nearest == 0 || millimetres < nearest) nearest = millimetres;
+    }
+  return {values, 0.001F, nullptr};
+}
+
 std::vector<std::string> command(bus::Vendor vendor, int domain, const TemporaryFolder& place,
                                  const std::string& settings) {
   write_text(place / "tracker.yaml", settings);
@@ -161,7 +192,7 @@ TrackerWithDriver::TrackerWithDriver(bus::Vendor vendor, int domain, const Drive
     if (!habits.color_topic.empty()) color_ = bus_->advertise<Image>(habits.color_topic, qos);
     if (!habits.depth_topic.empty()) depth_ = bus_->advertise<Image>(habits.depth_topic, qos);
   }
-  if (habits.half_depth)
+  if (habits.half_depth || habits.depth_apart)
     depth_info_ = bus_->advertise<CameraInfo>("camera/aligned_depth_to_color/camera_info", qos);
   subscriptions_.push_back(
       bus_->subscribe<TrackingState>("rds/tracking_state", bus::kStream, [this](const auto& m) {
@@ -184,6 +215,7 @@ TrackerWithDriver::TrackerWithDriver(bus::Vendor vendor, int domain, const Drive
                                [](const auto& e) { return e.topic == "rds/tracking_state" && e.publisher; });
   };
   while (!is_there() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(20ms);
+  if (habits.depth_apart) publish_mounting();
 }
 
 void TrackerWithDriver::publish(const image::RgbdFrame& given, std::int64_t stamp_ns) {
@@ -207,15 +239,35 @@ void TrackerWithDriver::publish(const image::RgbdFrame& given, std::int64_t stam
   }
   if (!habits_.color_topic.empty()) color_.write(encoded(frame.color, habits_.encoding, header));
   if (habits_.depth_topic.empty()) return;
-  if (!habits_.half_depth) return void(depth_.write(messages::to_image_message(frame.depth, depth_header)));
-  geometry::CameraModel half = frame.camera;
-  half.width /= 2, half.height /= 2, half.fx /= 2, half.fy /= 2;
-  half.cx /= 2, half.cy /= 2;  // every other pixel, from the first on
-  depth_info_.write(messages::to_camera_info(half, depth_header));
-  image::DepthImage small = frame.depth;
-  cv::resize(frame.depth.values, small.values = cv::Mat(), {half.width, half.height}, 0, 0,
-             cv::INTER_NEAREST);
-  depth_.write(messages::to_image_message(small, depth_header));
+  publish_depth(frame, stamp_ns + habits_.depth_delay_ns);
+}
+
+void TrackerWithDriver::publish_depth(const image::RgbdFrame& frame, std::int64_t stamp_ns) {
+  const auto header = messages::make_header(stamp_ns, habits_.depth_frame);
+  image::DepthImage depth = frame.depth;
+  if (habits_.half_depth || habits_.depth_apart) {
+    const geometry::CameraModel half = half_of(frame.camera);
+    depth_info_.write(messages::to_camera_info(half, header));
+    if (habits_.depth_apart)
+      depth = seen_from_depth(frame, half);
+    else
+      cv::resize(frame.depth.values, depth.values = cv::Mat(), {half.width, half.height}, 0, 0,
+                 cv::INTER_NEAREST);
+  }
+  depth_.write(messages::to_image_message(depth, header));
+}
+
+/// Where depth's camera is; returns when the tracker has read it.
+void TrackerWithDriver::publish_mounting() {
+  geometry_msgs::msg::TransformStamped mounting;
+  mounting.header(messages::make_header(0, habits_.frame));
+  mounting.child_frame_id(habits_.depth_frame);
+  mounting.transform(messages::to_transform_message(color_from_depth()));
+  static_ = bus_->advertise<tf2_msgs::msg::TFMessage>("tf_static", bus::kLatched);
+  tf2_msgs::msg::TFMessage tree;
+  tree.transforms().push_back(mounting);
+  static_.write(tree);
+  std::this_thread::sleep_for(500ms);
 }
 
 bool TrackerWithDriver::publish_until(const std::function<bool()>& condition, std::chrono::seconds limit) {

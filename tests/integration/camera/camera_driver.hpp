@@ -18,6 +18,7 @@
 #include "sensor_msgs/msg/CompressedImage.h"
 #include "sensor_msgs/msg/Image.h"
 #include "tests/support/process.hpp"
+#include "tf2_msgs/msg/TFMessage.h"
 
 namespace rds::test {
 
@@ -35,6 +36,7 @@ struct DriverHabits {
   std::int64_t depth_delay_ns = 0;       // of its stamps
   std::string encoding = "rgb8";         // of colour
   bool half_depth = false;               // of half the size, with a camera_info of its own
+  bool depth_apart = false;              // by such a camera 5 cm to the left of colour's, as tf_static says
   std::string distortion = "plumb_bob";  // that pictures are made with, and camera_info says
 };
 
@@ -63,6 +65,8 @@ class TrackerWithDriver {
 
  private:
   void publish(const image::RgbdFrame& frame, std::int64_t stamp_ns);
+  void publish_depth(const image::RgbdFrame& frame, std::int64_t stamp_ns);
+  void publish_mounting();
 
   DriverHabits habits_;
   TemporaryFolder place_;
@@ -73,6 +77,7 @@ class TrackerWithDriver {
   bus::Publisher<sensor_msgs::msg::CompressedImage> packed_depth_;
   bus::Publisher<sensor_msgs::msg::CameraInfo> info_;
   bus::Publisher<sensor_msgs::msg::CameraInfo> depth_info_;
+  bus::Publisher<tf2_msgs::msg::TFMessage> static_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string diagnosis_;

@@ -50,6 +50,11 @@ class TypeHash(unittest.TestCase):
                          "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e")
 
 
+    def test_equals_that_of_map_msgs(self):
+        # SHA-256 of the type's description, put together of those parts of Jazzy's nav_msgs/msg/OccupancyGrid.json that are of the same types.
+        self.assertEqual(idl_model.type_hash(STRUCTS["map_msgs/msg/OccupancyGridUpdate"], STRUCTS),
+                         "RIHS01_c4095b0be2e4363f8978a1570e0293ee093436f1e1c61d99b48502ac317025e8")
+
     def test_equals_what_ros_announces_of_a_service_s_endpoints(self):
         for part, hash_of_part in (("_Request", "a1b0b5d6b967a5b8ac5bc8563c3ea678f349e312a6a4967227c5a96bc5ce38df"),
                                    ("_Response", "31b937b82de3612426be79f231e386259f97e8dc843e3f2845288b4bfa296bdd")):

@@ -45,5 +45,24 @@ TEST(Lens, OfAnEquidistantProjectionMeasuresAngles) {
   EXPECT_NEAR(bent.project({0, 1, 1}).y(), 240 + 510 * angle * (1 + .1 * angle * angle), 1e-9);
 }
 
+TEST(Lens, KnowsTheRayOfEachPixel) {
+  for (const Lens& each :
+       {lens(LensModel::kPlumbBob, {}), lens(LensModel::kPlumbBob, {.1, -.2, .01, .02, .3}),
+        lens(LensModel::kRationalPolynomial, {.3, -.1, .001, .002, .02, .2, .01, .005}),
+        lens(LensModel::kEquidistant, {.02, -.01, .003, -.001})})
+    for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(0, 0), {300, 200}, {639, 479}, {12.5, 460.25}}) {
+      const auto ray = each.ray(pixel);
+      ASSERT_TRUE(ray) << pixel.transpose();
+      EXPECT_EQ(ray->z(), 1);
+      EXPECT_LT((each.project(*ray) - pixel).norm(), 2e-3) << pixel.transpose();
+    }
+}
+
+TEST(Lens, HasNoRayWhereItsDistortionFoldsBack) {
+  const Lens folded = lens(LensModel::kPlumbBob, {-0.5});  // r (1 − r²/2) is .54 at most
+  EXPECT_TRUE(folded.ray({folded.cx + 0.4 * folded.fx, folded.cy}));
+  EXPECT_FALSE(folded.ray({folded.cx + 0.6 * folded.fx, folded.cy}));
+}
+
 }  // namespace
 }  // namespace rds::geometry

@@ -5,6 +5,7 @@
 #include <octomap/OcTree.h>
 
 #include "common/messages/detection_conversions.hpp"
+#include "map_msgs/msg/OccupancyGridUpdate.h"
 #include "tests/support/map_reader.hpp"
 #include "tests/unit/services/mapper/mapper_on_the_bus.hpp"
 
@@ -148,6 +149,102 @@ TEST_F(MapperOnTheBus, ShowsChangesToWhoLooksAtTheGridWithinSeconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   const std::lock_guard lock(mutex);
   EXPECT_LE(stamps.size(), 4U) << "one for each change, and the one for a new reader";
+}
+
+/// The grid of somebody who reads it whole once, and then what changes of it.
+class GridFollower {
+ public:
+  explicit GridFollower(bus::Participant& bus)
+      : wholes_(bus.subscribe<nav_msgs::msg::OccupancyGrid>("rds/map/grid", bus::kLatched,
+                                                            [this](const auto& m) { take_whole(*m); })),
+        updates_(bus.subscribe<map_msgs::msg::OccupancyGridUpdate>("rds/map/grid_updates", bus::kStream,
+                                                                   [this](const auto& m) { take(*m); })) {}
+
+  nav_msgs::msg::OccupancyGrid grid() {
+    const std::lock_guard lock(mutex_);
+    return grid_;
+  }
+  int updates() {
+    const std::lock_guard lock(mutex_);
+    return taken_;
+  }
+  /// Updates, and whole grids before them: as long as the mapper finds that a reader is new.
+  int changes() {
+    const std::lock_guard lock(mutex_);
+    return changes_;
+  }
+  int wholes_after_updates() {
+    const std::lock_guard lock(mutex_);
+    return wholes_after_;
+  }
+
+ private:
+  void take_whole(const nav_msgs::msg::OccupancyGrid& grid) {
+    const std::lock_guard lock(mutex_);
+    if (taken_ > 0) return void(++wholes_after_);
+    grid_ = grid;
+    ++changes_;
+  }
+  void take(const map_msgs::msg::OccupancyGridUpdate& update) {
+    const std::lock_guard lock(mutex_);
+    ++taken_;
+    ++changes_;
+    const auto row = [&](std::uint32_t y) {
+      return (static_cast<std::size_t>(update.y()) + y) * grid_.info().width() +
+             static_cast<std::size_t>(update.x());
+    };
+    for (std::uint32_t y = 0; y < update.height(); ++y)
+      for (std::uint32_t x = 0; x < update.width(); ++x)
+        grid_.data().at(row(y) + x) = update.data().at(std::size_t{y} * update.width() + x);
+  }
+
+  std::mutex mutex_;
+  nav_msgs::msg::OccupancyGrid grid_;
+  int taken_ = 0;
+  int changes_ = 0;
+  int wholes_after_ = 0;
+  bus::Subscription wholes_;
+  bus::Subscription updates_;
+};
+
+TEST_F(MapperOnTheBus, TellsWhatChangesOfTheGridToWhoFollowsIt) {
+  auto rare = config();
+  rare.full_map_every = 1000;
+  rare.mapper.grid.up = "-y";  // neither depends on what is seen, so the grid stays where it is
+  rare.mapper.grid.floor = "-1.2";
+  start(rare);
+  GridFollower follower(*bus);
+  const auto show = [&](std::uint64_t id, const cv::Rect& px) {
+    images.write(to_message(SyntheticKeyframe(id).rectangle(px, 2.0).make()));
+    return has_revision(id + 1);
+  };
+  ASSERT_TRUE(show(0, {}));
+  ASSERT_TRUE(wait_for([&] { return follower.grid().info().width() > 0; }));
+  std::uint64_t id = 1;
+  for (; id <= 3; ++id) {  // later ones would be outvoted by those that saw free space
+    const int before = follower.changes();
+    ASSERT_TRUE(show(id, {static_cast<int>(50 * id), 60, 40, 120}));
+    ASSERT_TRUE(wait_for([&] { return follower.changes() > before; })) << "keyframe " << id;
+  }
+  EXPECT_GE(follower.updates(), 2);
+  EXPECT_EQ(follower.wholes_after_updates(), 0);
+
+  const auto elsewhere = join("late");
+  nav_msgs::msg::OccupancyGrid whole;
+  const auto late =
+      elsewhere->subscribe<nav_msgs::msg::OccupancyGrid>("rds/map/grid", bus::kLatched, [&](const auto& m) {
+        const std::lock_guard lock(mutex);
+        whole = *m;
+      });
+  const auto is_of_the_follower = [&] {
+    const std::lock_guard lock(mutex);
+    return whole.data() == follower.grid().data() && whole.info().origin() == follower.grid().info().origin();
+  };
+  EXPECT_TRUE(wait_for(is_of_the_follower)) << "the newest whole grid, for who comes late";
+  EXPECT_TRUE(wait_for([&] { return follower.wholes_after_updates() == 1; }));
+  ASSERT_TRUE(show(id, {100, 60, 100, 120}));
+  EXPECT_TRUE(wait_for([&] { return follower.wholes_after_updates() == 2; }))
+      << "as somebody reads it who does not follow";
 }
 
 TEST_F(MapperOnTheBus, GoesOnInItsMapAfterARestart) {

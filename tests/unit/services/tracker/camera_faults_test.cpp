@@ -18,9 +18,7 @@ CameraSight working_camera() {
   return {.color = {.topic = "color", .publishers = 1, .silent_s = 0.03},
           .info = {.topic = "info", .publishers = 1, .silent_s = 0.03},
           .depth = {.topic = "depth", .publishers = 1, .silent_s = 0.03},
-          .since_frame_s = 0.03,
-          .color_frame = "optical",
-          .depth_frame = "optical"};
+          .since_frame_s = 0.03};
 }
 
 TEST(CameraFaults, AreNoneOfACameraThatWorksOrIsNotThere) {
@@ -44,7 +42,7 @@ TEST(CameraFaults, NameOtherTopicsOfPictures) {
   EXPECT_THAT(camera_faults(sight),
               ElementsAre(Pair("camera colour",
                                AllOf(HasSubstr("nobody publishes color"), HasSubstr("camera/rgb/image_raw"),
-                                     HasSubstr("set camera.color")))));
+                                     HasSubstr("set camera.preset to xtion, or camera.color")))));
 }
 
 TEST(CameraFaults, NameTheTypeThatIsNotRead) {
@@ -89,13 +87,6 @@ TEST(CameraFaults, TellOfPicturesWithoutPartner) {
   sight.partner_ms = 45;
   EXPECT_THAT(camera_faults(sight)["camera pairing"],
               AllOf(HasSubstr("45 ms apart"), HasSubstr("camera.pairing_tolerance_s")));
-}
-
-TEST(CameraFaults, TellOfDepthThatIsNotRegistered) {
-  CameraSight sight = working_camera();
-  sight.depth_frame = "depth_optical";
-  EXPECT_THAT(camera_faults(sight)["camera frames"],
-              AllOf(HasSubstr("'depth_optical'"), HasSubstr("not registered")));
 }
 
 TEST(CameraFaults, HaveNamesThatAreKnown) {

@@ -51,6 +51,16 @@ TEST(FramePairer, AColourPictureGoesOnAloneOnceALaterDepthPictureIsThere) {
   EXPECT_EQ(pairer.unpaired(), 1U);  // depth at 79
 }
 
+TEST(FramePairer, ForgetsWhatCameBeforeTheCamera) {
+  FramePairer pairer(20 * kMs);
+  EXPECT_THAT(pairer.add_color(100 * kMs, color()), IsEmpty());
+  EXPECT_THAT(pairer.add_depth(133 * kMs, depth()), IsEmpty());
+  pairer.forget_waiting();
+  EXPECT_THAT(pairer.set_camera({8, 6, 10, 10, 4, 3, {}}), IsEmpty());
+  EXPECT_THAT(pairer.add_color(133 * kMs, color()), IsEmpty());
+  EXPECT_EQ(pairer.unpaired(), 2U);
+}
+
 TEST(FramePairer, FramesKeepTheOrderOfTheirStamps) {
   FramePairer pairer = pairer_with_camera();
   for (const int ms : {100, 133, 166}) EXPECT_THAT(pairer.add_color(ms * kMs, color()), IsEmpty());

@@ -35,5 +35,15 @@ TEST(TrackerServiceConfig, NamesEveryViolation) {
   }
 }
 
+TEST(TrackerServiceConfig, TakesTopicsOfThePresetUnlessTheyAreSet) {
+  config::ConfigReader reader(YAML::Load("{camera: {preset: xtion, depth: mine/depth}}"), "tracker.yaml");
+  TrackerServiceConfig config;
+  read(reader, config);
+  EXPECT_NO_THROW(reader.finish());
+  EXPECT_EQ(config.camera.color, "camera/rgb/image_raw");
+  EXPECT_EQ(config.camera.camera_info, "camera/rgb/camera_info");
+  EXPECT_EQ(config.camera.depth, "mine/depth");
+}
+
 }  // namespace
 }  // namespace rds::tracker

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/topics/camera_presets.hpp"
+
+#include <gmock/gmock.h>
+
+#include "common/topics/topics.hpp"
+
+namespace rds::topics {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(CameraPresets, BeginWithTheNamesOfThisProject) {
+  config::ConfigReader reader;
+  const CameraPreset preset = read_camera_preset(reader, "preset");
+  EXPECT_STREQ(preset.color, kColor.name);
+  EXPECT_STREQ(preset.camera_info, kCameraInfo.name);
+  EXPECT_STREQ(preset.depth, kDepth.name);
+}
+
+TEST(CameraPresets, AreAllKnownByTheirNames) {
+  for (const CameraPreset& expected : kCameraPresets) {
+    config::ConfigReader reader(YAML::Load(std::string("{preset: ") + expected.name + "}"), "x.yaml");
+    EXPECT_STREQ(read_camera_preset(reader, "preset").depth, expected.depth);
+    EXPECT_NO_THROW(reader.finish());
+  }
+}
+
+TEST(CameraPresets, AreListedWhereANameIsNone) {
+  config::ConfigReader reader(YAML::Load("{preset: kinect}"), "x.yaml");
+  read_camera_preset(reader, "preset");
+  try {
+    reader.finish();
+    FAIL() << "no violation found";
+  } catch (const config::ConfigError& e) {
+    EXPECT_THAT(e.what(),
+                HasSubstr("preset: kinect, expected one of: rds, realsense, azure_kinect, orbbec, xtion"));
+  }
+}
+
+TEST(CameraPresets, GiveWayToATopicThatIsSet) {
+  config::ConfigReader reader(YAML::Load("{color: mine, depth: ''}"), "x.yaml");
+  std::string color;
+  std::string depth;
+  read_topic(reader, "color", "preset/color", color);
+  read_topic(reader, "depth", "preset/depth", depth);
+  EXPECT_EQ(color, "mine");
+  EXPECT_EQ(depth, "preset/depth");
+}
+
+}  // namespace
+}  // namespace rds::topics

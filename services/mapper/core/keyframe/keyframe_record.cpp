@@ -56,7 +56,7 @@ SampledRays::SampledRays(const geometry::CameraModel& camera, int stride_px) {
     for (int x = 0; x < camera.width; x += stride_px) {
       const Eigen::Vector3f& ray = rays_.emplace_back(camera.ray(Eigen::Vector2d(x, y)).cast<float>());
       if (is_used(ray))
-        longest_ = std::max(longest_, ray.squaredNorm());
+        extent_.extend(ray.head<2>());
       else
         are_all_used_ = false;
     }

@@ -18,8 +18,8 @@ class SampledRays {
   /// False at the edge of a fisheye, where points are farther than kMaxObliqueness × their depth: they are
   /// left out of the map.
   [[nodiscard]] bool is_used(std::size_t pixel) const { return are_all_used_ || is_used(rays_[pixel]); }
-  /// Square of the longest ray that is used.
-  [[nodiscard]] float longest() const { return longest_; }
+  /// Around x and y of the rays that are used, and of the optical axis.
+  [[nodiscard]] const Eigen::AlignedBox2f& extent() const { return extent_; }
 
  private:
   static constexpr float kMaxObliqueness = 2;
@@ -28,7 +28,7 @@ class SampledRays {
   }
 
   std::vector<Eigen::Vector3f> rays_;
-  float longest_ = 0;
+  Eigen::AlignedBox2f extent_{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
   bool are_all_used_ = true;
 };
 

@@ -34,6 +34,7 @@ struct Scan {
       slots;                                    // of the grid's blocks that have some: their places
   std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them
   std::uint16_t surfaces_of_picture = 0;
+  std::vector<Eigen::Vector3d> ray_ends;  // scratch
 };
 
 /// Fills `scan` (its memory is reused) with the surface voxels of a record; points outside the octree's key

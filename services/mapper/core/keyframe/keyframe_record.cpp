@@ -62,6 +62,18 @@ SampledRays::SampledRays(const geometry::CameraModel& camera, int stride_px) {
     }
 }
 
+cv::Rect PixelGrid::inside(const geometry::Box2& box) const {
+  const auto first_from = [&](double px, int count) {
+    int i = 0;
+    while (i < count && i * stride < px) ++i;
+    return i;
+  };
+  const int left = first_from(box.x0, width);
+  const int top = first_from(box.y0, height);
+  return {left, top, std::max(0, first_from(box.x1, width) - left),
+          std::max(0, first_from(box.y1, height) - top)};
+}
+
 std::optional<std::string> check(const KeyframeInput& input) {
   const auto& camera = input.camera;
   if (!camera.is_valid() || camera.width > kMaxSide || camera.height > kMaxSide)

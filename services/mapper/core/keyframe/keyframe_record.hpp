@@ -45,6 +45,8 @@ struct PixelGrid {
   }
   [[nodiscard]] int column(std::size_t pixel) const { return static_cast<int>(pixel) % width; }
   [[nodiscard]] int row(std::size_t pixel) const { return static_cast<int>(pixel) / width; }
+  /// The sampled columns and rows that lie in a box of the full picture.
+  [[nodiscard]] cv::Rect inside(const geometry::Box2& box) const;
 
   /// Calls visit(pixel, column, row) for ascending pixels: without a division for each.
   template <class Visit>

@@ -29,8 +29,8 @@ SemanticOctree::SemanticOctree(const OctreeConfig& config) : config_(config), tr
 }
 
 std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
-  const auto found = labels_.find(packed(key));
-  return found == labels_.end() ? std::uint16_t{0} : found->second;
+  const auto found = labels_.find(packed(block_key(key)));
+  return found == labels_.end() ? std::uint16_t{0} : found->second[cell_of(key)];
 }
 
 void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& voxels,
@@ -100,7 +100,7 @@ void SemanticOctree::erase_voxel(Node* parent, unsigned index, const octomap::Oc
   if (tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) --occupied_;
   bounds_.remove(key);
   tree_.deleteNodeChild(parent, index);
-  labels_.erase(packed(key));
+  set_label(key, 0);
   source.delta.deleted_keys.insert(source.delta.deleted_keys.end(), {key[0], key[1], key[2]});
 }
 
@@ -118,10 +118,8 @@ SemanticOctree::Voxel SemanticOctree::voxel_of(unsigned cell, const Source& sour
 }
 
 void SemanticOctree::set_label(const octomap::OcTreeKey& key, std::uint16_t label) {
-  if (label != 0)
-    labels_[packed(key)] = label;
-  else
-    labels_.erase(packed(key));
+  const std::uint64_t block = packed(block_key(key));
+  if (label != 0 || labels_.contains(block)) labels_[block][cell_of(key)] = label;
 }
 
 }  // namespace rds::mapper

@@ -53,7 +53,7 @@ class SemanticOctree {
 
   OctreeConfig config_;
   EditableOcTree tree_;
-  std::unordered_map<std::uint64_t, std::uint16_t> labels_;  // of voxels that bear one; by key only
+  std::unordered_map<std::uint64_t, PerCell<std::uint16_t>> labels_;  // of blocks where some voxel bore one
   std::uint64_t occupied_ = 0;
   KeyBounds bounds_;
 };

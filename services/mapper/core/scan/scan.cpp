@@ -117,8 +117,11 @@ void mark_dynamic_places(const VoxelProjector& projector, const SamplingConfig& 
   VoxelPoint point;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!is_dynamic(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
-    if (projector.project(i, PixelClass::kDynamic, point) && run.begins_with(point.packed_key))
-      mark_around(point.key(), bits, grid);
+    if (!projector.project(i, PixelClass::kDynamic, point) || !run.begins_with(point.packed_key)) continue;
+    std::uint8_t& flags = grid.flags_of(point.key());
+    if ((flags & kDynamicSurface) != 0) continue;
+    flags |= kDynamicSurface;
+    mark_around(point.key(), bits, grid);
   }
 }
 
@@ -145,7 +148,6 @@ void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octre
                          const SamplingConfig& sampling, Scan& scan) {
   const VoxelProjector projector(record, octree.resolution_m, sampling.max_range_m);
   scan.surfaces.clear();
-  scan.slots.clear();
   if (!projector.is_inside()) return scan.grid.reset({0, 0, 0}, {0, 0, 0});
   cover(projector, octree.resolution_m, scan.grid);
   VoxelRun run;

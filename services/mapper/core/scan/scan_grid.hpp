@@ -21,6 +21,7 @@ enum ScanFlag : std::uint8_t {
   kNoReturnRay = 8,
   kDynamicPlace = 16,
   kBesideSurface = 32,
+  kDynamicSurface = 64,
 };
 
 /// Cells of a block by their flags.

@@ -53,6 +53,25 @@ TEST(ScanGrid, RaysPassWhereOctoMapsRaysPass) {
   }
 }
 
+TEST(ScanGrid, RaysTogetherMarkWhatEachMarksAlone) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(101, 139);
+  const auto point = [&] { return Eigen::Vector3d(uniform(random), uniform(random), uniform(random)); };
+  const Eigen::Vector3d from = point();
+  std::vector<Eigen::Vector3d> ends;
+  std::set<Key> alone;
+  ScanGrid grid;
+  for (int i = 0; i < 7; ++i) {  // the last one has no other beside it
+    ends.push_back(point());
+    grid.reset({100, 100, 100}, {140, 140, 140});
+    grid.cast_rays(from, std::array{ends.back()});
+    alone.merge(marked(grid));
+    grid.reset({100, 100, 100}, {140, 140, 140});
+    grid.cast_rays(from, ends);
+    EXPECT_EQ(marked(grid), alone) << ends.size() << " rays";
+  }
+}
+
 TEST(ScanGrid, ARayEndsBeforeItsLastVoxelAndCoversAxesExactly) {
   ScanGrid grid;
   grid.reset({100, 100, 100}, {140, 140, 140});

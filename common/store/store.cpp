@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kApplication = 0x52445331;  // "RDS1"
 constexpr std::uint64_t kPageBytes = 4096;
-// With row ids: without them whole rows would be the index, and each search would read the large ones on its way.
+// With row ids: WITHOUT ROWID (older files) a search reads whole rows to compare their keys.
 constexpr const char* kTables =
     "CREATE TABLE rows (kind TEXT NOT NULL, id INTEGER NOT NULL, checksum INTEGER NOT NULL, bytes BLOB NOT "
     "NULL,"

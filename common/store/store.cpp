@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::uint64_t kApplication = 0x52445331;  // "RDS1"
 constexpr std::uint64_t kPageBytes = 4096;
+// With row ids: WITHOUT ROWID (older files) a search reads whole rows to compare their keys.
 constexpr const char* kTables =
     "CREATE TABLE rows (kind TEXT NOT NULL, id INTEGER NOT NULL, checksum INTEGER NOT NULL, bytes BLOB NOT "
     "NULL,"
-    " PRIMARY KEY (kind, id)) WITHOUT ROWID;"
+    " PRIMARY KEY (kind, id));"
     "CREATE TABLE manifest (one INTEGER PRIMARY KEY, rows INTEGER, digest INTEGER, checksum INTEGER);";
 
 std::array<std::uint8_t, 8> raw(std::uint64_t number) {
@@ -150,7 +151,7 @@ tl::expected<Store, Fault> Store::nameless(const fs::path& folder) {
 
 /// Reads everything. @return what is wrong.
 std::optional<std::string> Store::verify() {
-  auto check = connection_.prepare("PRAGMA quick_check(1)");
+  auto check = connection_.prepare("PRAGMA integrity_check(1)");
   const auto checked = check.step();
   if (!checked) return checked.error().words;
   if (check.text(0) != "ok") return std::string(check.text(0));

@@ -126,7 +126,8 @@ void MapOutputs::share_map(const SemanticMapper& mapper) {
 
 void MapOutputs::publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting) {
   publish_delta(std::move(delta), mapper);
-  if (since_full_ >= full_map_every_ && !is_busy()) return publish_all(mapper, keyframes_waiting);
+  const bool is_full_due = since_full_ >= full_map_every_ && topics_.full.matched() > 0;
+  if (is_full_due && !is_busy()) return publish_all(mapper, keyframes_waiting);
   sender_.send(
       [this, info = info_of(mapper, keyframes_waiting, keyframe_.stamp_ns)] { topics_.info.write(info); });
 }

@@ -36,7 +36,7 @@ struct MapPublishers {
 /// one that a reader still needs.
 class MapOutputs {
  public:
-  /// @param full_map_every  keyframes from one full map to the next.
+  /// @param full_map_every  keyframes from one full map to the next, while somebody reads them.
   MapOutputs(service::ServiceContext& context, const GridConfig& grid, int full_map_every);
 
   /// What follows is of another map: readers of the one before wait for the next full map.
@@ -45,7 +45,7 @@ class MapOutputs {
   void note_keyframe(std::uint64_t id, std::int64_t stamp_ns);
 
   void publish_delta(MapDelta delta, const SemanticMapper& mapper);
-  /// A delta, and after it the full map where that is due, else the MapInfo alone.
+  /// A delta, and after it the full map where that is due and somebody reads it, else the MapInfo alone.
   /// @param keyframes_waiting  MapInfo tells how far the mapper is.
   void publish(MapDelta delta, const SemanticMapper& mapper, std::size_t keyframes_waiting);
   /// Full map, its MapInfo, objects, markers and grid (GridPublisher); binary map and points where somebody

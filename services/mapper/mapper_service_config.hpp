@@ -14,7 +14,7 @@ struct MapperServiceConfig {
   bool lockstep = false;         // no keyframe is ever dropped, and none integrated without its boxes
   bool expect_boxes = true;      // a keyframe waits for its boxes …
   double boxes_timeout_s = 1.0;  // … until one newer by this has come; later boxes act at the next correction
-  int full_map_every = 20;       // keyframes; besides, whenever somebody new subscribes
+  int full_map_every = 20;       // keyframes, while somebody reads; besides, whenever somebody new subscribes
   std::string map_file;             // saved map, or OctoMap tree, that it starts from; empty: none
   bool localize_only = false;       // neither keyframes nor boxes are listened to
   store::MapsConfig maps;           // where the map lasts

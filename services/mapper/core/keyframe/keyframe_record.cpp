@@ -56,10 +56,22 @@ SampledRays::SampledRays(const geometry::CameraModel& camera, int stride_px) {
     for (int x = 0; x < camera.width; x += stride_px) {
       const Eigen::Vector3f& ray = rays_.emplace_back(camera.ray(Eigen::Vector2d(x, y)).cast<float>());
       if (is_used(ray))
-        longest_ = std::max(longest_, ray.squaredNorm());
+        extent_.extend(ray.head<2>());
       else
         are_all_used_ = false;
     }
+}
+
+cv::Rect PixelGrid::inside(const geometry::Box2& box) const {
+  const auto first_from = [&](double px, int count) {
+    int i = 0;
+    while (i < count && i * stride < px) ++i;
+    return i;
+  };
+  const int left = first_from(box.x0, width);
+  const int top = first_from(box.y0, height);
+  return {left, top, std::max(0, first_from(box.x1, width) - left),
+          std::max(0, first_from(box.y1, height) - top)};
 }
 
 std::optional<std::string> check(const KeyframeInput& input) {

@@ -18,8 +18,8 @@ class SampledRays {
   /// False at the edge of a fisheye, where points are farther than kMaxObliqueness × their depth: they are
   /// left out of the map.
   [[nodiscard]] bool is_used(std::size_t pixel) const { return are_all_used_ || is_used(rays_[pixel]); }
-  /// Square of the longest ray that is used.
-  [[nodiscard]] float longest() const { return longest_; }
+  /// Around x and y of the rays that are used, and of the optical axis.
+  [[nodiscard]] const Eigen::AlignedBox2f& extent() const { return extent_; }
 
  private:
   static constexpr float kMaxObliqueness = 2;
@@ -28,7 +28,7 @@ class SampledRays {
   }
 
   std::vector<Eigen::Vector3f> rays_;
-  float longest_ = 0;
+  Eigen::AlignedBox2f extent_{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
   bool are_all_used_ = true;
 };
 
@@ -45,6 +45,8 @@ struct PixelGrid {
   }
   [[nodiscard]] int column(std::size_t pixel) const { return static_cast<int>(pixel) % width; }
   [[nodiscard]] int row(std::size_t pixel) const { return static_cast<int>(pixel) / width; }
+  /// The sampled columns and rows that lie in a box of the full picture.
+  [[nodiscard]] cv::Rect inside(const geometry::Box2& box) const;
 
   /// Calls visit(pixel, column, row) for ascending pixels: without a division for each.
   template <class Visit>

@@ -14,18 +14,20 @@ namespace rds::mapper {
 /// once.
 class VoxelRun {
  public:
-  [[nodiscard]] bool begins_with(const octomap::OcTreeKey& key) {
-    return std::exchange(last_, packed(key)) != packed(key);
+  [[nodiscard]] bool begins_with(std::uint64_t packed_key) {
+    return std::exchange(last_, packed_key) != packed_key;
   }
 
  private:
-  std::uint64_t last_ = 0;  // packed; no key that can hold a point is 0
+  std::uint64_t last_ = 0;  // no key that can hold a point is 0
 };
 
 /// A point in voxel units, and its voxel.
 struct VoxelPoint {
   Eigen::Vector4d at;  // the last coordinate means nothing: four are added as fast as three
-  octomap::OcTreeKey key;
+  std::uint64_t packed_key;
+
+  [[nodiscard]] octomap::OcTreeKey key() const { return unpacked(packed_key); }
 };
 
 /// Pixels of a keyframe as points in voxel units; far ones and those without return end at
@@ -37,13 +39,17 @@ class VoxelProjector {
     const Eigen::Matrix3d rotation = record.map_from_camera.linear() / resolution_m;
     for (int axis = 0; axis < 3; ++axis) columns_[axis] << rotation.col(axis), 0;
     origin_ << record.map_from_camera.translation() / resolution_m + Eigen::Vector3d::Constant(kKeyOffset), 0;
-    reach_ = std::sqrt(double{record.grid.rays->longest()}) * max_range_m_ / resolution_m;
+    const Eigen::AlignedBox2f& rays = record.grid.rays->extent();
+    view_.extend(origin());
+    for (const float x : {rays.min().x(), rays.max().x()})
+      for (const float y : {rays.min().y(), rays.max().y()})
+        view_.extend(at({x, y, 1}, max_range_m_).head<3>());
     for (unsigned axis = 0; axis < 3; ++axis) {
       const auto inside = [&](double at) {
         return static_cast<int>(std::clamp(at, kLowestKey, kHighestKey));
       };
-      first_[axis] = inside(origin_[axis] - reach_ - 1);
-      end_[axis] = inside(origin_[axis] + reach_ + 2);
+      first_[axis] = inside(view_.min()[axis] - 1);
+      end_[axis] = inside(view_.max()[axis] + 2);
     }
   }
 
@@ -55,8 +61,8 @@ class VoxelProjector {
     const auto fits = [](double x) { return x >= kLowestKey && x < kHighestKey; };
     return fits(origin_.x()) && fits(origin_.y()) && fits(origin_.z());
   }
-  /// No point is farther from the origin.
-  [[nodiscard]] double reach() const { return reach_; }
+  /// Around camera and points, up to rounding [voxels].
+  [[nodiscard]] const Eigen::AlignedBox3d& view() const { return view_; }
 
   /// @param its_class  of the pixel. @return false if it shows no point, or one that the octree cannot hold.
   [[nodiscard]] bool project(std::size_t pixel, PixelClass its_class, VoxelPoint& point) const {
@@ -64,15 +70,13 @@ class VoxelProjector {
     if (its_class == PixelClass::kInvalid || !rays.is_used(pixel)) return false;
     const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
     const double depth = measured ? record_.depth_m(pixel) : max_range_m_;
-    const Eigen::Vector3f& ray = rays[pixel];
-    point.at = columns_[0] * (double{ray.x()} * depth) + columns_[1] * (double{ray.y()} * depth) +
-               columns_[2] * (double{ray.z()} * depth) + origin_;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const int key = static_cast<int>(point.at[axis]);
-      if (key < first_[axis] || key >= end_[axis]) return false;
-      point.key[axis] = static_cast<std::uint16_t>(key);
-    }
-    return true;
+    point.at = at(rays[pixel], depth);
+    const auto x = static_cast<int>(point.at.x());
+    const auto y = static_cast<int>(point.at.y());
+    const auto z = static_cast<int>(point.at.z());
+    const auto key = [](int k) { return static_cast<std::uint16_t>(k); };
+    point.packed_key = packed({key(x), key(y), key(z)});
+    return is_seen(x, 0) && is_seen(y, 1) && is_seen(z, 2);
   }
 
  private:
@@ -80,12 +84,20 @@ class VoxelProjector {
   static constexpr double kLowestKey = 8;
   static constexpr double kHighestKey = 65536 - 8;
 
+  [[nodiscard]] bool is_seen(int key, unsigned axis) const {
+    return key >= first_[axis] && key < end_[axis];
+  }
+  [[nodiscard]] Eigen::Vector4d at(const Eigen::Vector3f& ray, double depth) const {
+    return columns_[0] * (double{ray.x()} * depth) + columns_[1] * (double{ray.y()} * depth) +
+           columns_[2] * (double{ray.z()} * depth) + origin_;
+  }
+
   const KeyframeRecord& record_;
   std::array<Eigen::Vector4d, 3> columns_;
   Eigen::Vector4d origin_;
-  double reach_;
+  Eigen::AlignedBox3d view_;
   float max_range_m_;
-  std::array<int, 3> first_{};  // keys that the octree can hold and that are in reach
+  std::array<int, 3> first_{};  // keys that the octree can hold and that are in view
   std::array<int, 3> end_{};
 };
 

@@ -29,8 +29,8 @@ SemanticOctree::SemanticOctree(const OctreeConfig& config) : config_(config), tr
 }
 
 std::uint16_t SemanticOctree::label(const octomap::OcTreeKey& key) const {
-  const auto found = labels_.find(packed(key));
-  return found == labels_.end() ? std::uint16_t{0} : found->second;
+  const auto found = labels_.find(packed(block_key(key)));
+  return found == labels_.end() ? std::uint16_t{0} : found->second[cell_of(key)];
 }
 
 void SemanticOctree::show(const octomap::OcTreeKey& key, const EvidenceBlock& block, const BlockMask& voxels,
@@ -81,11 +81,17 @@ bool SemanticOctree::show_voxel(Node* parent, unsigned index, const octomap::OcT
   }
   Node* node = tree_.child(parent, index);
   const bool was_occupied = is_there && tree_.isNodeOccupied(node);
-  if (!set_voxel(node, key, cell, source) && is_there) return false;
+  const std::uint16_t label_before = was_occupied ? label(key) : std::uint16_t{0};
+  const Voxel voxel = voxel_of(cell, source);
+  const bool is_same = node->getLogOdds() == voxel.value && node->getColor() == voxel.color;
+  if (is_there && is_same && label_before == voxel.label) return false;
+  node->setLogOdds(voxel.value);
+  node->setColor(voxel.color);
+  if (voxel.label != label_before) set_label(key, voxel.label);
   if (!is_there) bounds_.add(key);
   if (was_occupied) --occupied_;
   if (tree_.isNodeOccupied(node)) ++occupied_;
-  source.delta.add(key, *node, label(key));
+  source.delta.add(key, *node, voxel.label);
   return true;
 }
 
@@ -94,32 +100,26 @@ void SemanticOctree::erase_voxel(Node* parent, unsigned index, const octomap::Oc
   if (tree_.isNodeOccupied(tree_.getNodeChild(parent, index))) --occupied_;
   bounds_.remove(key);
   tree_.deleteNodeChild(parent, index);
-  labels_.erase(packed(key));
+  set_label(key, 0);
   source.delta.deleted_keys.insert(source.delta.deleted_keys.end(), {key[0], key[1], key[2]});
 }
 
-/// @return whether something changed.
-bool SemanticOctree::set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell,
-                               const Source& source) {
+/// As the evidence has it; a free one has neither colour nor label.
+SemanticOctree::Voxel SemanticOctree::voxel_of(unsigned cell, const Source& source) const {
   const LogOdds log_odds = source.block.occupancy().values[cell];
-  const float value = in_nats(log_odds);
-  if (log_odds <= 0 && node->getLogOdds() == value) return false;  // free, as it was: no colour and no label
+  Voxel voxel{in_nats(log_odds), {}, 0};
   const VoxelLook* look = log_odds > 0 ? source.block.look(static_cast<std::uint16_t>(cell)) : nullptr;
-  const std::uint16_t label = look != nullptr ? look->label() : std::uint16_t{0};
-  Node::Color color;
-  if (look != nullptr) {
-    const Rgb rgb = label != 0 && config_.color_by_label ? source.labels.color(label) : look->color();
-    color = {rgb[0], rgb[1], rgb[2]};
-  }
-  const bool is_same = node->getLogOdds() == value && node->getColor() == color && this->label(key) == label;
-  if (is_same) return false;
-  node->setLogOdds(value);
-  node->setColor(color);
-  if (label != 0)
-    labels_[packed(key)] = label;
-  else
-    labels_.erase(packed(key));
-  return true;
+  if (look == nullptr) return voxel;
+  voxel.label = look->label();
+  const bool is_told = voxel.label != 0 && config_.color_by_label;
+  const Rgb rgb = is_told ? source.labels.color(voxel.label) : look->color();
+  voxel.color = {rgb[0], rgb[1], rgb[2]};
+  return voxel;
+}
+
+void SemanticOctree::set_label(const octomap::OcTreeKey& key, std::uint16_t label) {
+  const std::uint64_t block = packed(block_key(key));
+  if (label != 0 || labels_.contains(block)) labels_[block][cell_of(key)] = label;
 }
 
 }  // namespace rds::mapper

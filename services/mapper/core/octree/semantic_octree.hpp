@@ -37,17 +37,23 @@ class SemanticOctree {
     const LabelTable& labels;
     MapDelta& delta;
   };
+  struct Voxel {
+    float value;
+    Node::Color color;
+    std::uint16_t label;
+  };
 
   bool show_children(Node* parent, const octomap::OcTreeKey& key, unsigned first_cell, unsigned half,
                      const Source& source);
   bool show_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, unsigned cell,
                   const Source& source);
   void erase_voxel(Node* parent, unsigned index, const octomap::OcTreeKey& key, const Source& source);
-  bool set_voxel(Node* node, const octomap::OcTreeKey& key, unsigned cell, const Source& source);
+  [[nodiscard]] Voxel voxel_of(unsigned cell, const Source& source) const;
+  void set_label(const octomap::OcTreeKey& key, std::uint16_t label);
 
   OctreeConfig config_;
   EditableOcTree tree_;
-  std::unordered_map<std::uint64_t, std::uint16_t> labels_;  // of voxels that bear one; by key only
+  std::unordered_map<std::uint64_t, PerCell<std::uint16_t>> labels_;  // of blocks where some voxel bore one
   std::uint64_t occupied_ = 0;
   KeyBounds bounds_;
 };

@@ -50,29 +50,45 @@ std::uint32_t slot_of(const octomap::OcTreeKey& key, std::size_t pixel, Scan& sc
   return slot;
 }
 
-/// Casts a ray to a pixel's point, one per voxel in which rays end.
-void cast_to(std::size_t pixel, const VoxelProjector& projector, ScanFlag flag, VoxelRun& run,
-             ScanGrid& grid) {
-  VoxelPoint point;
-  if (!projector.project(pixel, projector.record().classes[pixel], point)) return;
-  if (!run.begins_with(point.key)) return;
-  std::uint8_t& flags = grid.flags_of(point.key);
-  if ((flags & kRayCast) != 0) return;
-  flags |= kRayCast;
-  grid.cast_ray(projector.origin(), point.at.head<3>(), flag);
-}
+/// Where rays end, one per voxel.
+class RayEnds {
+ public:
+  RayEnds(const VoxelProjector& projector, Scan& scan) : projector_(projector), scan_(scan) {}
+
+  void add(std::size_t pixel) {
+    VoxelPoint point;
+    if (!projector_.project(pixel, projector_.record().classes[pixel], point)) return;
+    if (!run_.begins_with(point.packed_key)) return;
+    std::uint8_t& flags = scan_.grid.flags_of(point.key());
+    if ((flags & kRayCast) == 0) scan_.ray_ends.emplace_back(point.at.head<3>());
+    flags |= kRayCast;
+  }
+  void add_all(PixelClass of_class) {
+    const PixelClasses& classes = projector_.record().classes;
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      if (classes[i] == of_class) add(i);
+  }
+  /// Casts the rays.
+  void cast(ScanFlag flag) {
+    scan_.grid.cast_rays(projector_.origin(), scan_.ray_ends, flag);
+    scan_.ray_ends.clear();
+  }
+
+ private:
+  const VoxelProjector& projector_;
+  Scan& scan_;
+  VoxelRun run_;
+};
 
 /// Rays to static and doubtful surfaces, to what is far, and to what is not measured.
 void carve(const VoxelProjector& projector, Scan& scan) {
-  VoxelRun run;
+  RayEnds ends(projector, scan);
   for (const SurfaceVoxel& voxel : scan.surfaces)
-    if (voxel.ray_end != SurfaceVoxel::kNoPixel)
-      cast_to(voxel.ray_end, projector, kFreeSpace, run, scan.grid);
-  const PixelClasses& classes = projector.record().classes;
-  for (const auto& [its_class, flag] :
-       {std::pair(PixelClass::kFar, kFreeSpace), std::pair(PixelClass::kNoReturn, kNoReturnRay)})
-    for (std::size_t i = 0; i < classes.size(); ++i)
-      if (classes[i] == its_class) cast_to(i, projector, flag, run, scan.grid);
+    if (voxel.ray_end != SurfaceVoxel::kNoPixel) ends.add(voxel.ray_end);
+  ends.add_all(PixelClass::kFar);
+  ends.cast(kFreeSpace);
+  ends.add_all(PixelClass::kNoReturn);
+  ends.cast(kNoReturnRay);
 }
 
 /// Marks the cubes within half a cube of a voxel.
@@ -101,20 +117,22 @@ void mark_dynamic_places(const VoxelProjector& projector, const SamplingConfig& 
   VoxelPoint point;
   for (std::size_t i = 0; i < record.size(); ++i) {
     if (!is_dynamic(record, i) || record.depth_m(i) < nearest || record.depth_m(i) > farthest) continue;
-    if (projector.project(i, PixelClass::kDynamic, point) && run.begins_with(point.key))
-      mark_around(point.key, bits, grid);
+    if (!projector.project(i, PixelClass::kDynamic, point) || !run.begins_with(point.packed_key)) continue;
+    std::uint8_t& flags = grid.flags_of(point.key());
+    if ((flags & kDynamicSurface) != 0) continue;
+    flags |= kDynamicSurface;
+    mark_around(point.key(), bits, grid);
   }
 }
 
 /// Makes the grid cover all that the record can show, and the cubes around it.
 void cover(const VoxelProjector& projector, double resolution_m, ScanGrid& grid) {
-  const Eigen::Vector3d around =
-      Eigen::Vector3d::Constant(projector.reach() + (2 << cube_bits(resolution_m)));
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(2 << cube_bits(resolution_m));
   const auto key_at = [](const Eigen::Vector3d& p) {
     const auto key = p.cwiseMax(0).cwiseMin(65535).cast<std::uint16_t>();
     return octomap::OcTreeKey(key.x(), key.y(), key.z());
   };
-  grid.reset(key_at(projector.origin() - around), key_at(projector.origin() + around));
+  grid.reset(key_at(projector.view().min() - around), key_at(projector.view().max() + around));
 }
 
 }  // namespace
@@ -130,7 +148,6 @@ void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octre
                          const SamplingConfig& sampling, Scan& scan) {
   const VoxelProjector projector(record, octree.resolution_m, sampling.max_range_m);
   scan.surfaces.clear();
-  scan.slots.clear();
   if (!projector.is_inside()) return scan.grid.reset({0, 0, 0}, {0, 0, 0});
   cover(projector, octree.resolution_m, scan.grid);
   VoxelRun run;
@@ -141,7 +158,7 @@ void find_surface_voxels(const KeyframeRecord& record, const OctreeConfig& octre
     if (its_class == PixelClass::kFar || its_class == PixelClass::kNoReturn ||
         !projector.project(i, its_class, point))
       continue;
-    if (run.begins_with(point.key)) slot = slot_of(point.key, i, scan);
+    if (run.begins_with(point.packed_key)) slot = slot_of(point.key(), i, scan);
     SurfaceVoxel& voxel = scan.surfaces[slot];
     if (voxel.surface == 0) voxel.surface = scan.surface_of_pixel[i];
     add_pixel(voxel, record, i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "services/mapper/core/evidence/observation.hpp"
+#include "services/mapper/core/evidence/sightings.hpp"
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
 #include "services/mapper/core/scan/scan_grid.hpp"
 
@@ -30,10 +31,10 @@ struct SurfaceVoxel {
 struct Scan {
   ScanGrid grid;
   std::vector<SurfaceVoxel> surfaces;
-  std::vector<std::array<std::uint32_t, kBlockCells>>
-      slots;                                    // of the grid's blocks that have some: their places
+  std::vector<PerCell<std::uint32_t>> slots;    // by the grid's blocks: of kSurface cells, their surfaces
   std::vector<std::uint16_t> surface_of_pixel;  // as find_surfaces() gives them
   std::uint16_t surfaces_of_picture = 0;
+  std::vector<Eigen::Vector3d> ray_ends;  // scratch
 };
 
 /// Fills `scan` (its memory is reused) with the surface voxels of a record; points outside the octree's key

@@ -48,7 +48,7 @@ void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey&
     axis.places.resize(size);
     for (std::size_t at = 0; at < size; ++at)
       axis.places[at] = at / kSide * blocks * kBlockCells + cell_along(i, static_cast<unsigned>(at));
-    axis.crossings.resize(size + 1);
+    for (auto& crossings : axis.crossings) crossings.resize(size + 1);
     blocks *= size / kSide;
   }
   index_.assign(blocks, -1);
@@ -83,33 +83,39 @@ void ScanGrid::mark_beside(const octomap::OcTreeKey& key) {
 
 /// Finds the crossings of a ray along the axis; after the last one there is one that comes never.
 /// @return how many there are.
-int ScanGrid::Axis::cross(double from, double to) {
+int ScanGrid::Axis::cross(double from, double to, Crossing* crossing) const {
   int at = static_cast<int>(from);  // floor: keys are not negative
   const int steps = static_cast<int>(to) - at;
   const int step = steps < 0 ? -1 : 1;
   const double delta = 1 / std::abs(to - from);  // share of the ray from border to border
   double share = std::abs(at + (step > 0 ? 1 : 0) - from) * delta;
-  Crossing* crossing = crossings.data();
   for (int left = std::abs(steps); left > 0; --left, at += step, share += delta)
     *crossing++ = {std::bit_cast<std::int64_t>(share), place(at)};
   *crossing = {kNever, place(at)};
   return std::abs(steps);
 }
 
-void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
+/// @param which  of two rays that are under way at a time.
+ScanGrid::RayWalk ScanGrid::walk(std::size_t which, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   int steps = 0;
-  for (unsigned i = 0; i < 3; ++i) steps += axes_[i].cross(from[i], to[i]);
-  const Crossing* x = axes_[0].crossings.data();
-  const Crossing* y = axes_[1].crossings.data();
-  const Crossing* z = axes_[2].crossings.data();
-  for (; steps > 0; --steps) {
-    flags_at(x->place + y->place + z->place) |= flag;
-    // No branches, as nobody can predict which coordinate is next to change.
-    const auto go_x = static_cast<int>(x->share <= y->share) & static_cast<int>(x->share <= z->share);
-    const auto go_y = (1 - go_x) & static_cast<int>(y->share <= z->share);
-    x += go_x;
-    y += go_y;
-    z += 1 - go_x - go_y;
+  for (unsigned i = 0; i < 3; ++i) steps += axes_[i].cross(from[i], to[i], axes_[i].crossings[which].data());
+  const auto first = [&](std::size_t axis) { return axes_[axis].crossings[which].data(); };
+  return {steps, first(0), first(1), first(2)};
+}
+
+void ScanGrid::cast_rays(const Eigen::Vector3d& from, std::span<const Eigen::Vector3d> ends, ScanFlag flag) {
+  // Each step of a ray waits for the one before it: two rays at a time.
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    RayWalk one = walk(0, from, ends[i]);
+    RayWalk other = i + 1 < ends.size() ? walk(1, from, ends[i + 1]) : RayWalk{};
+    for (int both = std::min(one.steps, other.steps); both > 0; --both) {
+      flags_at(one.place()) |= flag;
+      flags_at(other.place()) |= flag;
+      one.step();
+      other.step();
+    }
+    for (RayWalk rest = one.steps > 0 ? one : other; rest.steps > 0; rest.step())
+      flags_at(rest.place()) |= flag;
   }
 }
 

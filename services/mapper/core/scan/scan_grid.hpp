@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@ enum ScanFlag : std::uint8_t {
   kNoReturnRay = 8,
   kDynamicPlace = 16,
   kBesideSurface = 32,
+  kDynamicSurface = 64,
 };
 
 /// Cells of a block by their flags.
@@ -47,12 +49,13 @@ class ScanGrid {
   /// Empties the grid and makes it cover the keys from `lowest` to `highest`, both included.
   void reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey& highest);
 
-  /// Marks every voxel on the segment except the last one with `flag`.
+  /// Marks every voxel on the segments to `ends`, except the last one of each, with `flag`.
   ///
-  /// @param from, to  in voxel units: floor of a coordinate is the key; both inside the covered range.
+  /// @param from, ends  in voxel units: floor of a coordinate is the key; all inside the covered range.
   /// Source: Amanatides & Woo 1987; the number of steps is fixed beforehand, so that rounding cannot run
   /// away.
-  void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag = kFreeSpace);
+  void cast_rays(const Eigen::Vector3d& from, std::span<const Eigen::Vector3d> ends,
+                 ScanFlag flag = kFreeSpace);
 
   /// Of a voxel's block, in blocks(); made if there is none yet.
   std::size_t block_of(const octomap::OcTreeKey& key) { return block_at(place_of(key)); }
@@ -77,12 +80,30 @@ class ScanGrid {
     int first = 0;              // coordinate
     int size = 0;               // a multiple of a block's side
     std::vector<Place> places;  // of coordinates from the first on
-    std::vector<Crossing> crossings;
+    std::array<std::vector<Crossing>, 2> crossings;  // of two rays
 
     [[nodiscard]] Place place(int coordinate) const {
       return places[static_cast<std::size_t>(coordinate - first)];
     }
-    int cross(double from, double to);
+    int cross(double from, double to, Crossing* crossing) const;
+  };
+  /// A voxel of a ray, and the way to the last one.
+  struct RayWalk {
+    int steps = 0;
+    const Crossing* x = nullptr;  // the next ones
+    const Crossing* y = nullptr;
+    const Crossing* z = nullptr;
+
+    [[nodiscard]] Place place() const { return x->place + y->place + z->place; }
+    /// To the next voxel. No branches, as nobody can predict which coordinate is next to change.
+    void step() {
+      const auto go_x = static_cast<int>(x->share <= y->share) & static_cast<int>(x->share <= z->share);
+      const auto go_y = (1 - go_x) & static_cast<int>(y->share <= z->share);
+      x += go_x;
+      y += go_y;
+      z += 1 - go_x - go_y;
+      --steps;
+    }
   };
 
   [[nodiscard]] Place place_of(const octomap::OcTreeKey& key) const {
@@ -94,6 +115,7 @@ class ScanGrid {
   }
   std::uint8_t& flags_at(Place place) { return blocks_[block_at(place)].flags[place % kBlockCells]; }
   std::size_t add_block(std::size_t at);
+  RayWalk walk(std::size_t which, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
   std::array<Axis, 3> axes_;
   std::vector<std::int32_t> index_;  // of a block in blocks_, -1 if untouched

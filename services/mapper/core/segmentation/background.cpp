@@ -17,13 +17,10 @@ constexpr int kToNeighbour = 3;              // sampled pixels, between which a 
 
 /// 1 for each pixel in one of the boxes.
 std::vector<std::uint8_t> pixels_in(std::span<const geometry::Box2> boxes, const PixelGrid& grid) {
-  std::vector<std::uint8_t> inside;
-  inside.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
-  for (int row = 0; row < grid.height; ++row)
-    for (int column = 0; column < grid.width; ++column)
-      inside.push_back(std::ranges::any_of(boxes, [&](const geometry::Box2& box) {
-        return box.contains(column * grid.stride, row * grid.stride);
-      }));
+  std::vector<std::uint8_t> inside(static_cast<std::size_t>(grid.width) *
+                                   static_cast<std::size_t>(grid.height));
+  cv::Mat1b picture(grid.height, grid.width, inside.data());
+  for (const geometry::Box2& box : boxes) picture(grid.inside(box)) = 1;
   return inside;
 }
 

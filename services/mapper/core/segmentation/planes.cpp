@@ -38,11 +38,14 @@ class Cells {
         rows_((record.grid.height + kCellPx - 1) / kCellPx),
         sums_(static_cast<std::size_t>(columns_ * rows_)),
         free_(sums_.size()) {
-    for (std::size_t cell = 0; cell < sums_.size(); ++cell)
+    for (std::size_t cell = 0; cell < sums_.size(); ++cell) {
+      PointSums points;
       for (int row = 0; row < rows_in(cell); ++row)
         for_row_of(cell, row, [&](std::size_t i) {
-          if (looks_static(record.classes[i])) sums_[cell].add(record.point_in_camera(i).cast<double>());
+          if (looks_static(record.classes[i])) points.add(record.point_in_camera(i).cast<double>());
         });
+      sums_[cell] = points;
+    }
     for (std::size_t i = 0; i < sums_.size(); ++i)
       free_[i] = sums_[i].count() >= kMinMeasured * kCellPx * kCellPx;
   }

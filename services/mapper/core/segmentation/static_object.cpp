@@ -69,7 +69,9 @@ StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
   StaticObject object{{}, is_flush(region, elsewhere, record, config.segmentation)};
   if (object.flush)
     for (const auto i : region) is_object[i] = 1;
-  for (std::size_t i = 0; i < is_object.size(); ++i)
+  const cv::Rect box_around = record.grid.inside(place->box_px);
+  const std::size_t end = record.grid.index(0, box_around.y + box_around.height);
+  for (std::size_t i = record.grid.index(0, box_around.y); i < end; ++i)
     if (is_object[i] != 0 && looks_static(record.classes[i])) object.pixels.push_back(i);
   for (const auto& plane : elsewhere) remove_support(plane, record, config.segmentation, object.pixels);
   return object;

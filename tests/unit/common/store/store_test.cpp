@@ -144,6 +144,31 @@ TEST_F(StoreFile, LinksFoldersAndPipesAreNotOpened) {
   EXPECT_THAT(fault().sentence, HasSubstr("no regular file"));
 }
 
+TEST_F(StoreFile, ReadsFilesWithoutRowIds) {
+  { ASSERT_TRUE(opened().apply(batch_of(0, 5))); }
+  run_sql(
+      "ALTER TABLE rows RENAME TO new;"
+      "CREATE TABLE rows (kind TEXT NOT NULL, id INTEGER NOT NULL, checksum INTEGER NOT NULL,"
+      " bytes BLOB NOT NULL,"
+      " PRIMARY KEY (kind, id)) WITHOUT ROWID;"
+      "INSERT INTO rows SELECT * FROM new; DROP TABLE new;");
+  Store store = opened();
+  EXPECT_EQ(store.get("keyframe", 3).value(), bytes(100, 3));
+  EXPECT_TRUE(store.apply(batch_of(4, 9)));
+  EXPECT_EQ(store.rows(), 9U);
+}
+
+TEST_F(StoreFile, NoticesAnIndexThatDoesNotFitItsRows) {
+  { ASSERT_TRUE(opened().apply(batch_of(0, 5))); }
+  std::string file = test::read_text(file_);
+  constexpr std::size_t kPage = 4096;
+  constexpr char kIndexLeaf = 10;
+  for (std::size_t page = 0; page < file.size(); page += kPage)
+    if (file[page] == kIndexLeaf) file[file.find("keyframe", page)] = 'K';
+  std::ofstream(file_, std::ios::binary) << file;
+  EXPECT_EQ(fault().kind, Fault::Kind::kDamaged);
+}
+
 TEST_F(StoreFile, NoticesRowsThatAreMissingOrOther) {
   { ASSERT_TRUE(opened().apply(batch_of(0, 5))); }
   run_sql("DELETE FROM rows WHERE id = 2;");

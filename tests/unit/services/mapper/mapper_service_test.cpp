@@ -14,17 +14,35 @@ namespace {
 
 using ::rds::test::MapReader;
 
+/// That have come.
+std::uint64_t full_maps(const bus::Participant& bus) {
+  std::uint64_t count = 0;
+  for (const auto& endpoint : bus.statistics())
+    if (endpoint.topic == topics::kMapFull.name) count += endpoint.messages;
+  return count;
+}
+
 TEST_F(MapperOnTheBus, GivesItsMapToWhoJoinsWhileNothingHappens) {
   start(config());
   for (std::uint64_t id = 0; id < 3; ++id) send(id);
   ASSERT_TRUE(has_revision(3));
   MapReader reader(*bus);
   ASSERT_TRUE(wait_for([&] { return reader.revision() == 3; }));
-  std::uint64_t full_maps = 0;
-  for (const auto& endpoint : bus->statistics())
-    if (endpoint.topic == topics::kMapFull.name) full_maps += endpoint.messages;
-  EXPECT_EQ(full_maps, 1U);
+  EXPECT_EQ(full_maps(*bus), 1U);
   EXPECT_TRUE(reader.bytes() == saved_tree());
+}
+
+TEST_F(MapperOnTheBus, MakesFullMapsWhileSomebodyReadsThem) {
+  auto often = config();
+  often.full_map_every = 1;
+  start(often);
+  for (std::uint64_t id = 0; id < 3; ++id) send(id);
+  ASSERT_TRUE(has_revision(3));
+  MapReader reader(*bus);
+  ASSERT_TRUE(wait_for([&] { return reader.revision() == 3; }));
+  EXPECT_EQ(full_maps(*bus), 1U) << "the one for a new reader, none from before";
+  send(3);
+  EXPECT_TRUE(wait_for([&] { return full_maps(*bus) == 2U; }));
 }
 
 TEST_F(MapperOnTheBus, AReaderFollowsAMapperThatIsRestarted) {

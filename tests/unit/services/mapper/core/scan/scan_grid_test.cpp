@@ -36,7 +36,10 @@ TEST(ScanGrid, RaysPassWhereOctoMapsRaysPass) {
     const Eigen::Vector3d a(uniform(random), uniform(random), uniform(random));
     const Eigen::Vector3d b(uniform(random), uniform(random), uniform(random));
     grid.reset({32730, 32730, 32730}, {32806, 32806, 32806});
-    grid.cast_ray(a / 0.05 + Eigen::Vector3d::Constant(32768), b / 0.05 + Eigen::Vector3d::Constant(32768));
+    const auto in_voxels = [](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(p / 0.05 + Eigen::Vector3d::Constant(32768));
+    };
+    grid.cast_rays(in_voxels(a), std::array{in_voxels(b)});
     const auto ours = marked(grid);
     octomap::KeyRay theirs;
     tree.computeRayKeys(
@@ -50,15 +53,34 @@ TEST(ScanGrid, RaysPassWhereOctoMapsRaysPass) {
   }
 }
 
+TEST(ScanGrid, RaysTogetherMarkWhatEachMarksAlone) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(101, 139);
+  const auto point = [&] { return Eigen::Vector3d(uniform(random), uniform(random), uniform(random)); };
+  const Eigen::Vector3d from = point();
+  std::vector<Eigen::Vector3d> ends;
+  std::set<Key> alone;
+  ScanGrid grid;
+  for (int i = 0; i < 7; ++i) {  // the last one has no other beside it
+    ends.push_back(point());
+    grid.reset({100, 100, 100}, {140, 140, 140});
+    grid.cast_rays(from, std::array{ends.back()});
+    alone.merge(marked(grid));
+    grid.reset({100, 100, 100}, {140, 140, 140});
+    grid.cast_rays(from, ends);
+    EXPECT_EQ(marked(grid), alone) << ends.size() << " rays";
+  }
+}
+
 TEST(ScanGrid, ARayEndsBeforeItsLastVoxelAndCoversAxesExactly) {
   ScanGrid grid;
   grid.reset({100, 100, 100}, {140, 140, 140});
-  grid.cast_ray({101.5, 102.5, 103.5}, {110.5, 102.5, 103.5});
+  grid.cast_rays({101.5, 102.5, 103.5}, std::array{Eigen::Vector3d(110.5, 102.5, 103.5)});
   std::set<Key> expected;
   for (int x = 101; x < 110; ++x) expected.insert({x, 102, 103});
   EXPECT_EQ(marked(grid), expected);
   grid.reset({100, 100, 100}, {140, 140, 140});
-  grid.cast_ray({120.2, 120.2, 120.2}, {120.8, 120.9, 120.1});
+  grid.cast_rays({120.2, 120.2, 120.2}, std::array{Eigen::Vector3d(120.8, 120.9, 120.1)});
   EXPECT_TRUE(marked(grid).empty());
 }
 

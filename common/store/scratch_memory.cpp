@@ -6,12 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
+#include <functional>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace rds::store {
 namespace {
@@ -35,86 +33,72 @@ int open_nameless(const std::filesystem::path& folder) {
 
 }  // namespace
 
-class ScratchMemory::File {
- public:
-  explicit File(const std::filesystem::path& folder) : file_(open_nameless(folder)) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() {
-    for (const auto& segment : segments_) ::munmap(segment.begin, segment.size);
-    if (file_ >= 0) ::close(file_);
-  }
+ScratchMemory::ScratchMemory(const std::filesystem::path& folder) : file_(open_nameless(folder)) {}
 
-  /// @param size  whole pages.
-  std::uint8_t* take(std::size_t size) {
-    const std::lock_guard lock(mutex_);
-    if (const auto freed = free_.find(size); freed != free_.end() && !freed->second.empty()) {
-      std::uint8_t* const begin = freed->second.back();
-      freed->second.pop_back();
-      return begin;
-    }
-    if ((segments_.empty() || segments_.back().size - used_ < size) && !grow(size)) return nullptr;
-    return segments_.back().begin + std::exchange(used_, used_ + size);
-  }
+ScratchMemory::~ScratchMemory() {
+  for (const auto& segment : segments_) ::munmap(segment.begin, segment.size);
+  if (file_ >= 0) ::close(file_);
+}
 
-  void give_back(std::uint8_t* begin, std::size_t size) {
-    const std::lock_guard lock(mutex_);
-    free_[size].push_back(begin);
-  }
+void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
+  const std::lock_guard lock(mutex_);
+  if (std::uint8_t* const piece = alignment <= kPage ? take(whole_pages(bytes)) : nullptr) return piece;
+  void* const piece = std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  bytes_in_ram_ += bytes;
+  return piece;
+}
 
-  void rest() const {
-    const std::lock_guard lock(mutex_);
-    for (const auto& segment : segments_) ::madvise(segment.begin, segment.size, MADV_DONTNEED);
-  }
-
-  std::size_t bytes() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
-  }
-
- private:
-  struct Segment {
-    std::uint8_t* begin;
-    std::size_t size;
-  };
-
-  /// Blocks of the disk are reserved: who writes to a page that the disk has no room for is killed.
-  bool grow(std::size_t least) {
-    const std::size_t size = std::max(least, kSegment);
-    if (file_ < 0 || ::posix_fallocate(file_, static_cast<off_t>(bytes_), static_cast<off_t>(size)) != 0)
-      return false;
-    void* const begin =
-        ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, static_cast<off_t>(bytes_));
-    if (begin == MAP_FAILED) return false;
-    segments_.push_back({static_cast<std::uint8_t*>(begin), size});
-    bytes_ += size;
-    used_ = 0;
-    return true;
-  }
-
-  int file_;
-  mutable std::mutex mutex_;
-  std::vector<Segment> segments_;
-  std::size_t used_ = 0;   // of the last segment
-  std::size_t bytes_ = 0;  // of all
-  std::map<std::size_t, std::vector<std::uint8_t*>> free_;  // by size
-};
-
-ScratchMemory::ScratchMemory(const std::filesystem::path& folder) : file_(std::make_shared<File>(folder)) {}
-
-std::shared_ptr<std::uint8_t[]> ScratchMemory::allocate(std::size_t bytes) {
-  const std::size_t size = whole_pages(bytes);
-  std::uint8_t* const begin = file_->take(size);
-  if (begin == nullptr) return nullptr;
-  return {begin, [file = file_, size](std::uint8_t* p) { file->give_back(p, size); }};
+void ScratchMemory::do_deallocate(void* piece, std::size_t bytes, std::size_t alignment) {
+  const std::lock_guard lock(mutex_);
+  if (has(piece)) return free_[whole_pages(bytes)].push_back(static_cast<std::uint8_t*>(piece));
+  std::pmr::new_delete_resource()->deallocate(piece, bytes, alignment);
+  bytes_in_ram_ -= bytes;
 }
 
 void ScratchMemory::rest() {
-  file_->rest();
+  const std::lock_guard lock(mutex_);
+  for (const auto& segment : segments_) ::madvise(segment.begin, segment.size, MADV_DONTNEED);
 }
 
-std::size_t ScratchMemory::bytes() const {
-  return file_->bytes();
+std::size_t ScratchMemory::bytes_in_file() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_in_file_;
+}
+
+std::size_t ScratchMemory::bytes_in_ram() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_in_ram_;
+}
+
+/// @param size  whole pages. @return nullptr where there is no room
+std::uint8_t* ScratchMemory::take(std::size_t size) {
+  if (const auto freed = free_.find(size); freed != free_.end() && !freed->second.empty()) {
+    std::uint8_t* const piece = freed->second.back();
+    freed->second.pop_back();
+    return piece;
+  }
+  if ((segments_.empty() || segments_.back().size - used_ < size) && !grow(size)) return nullptr;
+  return segments_.back().begin + std::exchange(used_, used_ + size);
+}
+
+/// Blocks of the disk are reserved: who writes to a page that the disk has no room for is killed.
+bool ScratchMemory::grow(std::size_t least) {
+  const std::size_t size = std::max(least, kSegment);
+  const auto end = static_cast<off_t>(bytes_in_file_);
+  if (file_ < 0 || ::posix_fallocate(file_, end, static_cast<off_t>(size)) != 0) return false;
+  void* const begin = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, end);
+  if (begin == MAP_FAILED) return false;
+  segments_.push_back({static_cast<std::uint8_t*>(begin), size});
+  bytes_in_file_ += size;
+  used_ = 0;
+  return true;
+}
+
+bool ScratchMemory::has(const void* piece) const {
+  const auto* const at = static_cast<const std::uint8_t*>(piece);
+  return std::ranges::any_of(segments_, [at](const Segment& segment) {
+    return std::less_equal{}(segment.begin, at) && std::less{}(at, segment.begin + segment.size);
+  });
 }
 
 }  // namespace rds::store

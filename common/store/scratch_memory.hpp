@@ -4,29 +4,57 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <map>
+#include <memory_resource>
+#include <mutex>
+#include <vector>
 
 namespace rds::store {
 
 /// Memory that lies in a temporary file without a name: what is not used for long need not be in RAM, and
 /// comes back by itself when it is read. The file goes with the process, however that ends, and uses again
-/// what was given back. Any thread may allocate, give back and rest(), while others read and write.
-class ScratchMemory {
+/// what was given back. For what is large: each piece begins at a page. Where the disk has no room, or no file
+/// can be made, pieces are ordinary memory.
+///
+/// Any thread may allocate, deallocate and rest(), while others read and write.
+class ScratchMemory : public std::pmr::memory_resource {
  public:
   /// @param folder  empty: the system's folder for temporary files (TMPDIR).
   explicit ScratchMemory(const std::filesystem::path& folder = {});
+  ScratchMemory(const ScratchMemory&) = delete;
+  ScratchMemory& operator=(const ScratchMemory&) = delete;
+  /// All pieces must have been given back.
+  ~ScratchMemory() override;
 
-  /// Bytes that begin at a page; nullptr where the disk has no room for them, or no file can be made there.
-  /// They outlast this object, and are given back when the last copy of the pointer goes.
-  [[nodiscard]] std::shared_ptr<std::uint8_t[]> allocate(std::size_t bytes);
-  /// All of it leaves RAM until it is used again.
+  /// All of the file leaves RAM until it is used again.
   void rest();
   /// Size of the file.
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t bytes_in_file() const;
+  /// What the file has no room for.
+  [[nodiscard]] std::size_t bytes_in_ram() const;
 
  private:
-  class File;
-  std::shared_ptr<File> file_;
+  struct Segment {
+    std::uint8_t* begin;
+    std::size_t size;
+  };
+
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override;
+  void do_deallocate(void* piece, std::size_t bytes, std::size_t alignment) override;
+  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override {
+    return this == &other;
+  }
+  std::uint8_t* take(std::size_t size);
+  bool grow(std::size_t least);
+  [[nodiscard]] bool has(const void* piece) const;
+
+  int file_;
+  mutable std::mutex mutex_;  // of all below
+  std::map<std::size_t, std::vector<std::uint8_t*>> free_;  // by size
+  std::vector<Segment> segments_;
+  std::size_t used_ = 0;  // of the last segment
+  std::size_t bytes_in_file_ = 0;
+  std::size_t bytes_in_ram_ = 0;
 };
 
 }  // namespace rds::store

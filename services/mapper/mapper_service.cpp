@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 20;
 constexpr std::size_t kMaxMessages = 1000;
 constexpr std::size_t kMaxUnplaced = 128;  // 1.5 MB each, minutes of a submap
+constexpr std::size_t kRestEvery = 100;    // keyframes; evidence of other places is in RAM until then
 constexpr std::size_t kPlacedAtOnce = 2;   // of those, between keyframes that come
 
 using service::Rejection;
@@ -62,7 +63,8 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       epochs_(accepts(context.bus, service::kTracker)),
       checkpoints_(config.localize_only ? nullptr : service::open_checkpoints(context, config.maps, "mapper"),
                    config.maps.checkpoint_s),
-      mapper_(config.mapper, 0, storage_of(checkpoints_, config)),
+      evidence_memory_(config.mapper.correction.spill_folder),
+      mapper_(config.mapper, 0, storage_of(checkpoints_, config), &evidence_memory_),
       outputs_(context, config.mapper.grid, config.full_map_every),
       queue_(max_waiting(config), {config.expect_boxes, config.lockstep, config.boxes_timeout_s}),
       unplaced_(kMaxUnplaced),
@@ -92,7 +94,8 @@ void MapperService::go_on_from_checkpoint() {
     return mapper_.reset(mapper_.map().epoch);
   }
   for (const IntegratedKeyframe& keyframe : *keyframes) {
-    queue_.note_integrated(keyframe);
+    if (++integrated_ % kRestEvery == 0) evidence_memory_.rest();
+  queue_.note_integrated(keyframe);
     outputs_.note_keyframe(keyframe.id, keyframe.stamp_ns);
   }
   if (keyframes->empty()) return;

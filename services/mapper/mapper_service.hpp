@@ -6,6 +6,7 @@
 #include "common/keyframe_transfer/keyframe_source.hpp"
 #include "common/map_commands/map_commands.hpp"
 #include "common/service/service.hpp"
+#include "common/store/scratch_memory.hpp"
 #include "services/mapper/core/semantic_mapper.hpp"
 #include "services/mapper/input/epoch_follower.hpp"
 #include "services/mapper/input/keyframe_queue.hpp"
@@ -66,6 +67,8 @@ class MapperService : public service::Service {
   std::stop_token stop_;
   EpochFollower epochs_;
   MapperCheckpoints checkpoints_;  // before mapper_, whose records it keeps
+  store::ScratchMemory evidence_memory_;  // before mapper_, too
+  std::size_t integrated_ = 0;            // keyframes
   SemanticMapper mapper_;
   MapOutputs outputs_;
   KeyframeQueue queue_;

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -16,11 +18,13 @@ namespace rds::tracker {
 /// used since the last kRestEvery keyframes are in RAM. Where the disk is full they stay in RAM.
 class KeyframePictures {
  public:
-  Picture operator()(Picture picture) {
+  Picture operator()(const Picture& picture) {
     if (++kept_ % kRestEvery == 0) memory_->rest();
-    auto place = memory_->allocate(picture->bytes());
-    if (!place) return in_ram(std::move(picture));
-    const auto kept = std::make_shared<const Kept>(picture->copied_to(place.get()), place);
+    std::pmr::vector<std::uint8_t> pixels(picture->bytes(), memory_.get());
+    ImagePyramid copy = picture->copied_to(pixels.data());
+    if (memory_->bytes_in_ram() > 0 && !std::exchange(has_warned_, true))
+      spdlog::warn("no room for a temporary file (TMPDIR): keyframes' pictures stay in memory");
+    const auto kept = std::make_shared<const Kept>(memory_, std::move(pixels), std::move(copy));
     return {kept, &kept->picture};
   }
 
@@ -28,15 +32,10 @@ class KeyframePictures {
   static constexpr int kRestEvery = 25;
 
   struct Kept {
-    ImagePyramid picture;
-    std::shared_ptr<std::uint8_t[]> place;
+    std::shared_ptr<store::ScratchMemory> memory;
+    std::pmr::vector<std::uint8_t> pixels;
+    ImagePyramid picture;  // of these
   };
-
-  Picture in_ram(Picture picture) {
-    if (!std::exchange(has_warned_, true))
-      spdlog::warn("no room for a temporary file (TMPDIR): keyframes' pictures stay in memory");
-    return picture;
-  }
 
   std::shared_ptr<store::ScratchMemory> memory_ = std::make_shared<store::ScratchMemory>();
   int kept_ = 0;

@@ -65,7 +65,7 @@ tl::expected<void, std::string> SemanticMapper::restore(const MapCheckpoint& che
   if (!keyframes) return tl::unexpected(keyframes.error());
   map_.epoch = epoch;
   map_.labels = std::move(labels);
-  map_.content = std::make_unique<Map>(config_);
+  map_.content = std::make_unique<Map>(config_, memory_);
   if (voxels) map_.content->evidence.begin_with(*voxels);
   map_.content->objects = final_objects_ = std::move(objects);
   are_objects_outdated_ = has_moves_left_ = false;

@@ -12,8 +12,8 @@ namespace rds::mapper {
 
 /// All that is made from keyframes and can be made again from them.
 struct Map {
-  explicit Map(const MapperConfig& config)
-      : evidence(config.confirmation.apart_s), octree(config.octree), objects(config.objects) {}
+  Map(const MapperConfig& config, std::pmr::memory_resource* memory)
+      : evidence(config.confirmation.apart_s, memory), octree(config.octree), objects(config.objects) {}
 
   Evidence evidence;
   SemanticOctree octree;  // what the evidence says

@@ -10,8 +10,8 @@ namespace rds::mapper {
 
 /// The map as it stands.
 struct SemanticMap {
-  SemanticMap(const MapperConfig& config, std::uint64_t map_epoch)
-      : epoch(map_epoch), content(std::make_unique<Map>(config)) {}
+  SemanticMap(const MapperConfig& config, std::uint64_t map_epoch, std::pmr::memory_resource* memory)
+      : epoch(map_epoch), content(std::make_unique<Map>(config, memory)) {}
 
   std::uint64_t epoch;
   std::uint64_t revision = 0;  // 0: the empty map, which is never published

@@ -9,9 +9,10 @@
 namespace rds::mapper {
 
 SemanticMapper::SemanticMapper(MapperConfig config, std::uint64_t map_epoch,
-                               std::unique_ptr<SpillStorage> storage)
+                               std::unique_ptr<SpillStorage> storage, std::pmr::memory_resource* memory)
     : config_(std::move(config)),
-      map_(config_, map_epoch),
+      memory_(memory),
+      map_(config_, map_epoch, memory),
       archive_(config_, std::move(storage)),
       final_objects_(config_.objects) {}
 
@@ -20,7 +21,7 @@ void SemanticMapper::reset(std::uint64_t map_epoch) {
   object_views_.clear();
   map_.epoch = map_epoch;
   map_.labels = saved_.labels;
-  map_.content = std::make_unique<Map>(config_);
+  map_.content = std::make_unique<Map>(config_, memory_);
   map_.content->objects = final_objects_ = saved_.objects.value_or(ObjectDatabase(config_.objects));
   are_objects_outdated_ = has_moves_left_ = false;
   has_final_ = saved_.voxels != nullptr;

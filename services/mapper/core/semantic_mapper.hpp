@@ -27,8 +27,10 @@ struct MapCheckpoint {
 class SemanticMapper {
  public:
   /// @param storage  takes keyframes beyond `correction.memory_mb`; without it the oldest become final.
+  /// @param memory  of the evidence, which outlasts the mapper; of it only what is near the camera is in use.
   explicit SemanticMapper(MapperConfig config, std::uint64_t map_epoch = 0,
-                          std::unique_ptr<SpillStorage> storage = nullptr);
+                          std::unique_ptr<SpillStorage> storage = nullptr,
+                          std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   /// Adds a keyframe with the pose it carries.
   /// @throws std::invalid_argument if check(input) finds a fault or its id is already there.
@@ -94,6 +96,7 @@ class SemanticMapper {
   [[nodiscard]] MapDelta new_delta() const;
 
   MapperConfig config_;
+  std::pmr::memory_resource* memory_;
   SemanticMap map_;
   std::function<void()> progress_ = [] {};
   KeyframeArchive archive_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <memory_resource>
 #include <vector>
 
 #include "services/mapper/core/evidence/sightings.hpp"
@@ -12,6 +13,8 @@ namespace rds::mapper {
 /// Looks of a block's voxels in which keyframes have seen a surface.
 class BlockLooks {
  public:
+  explicit BlockLooks(std::pmr::memory_resource* memory) : looks_(memory) {}
+
   void add(std::uint16_t cell, const SurfaceLook& look) { at(cell).add(look); }
   void add(std::uint16_t cell, const VoxelLook& look) { at(cell).add(look); }
   /// What was added before.
@@ -31,7 +34,7 @@ class BlockLooks {
     VoxelLook look;
   };
   VoxelLook& at(std::uint16_t cell) {
-    if (!place_) place_ = std::make_unique<PerCell<std::uint16_t>>();
+    if (!place_) place_ = std::allocate_shared<PerCell<std::uint16_t>>(looks_.get_allocator());
     auto& place = (*place_)[cell];
     if (place == 0) {
       looks_.push_back({cell, {}});
@@ -48,8 +51,8 @@ class BlockLooks {
     looks_.pop_back();
   }
 
-  std::unique_ptr<PerCell<std::uint16_t>> place_;  // in looks_, from 1; 0: none
-  std::vector<Look> looks_;
+  std::shared_ptr<PerCell<std::uint16_t>> place_;  // in looks_, from 1; 0: none
+  std::pmr::vector<Look> looks_;
 };
 
 }  // namespace rds::mapper

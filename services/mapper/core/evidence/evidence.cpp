@@ -46,7 +46,9 @@ std::int64_t floor_ms(std::int64_t time_ns) {
 
 }  // namespace
 
-Evidence::Evidence(double apart_s) : apart_(static_cast<EvidenceTime>(std::lround(1000 * apart_s))) {}
+Evidence::Evidence(double apart_s, std::pmr::memory_resource* memory)
+    : apart_(static_cast<EvidenceTime>(std::lround(1000 * apart_s))),
+      memory_({.max_blocks_per_chunk = 64, .largest_required_pool_block = std::size_t{64} << 10U}, memory) {}
 
 void Evidence::begin_with(const FinalMap& known) {
   origin_ms_ = known.origin_ms;
@@ -59,14 +61,14 @@ EvidenceTime Evidence::time_of(std::int64_t time_ns) {
 }
 
 EvidenceBlock& Evidence::touch(BlockKey key) {
-  Place& place = blocks_[key];
+  Place& place = blocks_.try_emplace(key, &memory_).first->second;
   if (!place.is_touched) touched_.push_back(key);
   place.is_touched = true;
   return place.evidence;
 }
 
-void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, KeyframeView contribution) {
-  const auto view = std::make_shared<KeyframeView>(std::move(contribution));
+void Evidence::add(std::uint64_t keyframe, std::int64_t time_ns, const KeyframeView& contribution) {
+  const auto view = std::make_shared<KeyframeView>(contribution, &memory_);
   const EvidenceTime time = time_of(time_ns);
   for (std::uint32_t i = 0; i < view->size(); ++i) touch(packed(view->key(i))).add({keyframe, time, i, view});
   keyframes_[keyframe] = {time, view};

@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory_resource>
 #include <unordered_map>
 
 #include "services/mapper/core/evidence/evidence_block.hpp"
@@ -15,12 +16,14 @@ namespace rds::mapper {
 class Evidence {
  public:
   /// @param apart_s  so much earlier or later is another time: something dynamic would have moved.
-  explicit Evidence(double apart_s);
+  /// @param memory  of nearly all that it holds, in pieces of some pages; only what is near the keyframes that
+  /// come, go or are judged is read and written.
+  explicit Evidence(double apart_s, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
   /// Begins with what is known before all keyframes; before any other call.
   void begin_with(const FinalMap& known);
 
   /// @param keyframe  none of those that are there.
-  void add(std::uint64_t keyframe, std::int64_t time_ns, KeyframeView contribution);
+  void add(std::uint64_t keyframe, std::int64_t time_ns, const KeyframeView& contribution);
   void remove(std::uint64_t keyframe);
   /// What a keyframe says stays as it is, before all that is not final.
   void make_final(std::uint64_t keyframe);
@@ -45,6 +48,8 @@ class Evidence {
  private:
   using BlockKey = std::uint64_t;
   struct Place {
+    explicit Place(std::pmr::memory_resource* memory) : evidence(memory) {}
+
     EvidenceBlock evidence;
     bool is_touched = false;
     bool is_behind = false;
@@ -61,7 +66,8 @@ class Evidence {
   [[nodiscard]] EvidenceTime time_of(std::int64_t time_ns);
 
   EvidenceTime apart_;
-  std::unordered_map<BlockKey, Place> blocks_;  // by key only: their order means nothing
+  std::pmr::unsynchronized_pool_resource memory_;
+  std::pmr::unordered_map<BlockKey, Place> blocks_{&memory_};  // by key only: their order means nothing
   std::vector<BlockKey> touched_;
   std::deque<BlockKey> behind_;  // those that have waited longest first; some may have gone
   std::map<std::uint64_t, Keyframe> keyframes_;

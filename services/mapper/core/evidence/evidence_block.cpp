@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ranges>
+#include <span>
 
 namespace rds::mapper {
 namespace {
@@ -37,7 +38,7 @@ void find_each(BlockMask& wanted, const Entries& entries, Cells cells_in, Tell t
 /// them.
 template <class Cells>
 void look_up(Sightings& sightings, const Sightings& final_ones,
-             const std::vector<EvidenceBlock::Entry>& entries, Cells cells_in) {
+             std::span<const EvidenceBlock::Entry> entries, Cells cells_in) {
   auto& [count, first, last, first_is_open, last_is_open] = sightings;
   first_is_open.for_each([&](std::size_t cell) { first[cell] = final_ones.first[cell]; });
   last_is_open.for_each([&](std::size_t cell) { last[cell] = final_ones.last[cell]; });
@@ -142,7 +143,8 @@ void EvidenceBlock::make_final(const Rank& rank) {
 
 const BlockCounts& EvidenceBlock::counts() {
   if (!counts_) {
-    counts_ = std::make_unique<BlockCounts>(final_ ? final_->counts : BlockCounts{});
+    counts_ = std::allocate_shared<BlockCounts>(entries_.get_allocator(),
+                                                final_ ? final_->counts : BlockCounts{});
     for (const Entry& entry : entries_) count(entry, *counts_);
   }
   static const BlockCounts kNone;

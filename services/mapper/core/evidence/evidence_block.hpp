@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ class EvidenceBlock {
     std::uint64_t keyframe = 0;
     auto operator<=>(const Rank&) const = default;
   };
+
+  /// @param memory  of what it holds.
+  explicit EvidenceBlock(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : entries_(memory), looks_(memory), prefixes_(memory) {}
 
   void add(Entry entry);
   void remove(const Rank& rank);
@@ -75,16 +80,16 @@ class EvidenceBlock {
   void close_gaps();
   void keep_prefix(std::size_t entries);
 
-  std::vector<Entry>
+  std::pmr::vector<Entry>
       entries_;  // by rank; what goes leaves a gap until the next update(), for it may come back
   bool has_gaps_ = false;
   BlockLooks looks_;                         // with the final ones
   std::shared_ptr<const FinalBlock> final_;  // shared with the saved map; nullptr: none
-  std::unique_ptr<BlockCounts> counts_;      // nullptr: nobody has asked yet
+  std::shared_ptr<BlockCounts> counts_;      // nullptr: nobody has asked yet
   BlockOccupancy occupancy_;
   std::size_t added_up_ = 0;                 // the first so many entries are in occupancy_; the rest is new
   std::optional<std::size_t> changed_from_;  // of these, the first that is not as it was added up
-  std::vector<Prefix> prefixes_;             // by entries
+  std::pmr::vector<Prefix> prefixes_;        // by entries
   BlockMask changed_;
 };
 

@@ -5,6 +5,17 @@
 
 namespace rds::mapper {
 
+KeyframeView::KeyframeView(const KeyframeView& other, std::pmr::memory_resource* memory)
+    : blocks_(other.blocks_, memory),
+      words_(other.words_, memory),
+      parts_(other.parts_, memory),
+      rgb_(other.rgb_, memory),
+      look_of_voxel_(other.look_of_voxel_, memory),
+      looks_(other.looks_),
+      is_large_(other.is_large_),
+      verdicts_(other.verdicts_),
+      is_decided_(other.is_decided_) {}
+
 void KeyframeView::add(const octomap::OcTreeKey& key, const BlockSight& sight,
                        std::span<const SurfacePart> parts, std::span<const SurfaceLook> looks) {
   Block block{{key[0], key[1], key[2]},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -52,6 +53,10 @@ struct BlockStep {
 /// they look.
 class KeyframeView {
  public:
+  KeyframeView() = default;
+  /// The same in another memory.
+  KeyframeView(const KeyframeView& other, std::pmr::memory_resource* memory);
+
   /// Appends a block. @param key  of its lowest voxel; each at most once. @param parts  of which surfaces its
   /// static, doubtful and unknown voxels are, in order of their cells. @param looks  of the static and
   /// doubtful ones.
@@ -111,11 +116,11 @@ class KeyframeView {
   };
   std::uint16_t index_of(SurfaceLook look);
 
-  std::vector<Block> blocks_;
-  std::vector<std::uint64_t> words_;
-  std::vector<SurfacePart> parts_;
-  std::vector<std::array<std::uint8_t, 3>> rgb_;  // of static and doubtful voxels
-  std::vector<std::uint16_t> look_of_voxel_;      // and the rest of their look, in looks_
+  std::pmr::vector<Block> blocks_;
+  std::pmr::vector<std::uint64_t> words_;
+  std::pmr::vector<SurfacePart> parts_;
+  std::pmr::vector<std::array<std::uint8_t, 3>> rgb_;  // of static and doubtful voxels
+  std::pmr::vector<std::uint16_t> look_of_voxel_;      // and the rest of their look, in looks_
   std::vector<SurfaceLook> looks_;                // without colour, each once: few are different
   std::vector<bool> is_large_;
   std::vector<SurfaceVerdict> verdicts_;

@@ -12,6 +12,8 @@
 namespace rds::store {
 namespace {
 
+using Picture = std::pmr::vector<std::uint8_t>;
+
 constexpr std::size_t kPicture = 300'000;
 
 /// Of this process, of what lies in files [bytes].
@@ -22,51 +24,46 @@ std::size_t resident_of_files() {
   return 0;
 }
 
-std::vector<std::shared_ptr<std::uint8_t[]>> pictures(ScratchMemory& memory, std::size_t count) {
-  std::vector<std::shared_ptr<std::uint8_t[]>> made;
-  for (std::size_t i = 0; i < count; ++i) {
-    made.push_back(memory.allocate(kPicture));
-    std::fill_n(made.back().get(), kPicture, static_cast<std::uint8_t>(i + 1));
-  }
+Picture picture(ScratchMemory& memory, std::size_t number) {
+  return {kPicture, static_cast<std::uint8_t>(number + 1), &memory};
+}
+
+std::vector<Picture> pictures(ScratchMemory& memory, std::size_t count) {
+  std::vector<Picture> made;
+  made.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) made.push_back(picture(memory, i));
   return made;
 }
 
 TEST(ScratchMemory, WhatRestsIsNotInRamAndComesBack) {
   ScratchMemory memory;
   const auto kept = pictures(memory, 200);
+  EXPECT_EQ(memory.bytes_in_ram(), 0U);
   const std::size_t before = resident_of_files();
   memory.rest();
   EXPECT_LT(resident_of_files() + 190 * kPicture, before);
   for (std::size_t i = 0; i < kept.size(); ++i)
-    EXPECT_EQ(std::count(kept[i].get(), kept[i].get() + kPicture, static_cast<std::uint8_t>(i + 1)), kPicture)
-        << i;
+    EXPECT_EQ(std::ranges::count(kept[i], static_cast<std::uint8_t>(i + 1)), kPicture) << i;
 }
 
 TEST(ScratchMemory, UsesAgainWhatIsGivenBack) {
   ScratchMemory memory;
   std::set<const std::uint8_t*> places;
-  for (int i = 0; i < 1000; ++i) places.insert(memory.allocate(kPicture).get());
+  for (std::size_t i = 0; i < 1000; ++i) places.insert(picture(memory, i).data());
   EXPECT_EQ(places.size(), 1U);
   const auto kept = pictures(memory, 100);
-  EXPECT_LT(memory.bytes(), 100 * kPicture * 3 / 2);
+  EXPECT_LT(memory.bytes_in_file(), 100 * kPicture * 3 / 2);
 }
 
-TEST(ScratchMemory, OutlastsTheObjectThatGaveIt) {
-  std::shared_ptr<std::uint8_t[]> kept;
-  {
-    ScratchMemory memory;
-    kept = memory.allocate(kPicture);
-  }
-  std::fill_n(kept.get(), kPicture, std::uint8_t{7});
-  EXPECT_EQ(kept[kPicture - 1], 7);
-}
-
-TEST(ScratchMemory, GivesNothingWhereThereIsNoRoom) {
+TEST(ScratchMemory, IsOrdinaryMemoryWhereThereIsNoRoom) {
   ScratchMemory nowhere("/nonexistent");
-  EXPECT_EQ(nowhere.allocate(kPicture), nullptr);
-  ScratchMemory memory;
-  EXPECT_EQ(memory.allocate(std::size_t{1} << 50U), nullptr);
-  EXPECT_NE(memory.allocate(kPicture), nullptr);
+  {
+    const Picture kept = picture(nowhere, 6);
+    EXPECT_EQ(kept.back(), 7);
+    EXPECT_EQ(nowhere.bytes_in_ram(), kPicture);
+    EXPECT_EQ(nowhere.bytes_in_file(), 0U);
+  }
+  EXPECT_EQ(nowhere.bytes_in_ram(), 0U);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ using geometry::LoopMatch;
 using ReplacedPoints = std::map<PointId, PointId>;
 
 /// Whether the map confirms a loop: points of the earlier keyframe and its neighbours are searched in the
-/// later one, placed as was measured, and must agree with its features in position and depth. True, too,
-/// where the two share points already.
+/// later one, placed as was measured, and must agree with its features in position and depth, and look there
+/// as they did. True, too, where the two share points already.
 bool confirms(const SlamMap& map, const LoopMatch& loop, const DepthConfig& depth);
 
 /// Joins the two sides of a loop: what both see becomes one point, and their keyframes covisible.

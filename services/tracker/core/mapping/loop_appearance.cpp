@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/mapping/loop_appearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "services/tracker/core/pose/point_following.hpp"
+
+namespace rds::tracker {
+namespace {
+
+constexpr float kNearPx = 12;         // from a point to the measurements that it is compared with
+constexpr double kSlackShare = 0.05;  // of the depth, between neighbours on a slanted surface
+
+/// Whether the keyframe measured a surface at the point.
+bool is_measured(const Keyframe& keyframe, const Eigen::Vector3d& in_camera, int levels) {
+  if (in_camera.z() <= 0) return false;
+  const Eigen::Vector2d px = keyframe.features->camera().project_undistorted(in_camera);
+  bool is_there = false;
+  keyframe.features->for_each_near(px.cast<float>(), kNearPx, 0, levels, [&](std::uint32_t i) {
+    const double measured = (*keyframe.features)[i].depth_m;
+    if (measured <= 0 || keyframe.movable[i]) return;
+    is_there = is_there || std::abs(measured - in_camera.z()) <= kSlackShare * measured;
+  });
+  return is_there;
+}
+
+}  // namespace
+
+std::optional<SeenAgain> see_again(const SlamMap& map, std::span<const PointId> points,
+                                   const Keyframe& keyframe, const Pose& camera_from_map,
+                                   const DepthConfig& depth) {
+  if (!keyframe.images) return std::nullopt;
+  std::vector<PointId> measured;
+  std::ranges::copy_if(points, std::back_inserter(measured), [&](PointId id) {
+    return is_measured(keyframe, camera_from_map * map.point(id)->position, map.pyramid().levels());
+  });
+  image::RgbdFrame picture;
+  picture.camera = keyframe.features->camera();
+  const ObservationModel model(picture.camera, depth);
+  PointSearch search(map, measured, {picture, *keyframe.images, camera_from_map, keyframe.motion}, model,
+                     map.pyramid(), std::numeric_limits<int>::max());
+  const FollowedPoints followed = search.find({});
+  return SeenAgain{static_cast<int>(followed.looked_for.size()), static_cast<int>(followed.points.size())};
+}
+
+}  // namespace rds::tracker

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/mapping/loop_appearance.hpp"
+
+#include <opencv2/core.hpp>
+
+#include "tests/unit/services/tracker/core/tracker_scene.hpp"
+
+namespace rds::tracker {
+namespace {
+
+/// The map of a camera that has been carried along a wall, and the newest keyframe in it.
+class LoopAppearance : public testing::Test {
+ protected:
+  LoopAppearance() {
+    for (int i = 0; i < 12; ++i) test::step(tracker_, i);
+    tracker_.map().keyframes().for_each([this](const Keyframe& k) { newest_ = k; });
+  }
+  /// Points of the whole map in the newest keyframe.
+  [[nodiscard]] std::optional<SeenAgain> look(const Pose& move = Pose::Identity()) const {
+    std::vector<PointId> points;
+    tracker_.map().points().for_each([&](const MapPoint& p) { points.push_back(p.id); });
+    return see_again(tracker_.map(), points, newest_, newest_.map_from_camera.inverse() * move, {});
+  }
+  /// Other pictures hang on the wall's left part.
+  void paint(double share) {
+    cv::Mat picture = newest_.images->level(0).clone();
+    cv::Mat left = picture(cv::Rect(0, 0, cvRound(share * picture.cols), picture.rows));
+    cv::Mat mirrored;
+    cv::flip(left, mirrored, -1);
+    mirrored.copyTo(left);
+    newest_.images = std::make_shared<const ImagePyramid>(picture, newest_.images->levels());
+  }
+
+  Tracker tracker_{test::small_config()};
+  Keyframe newest_;
+};
+
+TEST_F(LoopAppearance, ThePlaceItselfLooksTheSame) {
+  const auto again = look();
+  ASSERT_TRUE(again);
+  EXPECT_GT(again->expected, 100);
+  EXPECT_GT(again->share(), 0.8);
+}
+
+TEST_F(LoopAppearance, TheSameShapeWithOtherPicturesDoesNot) {
+  paint(1);
+  const auto again = look();
+  ASSERT_TRUE(again);
+  EXPECT_GT(again->expected, 100);
+  EXPECT_LT(again->share(), 0.1);
+}
+
+TEST_F(LoopAppearance, ThatAPartIsTheSameIsNotEnough) {
+  paint(0.5);
+  const auto again = look();
+  ASSERT_TRUE(again);
+  EXPECT_GT(again->share(), 0.2);
+  EXPECT_LT(again->share(), 0.7);
+}
+
+TEST_F(LoopAppearance, WhatStandsElsewhereIsNotExpected) {
+  const auto again = look(test::pose(0, 0, 0.5));
+  ASSERT_TRUE(again);
+  EXPECT_LT(again->expected, look()->expected / 4);
+}
+
+TEST_F(LoopAppearance, NothingIsSaidOfAKeyframeWithoutAPicture) {
+  newest_.images = nullptr;
+  EXPECT_FALSE(look());
+}
+
+}  // namespace
+}  // namespace rds::tracker

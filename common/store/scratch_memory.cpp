@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -16,10 +17,6 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kSegment = std::size_t{16} << 20U;  // by which the file grows
-
-std::size_t whole_pages(std::size_t bytes) {
-  return (std::max(bytes, std::size_t{1}) + kPage - 1) / kPage * kPage;
-}
 
 /// @return -1 if none can be made.
 int open_nameless(const std::filesystem::path& folder) {
@@ -33,6 +30,11 @@ int open_nameless(const std::filesystem::path& folder) {
 
 }  // namespace
 
+/// Whole pages.
+ScratchMemory::Size ScratchMemory::size_of(std::size_t bytes, std::size_t alignment) {
+  return {(std::max(bytes, std::size_t{1}) + kPage - 1) / kPage * kPage, std::max(alignment, kPage)};
+}
+
 ScratchMemory::ScratchMemory(const std::filesystem::path& folder) : file_(open_nameless(folder)) {}
 
 ScratchMemory::~ScratchMemory() {
@@ -42,7 +44,7 @@ ScratchMemory::~ScratchMemory() {
 
 void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   const std::lock_guard lock(mutex_);
-  if (std::uint8_t* const piece = alignment <= kPage ? take(whole_pages(bytes)) : nullptr) return piece;
+  if (std::uint8_t* const piece = take(size_of(bytes, alignment))) return piece;
   void* const piece = std::pmr::new_delete_resource()->allocate(bytes, alignment);
   bytes_in_ram_ += bytes;
   return piece;
@@ -50,7 +52,7 @@ void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
 
 void ScratchMemory::do_deallocate(void* piece, std::size_t bytes, std::size_t alignment) {
   const std::lock_guard lock(mutex_);
-  if (has(piece)) return free_[whole_pages(bytes)].push_back(static_cast<std::uint8_t*>(piece));
+  if (has(piece)) return free_[size_of(bytes, alignment)].push_back(static_cast<std::uint8_t*>(piece));
   std::pmr::new_delete_resource()->deallocate(piece, bytes, alignment);
   bytes_in_ram_ -= bytes;
 }
@@ -70,15 +72,25 @@ std::size_t ScratchMemory::bytes_in_ram() const {
   return bytes_in_ram_;
 }
 
-/// @param size  whole pages. @return nullptr where there is no room
-std::uint8_t* ScratchMemory::take(std::size_t size) {
+/// @return nullptr where there is no room
+std::uint8_t* ScratchMemory::take(const Size& size) {
   if (const auto freed = free_.find(size); freed != free_.end() && !freed->second.empty()) {
     std::uint8_t* const piece = freed->second.back();
     freed->second.pop_back();
     return piece;
   }
-  if ((segments_.empty() || segments_.back().size - used_ < size) && !grow(size)) return nullptr;
-  return segments_.back().begin + std::exchange(used_, used_ + size);
+  if (std::uint8_t* const piece = cut(size)) return piece;
+  return grow(size.bytes + size.alignment) ? cut(size) : nullptr;
+}
+
+/// Of the last segment.
+std::uint8_t* ScratchMemory::cut(const Size& size) {
+  if (segments_.empty()) return nullptr;
+  void* piece = segments_.back().begin + used_;
+  std::size_t left = segments_.back().size - used_;
+  if (std::align(size.alignment, size.bytes, piece, left) == nullptr) return nullptr;
+  used_ = segments_.back().size - left + size.bytes;
+  return static_cast<std::uint8_t*>(piece);
 }
 
 /// Blocks of the disk are reserved: who writes to a page that the disk has no room for is killed.

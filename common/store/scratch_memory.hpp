@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +35,11 @@ class ScratchMemory : public std::pmr::memory_resource {
   [[nodiscard]] std::size_t bytes_in_ram() const;
 
  private:
+  struct Size {
+    std::size_t bytes;
+    std::size_t alignment;
+    auto operator<=>(const Size&) const = default;
+  };
   struct Segment {
     std::uint8_t* begin;
     std::size_t size;
@@ -44,13 +50,15 @@ class ScratchMemory : public std::pmr::memory_resource {
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override {
     return this == &other;
   }
-  std::uint8_t* take(std::size_t size);
+  static Size size_of(std::size_t bytes, std::size_t alignment);
+  std::uint8_t* take(const Size& size);
+  std::uint8_t* cut(const Size& size);
   bool grow(std::size_t least);
   [[nodiscard]] bool has(const void* piece) const;
 
   int file_;
   mutable std::mutex mutex_;  // of all below
-  std::map<std::size_t, std::vector<std::uint8_t*>> free_;  // by size
+  std::map<Size, std::vector<std::uint8_t*>> free_;
   std::vector<Segment> segments_;
   std::size_t used_ = 0;  // of the last segment
   std::size_t bytes_in_file_ = 0;

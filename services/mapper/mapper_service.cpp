@@ -73,6 +73,10 @@ MapperService::MapperService(service::ServiceContext& context, const MapperServi
       map_services_(context, mailbox_, outputs_) {
   mapper_.report_progress_to([this] { beat(); });
   context.diagnostics.counter("corrections lost") = 0;  // told from the start
+  context.diagnostics.warning("evidence", [this]() -> std::optional<std::string> {
+    if (evidence_memory_.bytes_in_ram() == 0) return std::nullopt;
+    return "the folder for temporary files (correction.spill_folder) has no room: evidence stays in memory";
+  });
   if (!config.map_file.empty()) {
     auto start = read_start(config.map_file, map_commands::limits_of(config.maps), config.mapper);
     if (!start) throw std::runtime_error(start.error());

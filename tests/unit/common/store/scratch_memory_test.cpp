@@ -2,7 +2,9 @@
 #include "common/store/scratch_memory.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <memory_resource>
 #include <set>
 #include <string>
 #include <vector>
@@ -53,6 +55,19 @@ TEST(ScratchMemory, UsesAgainWhatIsGivenBack) {
   EXPECT_EQ(places.size(), 1U);
   const auto kept = pictures(memory, 100);
   EXPECT_LT(memory.bytes_in_file(), 100 * kPicture * 3 / 2);
+}
+
+TEST(ScratchMemory, LiesInTheFileAtAnyAlignment) {
+  ScratchMemory memory;
+  std::pmr::unsynchronized_pool_resource pool({.max_blocks_per_chunk = 64, .largest_required_pool_block = 1U << 16U},
+                                              &memory);
+  for (std::size_t size = 8; size <= std::size_t{1} << 18U; size *= 2) {
+    const std::pmr::vector<std::uint8_t> piece(size, 1, &pool);
+    void* const aligned = memory.allocate(size, size);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(aligned) % size, 0U);
+    memory.deallocate(aligned, size, size);
+  }
+  EXPECT_EQ(memory.bytes_in_ram(), 0U);
 }
 
 TEST(ScratchMemory, IsOrdinaryMemoryWhereThereIsNoRoom) {

@@ -59,8 +59,8 @@ TEST(ScratchMemory, UsesAgainWhatIsGivenBack) {
 
 TEST(ScratchMemory, LiesInTheFileAtAnyAlignment) {
   ScratchMemory memory;
-  std::pmr::unsynchronized_pool_resource pool({.max_blocks_per_chunk = 64, .largest_required_pool_block = 1U << 16U},
-                                              &memory);
+  std::pmr::unsynchronized_pool_resource pool(
+      {.max_blocks_per_chunk = 64, .largest_required_pool_block = 1U << 16U}, &memory);
   for (std::size_t size = 8; size <= std::size_t{1} << 18U; size *= 2) {
     const std::pmr::vector<std::uint8_t> piece(size, 1, &pool);
     void* const aligned = memory.allocate(size, size);

@@ -13,6 +13,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr float kNearPx = 12;         // from a point to the measurements that it is compared with
+constexpr std::size_t kFewest = 40;   // points that say something
 constexpr double kSlackShare = 0.05;  // of the depth, between neighbours on a slanted surface
 
 /// Whether the keyframe measured a surface at the point.
@@ -28,6 +29,14 @@ bool is_measured(const Keyframe& keyframe, const Eigen::Vector3d& in_camera, int
   return is_there;
 }
 
+/// Whether the picture of a keyframe that saw it is kept: not of those from a saved map.
+bool has_picture(const SlamMap& map, const MapPoint& point) {
+  return std::ranges::any_of(point.observations, [&](const Observation& o) {
+    const Keyframe* keyframe = map.keyframe(o.keyframe);
+    return keyframe != nullptr && keyframe->images != nullptr;
+  });
+}
+
 }  // namespace
 
 std::optional<SeenAgain> see_again(const SlamMap& map, std::span<const PointId> points,
@@ -36,7 +45,9 @@ std::optional<SeenAgain> see_again(const SlamMap& map, std::span<const PointId> 
   if (!keyframe.images) return std::nullopt;
   std::vector<PointId> measured;
   std::ranges::copy_if(points, std::back_inserter(measured), [&](PointId id) {
-    return is_measured(keyframe, camera_from_map * map.point(id)->position, map.pyramid().levels());
+    const MapPoint& point = *map.point(id);
+    return has_picture(map, point) &&
+           is_measured(keyframe, camera_from_map * point.position, map.pyramid().levels());
   });
   image::RgbdFrame picture;
   picture.camera = keyframe.features->camera();
@@ -44,6 +55,7 @@ std::optional<SeenAgain> see_again(const SlamMap& map, std::span<const PointId> 
   PointSearch search(map, measured, {picture, *keyframe.images, camera_from_map, keyframe.motion}, model,
                      map.pyramid(), std::numeric_limits<int>::max());
   const FollowedPoints followed = search.find({});
+  if (followed.looked_for.size() < kFewest) return std::nullopt;
   return SeenAgain{static_cast<int>(followed.looked_for.size()), static_cast<int>(followed.points.size())};
 }
 

@@ -21,7 +21,7 @@ struct SeenAgain {
 /// elsewhere, is not expected; so a room that has the shape of another one is told from it by what hangs on
 /// its walls.
 /// @param points  of the place. @param camera_from_map  the keyframe's pose there.
-/// @return nullopt if the keyframe's picture is not kept.
+/// @return nullopt where too few pictures are kept to tell, as in a saved map.
 std::optional<SeenAgain> see_again(const SlamMap& map, std::span<const PointId> points,
                                    const Keyframe& keyframe, const Pose& camera_from_map,
                                    const DepthConfig& depth);

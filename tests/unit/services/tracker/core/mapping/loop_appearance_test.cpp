@@ -17,9 +17,12 @@ class LoopAppearance : public testing::Test {
   }
   /// Points of the whole map in the newest keyframe.
   [[nodiscard]] std::optional<SeenAgain> look(const Pose& move = Pose::Identity()) const {
+    return look(move, tracker_.map());
+  }
+  [[nodiscard]] std::optional<SeenAgain> look(const Pose& move, const SlamMap& map) const {
     std::vector<PointId> points;
-    tracker_.map().points().for_each([&](const MapPoint& p) { points.push_back(p.id); });
-    return see_again(tracker_.map(), points, newest_, newest_.map_from_camera.inverse() * move, {});
+    map.points().for_each([&](const MapPoint& p) { points.push_back(p.id); });
+    return see_again(map, points, newest_, newest_.map_from_camera.inverse() * move, {});
   }
   /// Other pictures hang on the wall's left part.
   void paint(double share) {
@@ -60,13 +63,18 @@ TEST_F(LoopAppearance, ThatAPartIsTheSameIsNotEnough) {
 
 TEST_F(LoopAppearance, WhatStandsElsewhereIsNotExpected) {
   const auto again = look(test::pose(0, 0, 0.5));
-  ASSERT_TRUE(again);
-  EXPECT_LT(again->expected, look()->expected / 4);
+  EXPECT_LT(again ? again->expected : 0, look()->expected / 4);
 }
 
 TEST_F(LoopAppearance, NothingIsSaidOfAKeyframeWithoutAPicture) {
   newest_.images = nullptr;
   EXPECT_FALSE(look());
+}
+
+TEST_F(LoopAppearance, NothingIsSaidOfAPlaceWithoutPictures) {
+  SlamMap saved = tracker_.map();
+  saved.keyframes().for_each([](Keyframe& k) { k.images = nullptr; });
+  EXPECT_FALSE(look(Pose::Identity(), saved));
 }
 
 }  // namespace

@@ -43,8 +43,15 @@ ScratchMemory::~ScratchMemory() {
 }
 
 void* ScratchMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
+  const Size size = size_of(bytes, alignment);
+  if (std::uint8_t* const piece = take(size)) return piece;
+  {
+    const std::lock_guard growing(growing_);  // the disk may take its time: who gives back does not wait
+    if (std::uint8_t* const piece = take(size)) return piece;
+    if (grow(size.bytes + size.alignment))
+      if (std::uint8_t* const piece = take(size)) return piece;
+  }
   const std::lock_guard lock(mutex_);
-  if (std::uint8_t* const piece = take(size_of(bytes, alignment))) return piece;
   void* const piece = std::pmr::new_delete_resource()->allocate(bytes, alignment);
   bytes_in_ram_ += bytes;
   return piece;
@@ -58,8 +65,12 @@ void ScratchMemory::do_deallocate(void* piece, std::size_t bytes, std::size_t al
 }
 
 void ScratchMemory::rest() {
-  const std::lock_guard lock(mutex_);
-  for (const auto& segment : segments_) ::madvise(segment.begin, segment.size, MADV_DONTNEED);
+  std::vector<Segment> segments;
+  {
+    const std::lock_guard lock(mutex_);
+    segments = segments_;
+  }
+  for (const auto& segment : segments) ::madvise(segment.begin, segment.size, MADV_DONTNEED);
 }
 
 std::size_t ScratchMemory::bytes_in_file() const {
@@ -74,13 +85,13 @@ std::size_t ScratchMemory::bytes_in_ram() const {
 
 /// @return nullptr where there is no room
 std::uint8_t* ScratchMemory::take(const Size& size) {
+  const std::lock_guard lock(mutex_);
   if (const auto freed = free_.find(size); freed != free_.end() && !freed->second.empty()) {
     std::uint8_t* const piece = freed->second.back();
     freed->second.pop_back();
     return piece;
   }
-  if (std::uint8_t* const piece = cut(size)) return piece;
-  return grow(size.bytes + size.alignment) ? cut(size) : nullptr;
+  return cut(size);
 }
 
 /// Of the last segment.
@@ -96,10 +107,11 @@ std::uint8_t* ScratchMemory::cut(const Size& size) {
 /// Blocks of the disk are reserved: who writes to a page that the disk has no room for is killed.
 bool ScratchMemory::grow(std::size_t least) {
   const std::size_t size = std::max(least, kSegment);
-  const auto end = static_cast<off_t>(bytes_in_file_);
+  const auto end = static_cast<off_t>(bytes_in_file());
   if (file_ < 0 || ::posix_fallocate(file_, end, static_cast<off_t>(size)) != 0) return false;
   void* const begin = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, end);
   if (begin == MAP_FAILED) return false;
+  const std::lock_guard lock(mutex_);
   segments_.push_back({static_cast<std::uint8_t*>(begin), size});
   bytes_in_file_ += size;
   used_ = 0;

@@ -57,6 +57,7 @@ class ScratchMemory : public std::pmr::memory_resource {
   [[nodiscard]] bool has(const void* piece) const;
 
   int file_;
+  std::mutex growing_;        // one at a time, before mutex_
   mutable std::mutex mutex_;  // of all below
   std::map<Size, std::vector<std::uint8_t*>> free_;
   std::vector<Segment> segments_;

@@ -17,7 +17,6 @@
 #include "common/time/steady_time.hpp"
 #include "common/topics/endpoints.hpp"
 #include "services/tracker/input/pose_file.hpp"
-#include "services/tracker/keyframe_pictures.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -59,6 +58,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
               config.lockstep.enabled ? std::optional(config.lockstep.timeout_s) : std::nullopt},
              look_up()),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
+      pictures_(config.mapping_nice),
       map_commands_(mailbox_, config.maps, map_file::kTracker) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
                                              [this](BoxesMessage m) { answers_.push(std::move(m)); }));
@@ -73,8 +73,7 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
 TrackerPorts TrackerService::ports() {
   TrackerPorts ports{.given_poses = read_given_poses(config_.poses_file, config_.poses_max_gap_s),
                      .executor = executor_with_helper(),
-                     .now_us = time::now_us,
-                     .keep_picture = KeyframePictures()};
+                     .now_us = time::now_us};
   if (!config_.inputs.odometry.empty())
     ports.odometry = [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); };
   return ports;
@@ -159,6 +158,7 @@ void TrackerService::process(const image::RgbdFrame& frame) {
     epoch_.note_keyframe();
     join_submaps(report);
   }
+  if (result.keyframe) move_pictures(result.keyframe->id);
   start_mapping();
   context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
@@ -309,6 +309,13 @@ void TrackerService::start_mapping() {
   if (answers_.is_mapping()) return;
   auto job = tracker_.take_mapping_job();
   if (job) answers_.ask_for_mapping(std::move(*job), frame_index_);
+}
+
+void TrackerService::move_pictures(KeyframeId newest) {
+  while (auto moved = pictures_.try_pop())
+    tracker_.move_picture(moved->keyframe, moved->before, std::move(moved->now));
+  const Keyframe* keyframe = tracker_.map().keyframe(newest);
+  if (keyframe != nullptr && keyframe->images) pictures_.move(newest, keyframe->images);
 }
 
 RobotInputs::LookUp TrackerService::look_up() {

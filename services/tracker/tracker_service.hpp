@@ -12,6 +12,7 @@
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/frame_input.hpp"
 #include "services/tracker/keyframe_answers.hpp"
+#include "services/tracker/keyframe_pictures.hpp"
 #include "services/tracker/map_epoch.hpp"
 #include "services/tracker/robot/robot_inputs.hpp"
 #include "services/tracker/tracker_outputs.hpp"
@@ -52,6 +53,7 @@ class TrackerService : public service::Service {
   void join_submaps(const FrameReport& report);
   void ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera);
   void start_mapping();
+  void move_pictures(KeyframeId newest);
   /// Of frames in the transforms that others publish.
   RobotInputs::LookUp look_up();
   void publish_poses();
@@ -68,6 +70,7 @@ class TrackerService : public service::Service {
   FrameInput input_;
   RobotInputs robot_;
   KeyframeAnswers answers_;
+  KeyframePictures pictures_;
   std::uint64_t frame_index_ = 0;
   std::uint64_t place_ = 0;  // counts the map and submaps that the camera was in, one after the other
   std::pair<std::uint64_t, std::uint64_t> refused_loop_;  // instance and revision of the newest one

@@ -192,7 +192,7 @@ TEST(MapReaders, SectionOfTheMapper) {
   mapper::MapperConfig config;
   config.octree.resolution_m = 0.5;
   // Beside the tree's node a voxel has a look in its block of evidence, and a look and counts in the final
-  // part that the block begins with; blocks and looks lie in a pool, whose pieces are up to a third larger.
+  // part that the block begins with; blocks and looks lie in a pool, whose pieces are larger than they ask for.
   constexpr std::uint64_t kEvidenceOfVoxel = 104;
   constexpr std::uint64_t kPerByte = mapper::kVoxelsPerByte + 8;
   const auto bound = [](std::size_t bytes) {

@@ -160,8 +160,8 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
   KeyframeRecords& records = mapper_.map().records();
   records.submaps().go_on(submap_, records.next_id());
   if (need == KeyframeNeed::kMap) {
-    Picture kept = localizer_.follows_points() ? ports_.keep_picture(frame.images) : nullptr;
-    result.keyframe = mapper_.insert(frame, std::move(kept), removal_.latest());
+    result.keyframe =
+        mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
     localizer_.features().set_newest_keyframe(result.keyframe->id);
     localizer_.relocalizer().add(result.keyframe->id);
     keyframes_.note_in_map(result.keyframe->id, frame.time_ns);
@@ -207,6 +207,11 @@ Pose Tracker::expected_camera_from_map(std::int64_t stamp_ns) const {
 std::optional<LocalMappingJob> Tracker::take_mapping_job() {
   localizer_.relocalizer().index_pending(mapper_.map());
   return mapper_.take_job(calibration_);
+}
+
+void Tracker::move_picture(KeyframeId id, const Picture& before, Picture now) {
+  Keyframe* keyframe = mapper_.map().keyframe(id);
+  if (keyframe != nullptr && keyframe->images == before) keyframe->images = std::move(now);
 }
 
 void Tracker::apply(const LocalMappingResult& result) {

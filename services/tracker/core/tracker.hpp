@@ -26,8 +26,6 @@ namespace rds::tracker {
 /// it is not.
 using GivenPoses = std::function<std::optional<Pose>(std::int64_t stamp_ns)>;
 using Picture = std::shared_ptr<const ImagePyramid>;
-/// The same picture, where it is to lie as long as its keyframe is in the map.
-using KeepPicture = std::function<Picture(Picture)>;
 
 /// What the tracker gets from outside of its core.
 struct TrackerPorts {
@@ -35,7 +33,6 @@ struct TrackerPorts {
   Executor executor = execute_serially;  // runs what can be done at the same time
   Stopwatch now_us = [] { return std::int64_t{0}; };  // for the times in results, which are 0 without
   RobotOdometry odometry = {};                        // of the robot; if empty there is none
-  KeepPicture keep_picture = [](Picture picture) { return picture; };
 };
 
 /// A submap that is part of an older one from now on.
@@ -72,6 +69,9 @@ class Tracker {
   /// reference keyframe; nullopt if neither was made since the last call. Also indexes the newest keyframe
   /// for relocalisation: best called after the frame's result was sent, which does not wait for that.
   std::optional<LocalMappingJob> take_mapping_job();
+  /// A keyframe reads its picture elsewhere from now on. @param now  the same pixels. Nothing happens if its
+  /// picture is not `before`: it is another map's keyframe.
+  void move_picture(KeyframeId keyframe, const Picture& before, Picture now);
   /// Moves keyframes and points; removes, fuses and adds observations. What has changed since the snapshot
   /// is left alone.
   void apply(const LocalMappingResult& result);

@@ -20,8 +20,8 @@ constexpr std::size_t kNeighbours = 9;  // of the keyframe at either side that j
 constexpr double kMeasuredWindowPx = 9;
 constexpr double kAlignedWindowPx = 3;  // once the points have aligned the sides, as in local mapping
 constexpr int kMinAligned = 40;         // points that agree on how the sides stand to each other
-// Of what should show, if it is the same place: .76 … .92, seldom .68. In rooms of the same shape and furniture,
-// with other pictures on the walls: .41 … .68.
+// Of what should show, if it is the same place: .76 … .92, seldom .68. In rooms of the same shape and
+// furniture, with other pictures on the walls: .41 … .68 on one floor, on another one more.
 constexpr double kMinAlike = 0.72;
 
 /// A keyframe of the map, those that share most points with it, and all their points by id.

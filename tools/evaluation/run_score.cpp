@@ -12,6 +12,7 @@
 #include "tools/evaluation/box_score.hpp"
 #include "tools/evaluation/frame_times.hpp"
 #include "tools/evaluation/loops/loop_score.hpp"
+#include "tools/evaluation/loops/returns.hpp"
 #include "tools/evaluation/map_score.hpp"
 #include "tools/evaluation/objects/object_score.hpp"
 #include "tools/evaluation/octree_file.hpp"
@@ -54,6 +55,8 @@ Result add_loops(const RunScoreInput& input, Figures& figures) {
   if (!score) return tl::unexpected(score.error());
   figures["loops_true"] = score->right;
   figures["loops_false"] = score->wrong;
+  const auto keyframes = geometry::read_trajectory(input.out / "keyframes.txt");
+  if (keyframes) figures["loops_missed"] = score_returns(*keyframes, *truth).missed_share();
   return {};
 }
 

@@ -19,10 +19,11 @@ struct RunScoreInput {
 };
 
 /// The figures of a whole run against exact truth, by name: tracked, ate_live, ate_final [m],
-/// loops_true, loops_false (pairs of keyframes), ms_total_median, ms_total_p99, ms_predict_median,
-/// ms_predict_p99 [ms], box_people, box_recall, box_iou, box_cover, box_waste, map_nodes, map_occupied,
-/// resolution [m], static_recall, map_precision, people_voxels, residue, residue_map, objects_wanted,
-/// objects_found, objects_wrong, object_f1, object_iou, object_labelled, object_label_true (ObjectScore).
+/// loops_true, loops_false (pairs of keyframes), loops_missed (share of keyframes, ReturnScore),
+/// ms_total_median, ms_total_p99, ms_predict_median, ms_predict_p99 [ms], box_people, box_recall, box_iou,
+/// box_cover, box_waste, map_nodes, map_occupied, resolution [m], static_recall, map_precision, people_voxels,
+/// residue, residue_map, objects_wanted, objects_found, objects_wrong, object_f1, object_iou, object_labelled,
+/// object_label_true (ObjectScore).
 ///
 /// @return or one sentence that names the file, the line and what was expected.
 tl::expected<nlohmann::ordered_json, std::string> score_run(const RunScoreInput& input);

@@ -8,15 +8,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/evaluation/loops/loop_tolerance.hpp"
+
 namespace rds::evaluation {
 namespace {
 
 using geometry::Pose;
 using nlohmann::json;
-
-constexpr double kMaxErrorM = 0.15;  // of what a right match measures it is a few centimetres
-constexpr double kMaxErrorRad = 0.087;
-constexpr std::int64_t kMaxGapNs = 100'000'000;  // between two true poses
 
 std::int64_t nanoseconds(const json& seconds) {
   return std::llround(seconds.get<double>() * 1e9);
@@ -28,15 +26,12 @@ Pose pose_from(const json& numbers) {
 }
 
 void add_line(const json& line, std::span<const geometry::StampedPose> truth, LoopScore& score) {
-  const auto later = geometry::pose_at(truth, nanoseconds(line.at("stamp")), kMaxGapNs);
+  const auto later = geometry::pose_at(truth, nanoseconds(line.at("stamp")), kMaxTruthGapNs);
   for (const json& loop : line.at("loops")) {
     const Pose earlier_from_later = pose_from(loop.at("earlier_from_later"));
-    const auto earlier = geometry::pose_at(truth, nanoseconds(loop.at("earlier")), kMaxGapNs);
+    const auto earlier = geometry::pose_at(truth, nanoseconds(loop.at("earlier")), kMaxTruthGapNs);
     if (!later || !earlier) continue;
-    const Pose error = earlier_from_later.inverse() * (earlier->inverse() * *later);
-    const bool is_right = error.translation().norm() <= kMaxErrorM &&
-                          geometry::rotation_angle_rad(error.linear()) <= kMaxErrorRad;
-    ++(is_right ? score.right : score.wrong);
+    ++(agree(earlier_from_later, earlier->inverse() * *later) ? score.right : score.wrong);
   }
 }
 

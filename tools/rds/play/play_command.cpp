@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kBadUsage = 2;
 constexpr std::chrono::seconds kReaderLimit{10};
-constexpr std::chrono::seconds kAcknowledgeLimit{30};
+constexpr std::chrono::seconds kAcknowledgeLimit{120};  // in lockstep it may adjust a large map
 
 struct PlayOptions {
   std::filesystem::path dataset;

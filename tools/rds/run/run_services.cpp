@@ -8,7 +8,7 @@
 namespace rds::run {
 namespace {
 
-constexpr std::chrono::milliseconds kStopLimit{2500};
+constexpr std::chrono::seconds kStopLimit{12};  // a mapper with a floor in memory takes a while on a busy machine
 
 }  // namespace
 

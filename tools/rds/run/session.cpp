@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr seconds kConnectLimit{30};
 constexpr milliseconds kStatusLimit{300};
-constexpr seconds kAcknowledgeLimit{30};
+constexpr seconds kAcknowledgeLimit{120};  // in lockstep a frame waits for the adjustment of a large map, too
 constexpr std::uint64_t kMapperBacklog = 10;  // keyframes; its inbox and the topic's history hold 20
 constexpr seconds kFinishLimit{120};
 const std::string kMapName = "map";

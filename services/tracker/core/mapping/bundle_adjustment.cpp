@@ -163,19 +163,21 @@ class Bundle {
     if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
   }
 
+  /// Removes observations of points that lie behind their camera: the solver could not even begin.
+  void remove_impossible(LocalMappingResult& result) {
+    keep(result, [this](const MappingScene::SceneObservation& o, const Eigen::Vector3d& map_point) {
+      return in_camera(o, map_point).z() >= kMinDepth;
+    });
+  }
+
   /// Removes observations beyond the χ² bound; what remains of a point must be seen.
   void remove_outliers(LocalMappingResult& result) {
-    for (auto& point : scene_.points()) {
-      if (!is_adjusted(point)) continue;
-      std::erase_if(point.observations, [&](const MappingScene::SceneObservation& o) {
-        const Measurement m = measurement(o);
-        const Eigen::Vector3d p = to_pose(poses_[o.keyframe].data()) * point.position;
-        const bool good = p.z() >= kMinDepth &&
-                          models_[o.keyframe].residual(p, m).squaredNorm() <= ObservationModel::chi2(m);
-        if (!good) result.removed.push_back({point.id, scene_.job().keyframes[o.keyframe].id, o.feature});
-        return !good;
-      });
-    }
+    keep(result, [this](const MappingScene::SceneObservation& o, const Eigen::Vector3d& map_point) {
+      const Measurement m = measurement(o);
+      const Eigen::Vector3d p = in_camera(o, map_point);
+      return p.z() >= kMinDepth &&
+             models_[o.keyframe].residual(p, m).squaredNorm() <= ObservationModel::chi2(m);
+    });
   }
 
   void report(LocalMappingResult& result) const {
@@ -207,6 +209,24 @@ class Bundle {
   /// A point that only one keyframe sees would just take that keyframe's measurement: it is carried along.
   static bool is_adjusted(const MappingScene::ScenePoint& point) {
     return point.alive && point.observations.size() >= 2;
+  }
+
+  /// Removes the observations that are not good.
+  template <class Good>
+  void keep(LocalMappingResult& result, const Good& good) {
+    for (auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      std::erase_if(point.observations, [&](const MappingScene::SceneObservation& o) {
+        if (good(o, point.position)) return false;
+        result.removed.push_back({point.id, scene_.job().keyframes[o.keyframe].id, o.feature});
+        return true;
+      });
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector3d in_camera(const MappingScene::SceneObservation& o,
+                                          const Eigen::Vector3d& map_point) const {
+    return to_pose(poses_[o.keyframe].data()) * map_point;
   }
 
   [[nodiscard]] Eigen::Vector3d carried(const MappingScene::ScenePoint& point) const {
@@ -244,7 +264,7 @@ class Bundle {
     const std::array parameters{poses_[o.keyframe].data(), position.data()};
     std::array jacobians{by_pose.data(), by_point.data()};
     cost(o).Evaluate(parameters.data(), d.residual.data(), jacobians.data());
-    const Eigen::Vector3d p = to_pose(poses_[o.keyframe].data()) * position;
+    const Eigen::Vector3d p = in_camera(o, position);
     d.camera = o.keyframe;
     d.by_pose = by_pose.leftCols<6>();
     d.by_point = by_point;
@@ -266,6 +286,7 @@ class Bundle {
 
 ImagingEstimate adjust_bundle(MappingScene& scene, const BundleOptions& options, LocalMappingResult& result) {
   Bundle bundle(scene);
+  bundle.remove_impossible(result);
   bundle.optimize(options, true);
   if (options.stop.stop_requested()) return {};
   bundle.remove_outliers(result);

@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kWatchPeriod = 200ms;
 constexpr auto kSilenceLimit = 30s;
-constexpr auto kStopLimit = 2500ms;
+constexpr auto kStopLimit = 12s;  // less than who asked waits for it
 constexpr auto kGoodByeTime = 1s;              // in which an answer is repeated that a bad link has lost
 constexpr std::size_t kMaxRequests = 1000;
 

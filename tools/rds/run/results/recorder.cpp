@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/detection_conversions.hpp"
@@ -120,10 +121,10 @@ void Recorder::on_boxes(const rds_msgs::msg::PredictedBoxes& message) {
 
 /// Each correction once: it is repeated in the answers to the keyframes after it.
 void Recorder::on_loops(const rds_msgs::msg::KeyFramePoses& message) {
-  const std::pair loop{message.instance(), message.revision()};
   const std::lock_guard lock(mutex_);
-  if (message.loops().empty() || message.map_epoch() != epoch_ || loop == newest_loop_) return;
-  newest_loop_ = loop;
+  if (message.loops().empty() || message.map_epoch() != epoch_) return;
+  const auto [found, is_new] = found_loops_.try_emplace({message.instance(), message.revision()});
+  if (!is_new) return;
   std::map<std::uint64_t, std::int64_t> stamps;
   for (std::size_t i = 0; i < message.keyframe_ids().size(); ++i)
     stamps[message.keyframe_ids()[i]] = message.stamps()[i];
@@ -131,7 +132,7 @@ void Recorder::on_loops(const rds_msgs::msg::KeyFramePoses& message) {
     const auto later = stamps.find(match.later);
     const auto earlier = stamps.find(match.earlier);
     if (later != stamps.end() && earlier != stamps.end())  // else it is of a saved map
-      recording_.loops[later->second].push_back({earlier->second, match.earlier_from_later});
+      found->second[later->second].push_back({earlier->second, match.earlier_from_later});
   }
 }
 
@@ -149,6 +150,7 @@ void Recorder::on_poses(const rds_msgs::msg::KeyFramePoses& message) {
     recording_.keyframes_revision = message.revision();
     recording_.map_epoch = message.map_epoch();
     recording_.loops_closed = message.loops_closed();
+    followed_loops_.emplace(message.loop_instance(), message.loop_revision());
   }
   changed_.notify_all();
 }
@@ -204,7 +206,14 @@ bool Recorder::wait_poses(std::uint64_t revision, const std::stop_token& stop,
 
 Recording Recorder::recording() const {
   const std::lock_guard lock(mutex_);
-  return recording_;
+  Recording recording = recording_;
+  for (const LoopKey& loop : followed_loops_) {
+    const auto found = found_loops_.find(loop);
+    if (found == found_loops_.end()) continue;
+    for (const auto& [stamp, records] : found->second)
+      std::ranges::copy(records, std::back_inserter(recording.loops[stamp]));
+  }
+  return recording;
 }
 
 std::vector<PredictionRecord> Recorder::predictions(std::int64_t stamp_ns) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -49,6 +50,8 @@ class Recorder {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Loops = std::map<std::int64_t, std::vector<LoopRecord>>;  // by stamp of the later keyframe
+  using LoopKey = std::pair<std::uint64_t, std::uint64_t>;        // the loop closer's instance and revision
   /// Subscribes to what services write in their own name only.
   template <class Message>
   void subscribe(bus::Participant& bus, const topics::Topic<Message>& topic,
@@ -73,8 +76,9 @@ class Recorder {
   std::optional<std::uint64_t> last_mapped_id_;
   std::map<std::uint64_t, Clock::time_point> unmapped_;  // keyframes by id, and when they came
   std::uint64_t epoch_ = 0;
-  std::pair<std::uint64_t, std::uint64_t> newest_loop_;  // instance and revision
-  std::vector<bus::Subscription> subscriptions_;         // last: callbacks use the members above
+  std::map<LoopKey, Loops> found_loops_;
+  std::set<LoopKey> followed_loops_;              // those that the tracker's poses contain; it refuses others
+  std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };
 
 }  // namespace rds::run

@@ -53,7 +53,7 @@ struct KeyframeRecord {
   geometry::Pose map_from_camera = geometry::Pose::Identity();
 };
 
-/// An earlier keyframe that the loop closer recognised.
+/// An earlier keyframe by which a loop was closed: the loop closer recognised it, and the tracker followed.
 struct LoopRecord {
   std::int64_t earlier_ns = 0;
   geometry::Pose earlier_from_later = geometry::Pose::Identity();

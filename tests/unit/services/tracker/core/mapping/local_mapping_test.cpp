@@ -107,6 +107,16 @@ TEST_F(LocalMapping, RemovesAnObservationThatDisagrees) {
                                   [&](const auto& r) { return r.point == wrong && r.keyframe == 2; }));
 }
 
+TEST_F(LocalMapping, APointBehindItsCamerasStopsNothingElse) {
+  const double poses_before = pose_error();
+  const PointId behind = map.keyframe(2)->points[0];
+  map.point(behind)->position = {0, 0, -1};
+  const auto result = run_local_mapping(job());
+  EXPECT_TRUE(std::ranges::any_of(result.removed, [&](const auto& r) { return r.point == behind; }));
+  apply_mapping_result(map, result);
+  EXPECT_LT(pose_error(), 0.12 * poses_before);
+}
+
 TEST_F(LocalMapping, GivesTheSameResultTwice) {
   const auto a = run_local_mapping(job());
   const auto b = run_local_mapping(job());

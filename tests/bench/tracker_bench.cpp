@@ -152,7 +152,7 @@ void relocalisation_by_a_keyframe(benchmark::State& state) {
     const PoseSettings settings{s.pyramid, s.config.depth};
     const TrackingContext context{*s.map, settings, s.next, s.model, {}, {}};
     TrackedFrame frame = s.extracted;
-    return relocalizer.localize(context, frame);
+    return relocalizer.localize(context, [](const Keyframe&) { return true; }, frame);
   });
 }
 BENCHMARK(relocalisation_by_a_keyframe)->Unit(benchmark::kMicrosecond);

@@ -189,8 +189,15 @@ bool Localizer::find_carried(const TrackingContext& context, const KeyframeSelec
 }
 
 bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {
-  const bool is_found = (sought_ && relocalizer_.localize_around(context, *sought_, frame)) ||
-                        relocalizer_.localize(context, frame);
+  const auto around = [this](const Keyframe& k) { return sought_->contains(k.map_from_camera); };
+  const Submaps& submaps = context.map.records().submaps();
+  const KeyframeId last = features_.reference();
+  const auto reachable = [&](const Keyframe& k) {
+    return last == kNoId || submaps.of(k.id) != submaps.of(last) ||
+           context.motion.can_be_near(k.map_from_camera);
+  };
+  const bool is_found = (sought_ && relocalizer_.localize(context, around, frame)) ||
+                        relocalizer_.localize(context, reachable, frame);
   if (!is_found) return false;
   features_.refine(context, frame, FeatureTracker::kLostWindow);
   return frame.static_matches() >= Relocalizer::kMinInliers;

@@ -8,7 +8,7 @@
 namespace rds::run {
 namespace {
 
-constexpr std::chrono::seconds kStopLimit{12};  // a mapper with a floor in memory takes a while on a busy machine
+constexpr std::chrono::seconds kStopLimit{30};  // on a busy disk a file of a floor takes a while to go
 
 }  // namespace
 

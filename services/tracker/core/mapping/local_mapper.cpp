@@ -119,8 +119,7 @@ bool LocalMapper::is_mostly_static(KeyframeId id) const {
 
 std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose> corrected,
                                                    std::span<const LoopMatch> loops) {
-  const auto is_confirmed = [&](const LoopMatch& loop) { return confirms(map_, loop, settings_.depth); };
-  if (!loops.empty() && std::ranges::none_of(loops, is_confirmed)) return std::nullopt;
+  if (!loops.empty() && !confirms(map_, loops, settings_.depth)) return std::nullopt;
   apply_correction(map_, corrected);
   ++revision_;
   return join(loops);
@@ -139,8 +138,7 @@ ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
 
 std::optional<ReplacedPoints> LocalMapper::join(const SubmapMove& move,
                                                 std::span<const LoopMatch> sightings) {
-  const auto is_confirmed = [&](const LoopMatch& seen) { return confirms(map_, seen, settings_.depth); };
-  if (std::ranges::none_of(sightings, is_confirmed) || !fits(map_, move)) return std::nullopt;
+  if (!confirms(map_, sightings, settings_.depth) || !fits(map_, move)) return std::nullopt;
   move_submap(map_, move);
   ++revision_;
   return join(sightings);

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 
 namespace rds::tracker {
 

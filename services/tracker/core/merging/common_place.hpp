@@ -7,7 +7,7 @@
 
 #include <tl/expected.hpp>
 
-#include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
 
 namespace rds::tracker {

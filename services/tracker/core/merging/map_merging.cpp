@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "services/tracker/core/mapping/global_adjustment.hpp"
-#include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/merging/common_place.hpp"
 #include "services/tracker/core/merging/map_union.hpp"

@@ -11,6 +11,8 @@ constexpr double kNsPerSecond = 1e9;
 constexpr double kMaxPredictedGap = 0.5;               // s; beyond, constant velocity is a guess
 constexpr double kMaxSpeed = 5;                        // m/s and …
 constexpr double kMaxTurnRate = 2 * std::numbers::pi;  // rad/s, of a camera that is carried or driven
+constexpr double kWalkingSpeed = 2;                    // m/s, of one that is lost
+constexpr double kNear = 1.5;                          // m: a keyframe that sees the same, a last pose that was off
 constexpr double kPoseNoise = 0.01;                    // m and rad
 constexpr double kMaxAcceleration = 15;                // m/s² and …
 constexpr double kMaxTurnAcceleration = 40;            // rad/s², of a camera in a hand
@@ -39,6 +41,11 @@ std::optional<Twist> MotionPrediction::velocity_to(const geometry::Pose& camera_
 bool MotionPrediction::is_jump(const geometry::Pose& camera_from_map) const {
   const auto motion = velocity_to(camera_from_map);
   return motion && (motion->head<3>().norm() > kMaxSpeed || motion->tail<3>().norm() > kMaxTurnRate);
+}
+
+bool MotionPrediction::can_be_near(const geometry::Pose& map_from_other) const {
+  return (map_from_other.translation() - last_map_from_camera_.translation()).norm() <=
+         kNear + kWalkingSpeed * gap_s_;
 }
 
 double MotionPrediction::innovation(const geometry::Pose& camera_from_map) const {

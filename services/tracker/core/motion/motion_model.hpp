@@ -33,6 +33,8 @@ class MotionPrediction {
   [[nodiscard]] std::optional<Twist> velocity_to(const geometry::Pose& camera_from_map) const;
   /// True where no camera can have moved from the last pose to this one.
   [[nodiscard]] bool is_jump(const geometry::Pose& camera_from_map) const;
+  /// False of places that are too far from the last pose for a camera that walked on since.
+  [[nodiscard]] bool can_be_near(const geometry::Pose& map_from_other) const;
   /// Innovation of a pose: its distance from the prediction, relative to the largest one that the
   /// accelerations of a hand-held camera explain. Above 1 the pose may be that of something moving.
   [[nodiscard]] double innovation(const geometry::Pose& camera_from_map) const;

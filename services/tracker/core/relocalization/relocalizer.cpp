@@ -121,23 +121,15 @@ bool SoughtPlace::contains(const Pose& map_from_other) const {
   return ahead.normalized().dot(other.normalized()) >= std::cos(max_angle_rad);
 }
 
-bool Relocalizer::localize_around(const TrackingContext& context, const SoughtPlace& place,
-                                  TrackedFrame& frame) const {
+bool Relocalizer::localize(const TrackingContext& context, const Where& where, TrackedFrame& frame) const {
   std::size_t tried = 0;
   for (const auto& candidate : places_.query(static_descriptors(*frame.features), places_.size())) {
     const Keyframe* keyframe = std::as_const(context.map).keyframe(candidate.id);
-    if (keyframe == nullptr || !place.contains(keyframe->map_from_camera)) continue;
+    if (keyframe == nullptr || !where(*keyframe)) continue;
     if (tried++ == kCandidates) break;
     if (localize_against(context, candidate.id, frame)) return true;
   }
   return false;
-}
-
-bool Relocalizer::localize(const TrackingContext& context, TrackedFrame& frame) const {
-  const auto candidates = places_.query(static_descriptors(*frame.features), kCandidates);
-  return std::ranges::any_of(candidates, [&](const vision::PlaceCandidate& candidate) {
-    return localize_against(context, candidate.id, frame);
-  });
 }
 
 std::optional<FoundKeyframe> Relocalizer::find_in_others(SlamMap& map, const PoseSettings& settings,

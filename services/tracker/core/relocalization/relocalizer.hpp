@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "common/geometry/loop_match.hpp"
@@ -34,13 +35,13 @@ class Relocalizer {
   /// Inliers that a pose found without a prediction needs.
   static constexpr int kMinInliers = 50;
 
-  /// Tries the keyframes that look most like the frame.
+  /// Which keyframes the camera may be near.
+  using Where = std::function<bool(const Keyframe&)>;
+
+  /// Tries those of the keyframes that look most like the frame.
   /// @return true if at least kMinInliers map points agree that do not all lie in one plane; then
   /// frame.points and camera_from_map hold the result.
-  bool localize(const TrackingContext& context, TrackedFrame& frame) const;
-  /// Tries those of the keyframes around a place that look most like the frame.
-  /// @return as localize().
-  bool localize_around(const TrackingContext& context, const SoughtPlace& place, TrackedFrame& frame) const;
+  bool localize(const TrackingContext& context, const Where& where, TrackedFrame& frame) const;
   /// Looks for the place that a keyframe shows among the keyframes of other submaps.
   /// @return nullopt if fewer than kMinInliers map points agree, or all of them lie in one plane.
   std::optional<FoundKeyframe> find_in_others(SlamMap& map, const PoseSettings& settings,

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/motion/se3.hpp"
 #include "tests/unit/services/tracker/core/mapping/two_laps.hpp"
 

@@ -68,6 +68,18 @@ TEST_F(ConstantVelocity, TellsWhatNoHandDoes) {
   EXPECT_TRUE(prediction.is_jump(map_from_camera(20).inverse())) << "9.5 m/s";
 }
 
+TEST_F(ConstantVelocity, ReachesNoFarPlaceInAMoment) {
+  const auto ahead = [&](double distance_m) {
+    geometry::Pose place = map_from_camera(1);
+    place.translation().z() += distance_m;
+    return place;
+  };
+  EXPECT_TRUE(predict(2).can_be_near(ahead(1)));
+  EXPECT_FALSE(predict(2).can_be_near(ahead(4)));
+  EXPECT_TRUE(predict(31).can_be_near(ahead(4))) << "after 3 s it may have walked there";
+  EXPECT_TRUE(MotionPrediction().can_be_near(ahead(100)));
+}
+
 TEST_F(ConstantVelocity, HasNoVelocityAfterARelocalisation) {
   model.observe(predict(2), map_from_camera(2).inverse(), false);
   EXPECT_TRUE(predict(2).velocity().isZero());

@@ -9,6 +9,8 @@
 namespace rds::tracker {
 namespace {
 
+const auto anywhere = [](const Keyframe&) { return true; };
+
 class Relocalization : public testing::Test, protected test::KnownPlace {
  protected:
   Relocalization() {
@@ -32,7 +34,7 @@ TEST_F(Relocalization, FindsTheCameraInAKnownPlace) {
   relocalizer.index_all(map);
   ASSERT_EQ(relocalizer.places(), 2U);
   TrackedFrame frame = unknown_frame();
-  ASSERT_TRUE(relocalizer.localize(context(), frame));
+  ASSERT_TRUE(relocalizer.localize(context(), anywhere, frame));
   EXPECT_LT(se3_log(frame.camera_from_map * place).norm(), 1e-4);
   EXPECT_GT(frame.static_matches(), Relocalizer::kMinInliers);
 }
@@ -41,11 +43,12 @@ TEST_F(Relocalization, LooksAroundAPlaceAndNowhereElse) {
   relocalizer.index_all(map);
   SoughtPlace around{test::pose(0.4, 0.3, 0), 1, 0.8};
   TrackedFrame frame = unknown_frame();
-  ASSERT_TRUE(relocalizer.localize_around(context(), around, frame));
+  const auto is_there = [&](const Keyframe& k) { return around.contains(k.map_from_camera); };
+  ASSERT_TRUE(relocalizer.localize(context(), is_there, frame));
   EXPECT_LT(se3_log(frame.camera_from_map * place).norm(), 1e-4);
   around.map_from_camera.translation().x() = 5;
   frame = unknown_frame();
-  EXPECT_FALSE(relocalizer.localize_around(context(), around, frame));
+  EXPECT_FALSE(relocalizer.localize(context(), is_there, frame));
 }
 
 TEST(SoughtPlace, CountsOverTheGroundAndByTheWayThatTheCameraLooks) {
@@ -65,12 +68,12 @@ TEST(SoughtPlace, CountsOverTheGroundAndByTheWayThatTheCameraLooks) {
 
 TEST_F(Relocalization, DoesNotFindItWhereNoKeyframeIsKnown) {
   TrackedFrame frame = unknown_frame();
-  EXPECT_FALSE(relocalizer.localize(context(), frame));
+  EXPECT_FALSE(relocalizer.localize(context(), anywhere, frame));
   relocalizer.add(0);
   EXPECT_EQ(relocalizer.places(), 1U) << "it counts at once, and is found by after index_pending()";
-  EXPECT_FALSE(relocalizer.localize(context(), frame));
+  EXPECT_FALSE(relocalizer.localize(context(), anywhere, frame));
   relocalizer.index_pending(map);
-  EXPECT_TRUE(relocalizer.localize(context(), frame));
+  EXPECT_TRUE(relocalizer.localize(context(), anywhere, frame));
   relocalizer.remove(0);
   EXPECT_EQ(relocalizer.places(), 0U);
 }
@@ -82,7 +85,7 @@ TEST_F(Relocalization, DoesNotFindItInAnotherPlace) {
   for (Feature& f : features)
     for (auto& byte : f.descriptor) byte = static_cast<std::uint8_t>(random());
   frame.features = std::make_shared<const FeatureSet>(test::small_camera(), std::move(features));
-  EXPECT_FALSE(relocalizer.localize(context(), frame));
+  EXPECT_FALSE(relocalizer.localize(context(), anywhere, frame));
 }
 
 TEST_F(Relocalization, FeaturesOnMovableObjectsAreNoPlace) {

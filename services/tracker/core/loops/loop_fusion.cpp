@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/mapping/loop_fusion.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "services/tracker/core/loops/loop_appearance.hpp"
+#include "services/tracker/core/loops/loop_drift.hpp"
 #include "services/tracker/core/map/covisibility.hpp"
-#include "services/tracker/core/mapping/loop_appearance.hpp"
 #include "services/tracker/core/pose/association.hpp"
 #include "services/tracker/core/pose/pose_optimization.hpp"
 
@@ -19,10 +20,7 @@ constexpr std::size_t kNeighbours = 9;  // of the keyframe at either side that j
 // A verified loop places a keyframe to about 5 mm and 3 mrad: 3 px for points 2 m away. Three times that.
 constexpr double kMeasuredWindowPx = 9;
 constexpr double kAlignedWindowPx = 3;  // once the points have aligned the sides, as in local mapping
-constexpr int kMinAligned = 40;         // points that agree on how the sides stand to each other
-// Of what should show, if it is the same place: .76 … .92, seldom .68. In rooms of the same shape and
-// furniture, with other pictures on the walls: .41 … .68 on one floor, on another one more.
-constexpr double kMinAlike = 0.72;
+constexpr int kMinAligned = 20;         // points that agree on how the sides stand to each other
 
 /// A keyframe of the map, those that share most points with it, and all their points by id.
 struct Side {
@@ -76,8 +74,8 @@ bool is_known(const SlamMap& map, const LoopMatch& loop) {
   return map.records().contains(loop.later) && map.records().contains(loop.earlier);
 }
 
-/// Moves the later side to where the earlier side's points show in the keyframe at its centre.
-/// @return nullopt if too few of them do, or what surrounds them looks otherwise.
+/// The pose of the keyframe at the later side's centre by the earlier side's points that show in it.
+/// @return camera_from_map; nullopt if too few of them do.
 std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side& earlier, const Side& later,
                           const DepthConfig& depth) {
   const Keyframe& centre = *map.keyframe(later.centre);
@@ -95,10 +93,7 @@ std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side&
         {point.position, view.model.measurement((*centre.features)[*feature], map.pyramid()), 1});
   }
   const OptimizedPose optimized = optimize_pose(view.model, observations, view.camera_from_map);
-  if (optimized.inliers < kMinAligned) return std::nullopt;
-  const auto again = see_again(map, earlier.points, centre, optimized.camera_from_map, depth);
-  if (again && again->share() < kMinAlike) return std::nullopt;
-  return optimized.camera_from_map.inverse() * centre.map_from_camera.inverse();
+  return optimized.inliers < kMinAligned ? std::nullopt : std::optional(optimized.camera_from_map);
 }
 
 /// Fuses points of one side into the keyframes of the other.
@@ -158,11 +153,22 @@ class Fusion {
 
 }  // namespace
 
-bool confirms(const SlamMap& map, const LoopMatch& loop, const DepthConfig& depth) {
-  if (!is_known(map, loop)) return false;
-  const Side earlier = side_of(map, loop.earlier);
-  const Side later = side_of(map, loop.later);
-  return share_points(earlier, later) || align(map, loop, earlier, later, depth);
+bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthConfig& depth) {
+  const LoopMatch* aligned = nullptr;
+  SeenAgain again;
+  for (const LoopMatch& loop : loops) {
+    if (!is_known(map, loop)) continue;
+    const Side earlier = side_of(map, loop.earlier);
+    const Side later = side_of(map, loop.later);
+    if (share_points(earlier, later)) return true;
+    const auto camera_from_map = align(map, loop, earlier, later, depth);
+    if (!camera_from_map) continue;
+    aligned = &loop;
+    again += see_again(map, earlier.points, *map.keyframe(later.centre), *camera_from_map, depth);
+  }
+  if (aligned == nullptr) return false;
+  const auto drift = drift_of(map, *aligned);
+  return again.log_odds() + (drift ? drift->log_odds() : 0) >= 0;
 }
 
 std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, const DepthConfig& depth) {
@@ -170,11 +176,13 @@ std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, con
   const Side earlier = side_of(map, loop.earlier);
   const Side later = side_of(map, loop.later);
   if (share_points(earlier, later)) return std::nullopt;
-  const auto earlier_from_later = align(map, loop, earlier, later, depth);
-  if (!earlier_from_later) return std::nullopt;
+  const auto camera_from_map = align(map, loop, earlier, later, depth);
+  if (!camera_from_map) return std::nullopt;
+  const Pose map_from_later = std::as_const(map).keyframe(later.centre)->map_from_camera;
+  const Pose later_from_earlier = map_from_later * *camera_from_map;
   Fusion fusion(map, depth);
-  fusion.fuse(earlier, later, earlier_from_later->inverse());
-  fusion.fuse(later, earlier, *earlier_from_later);
+  fusion.fuse(earlier, later, later_from_earlier);
+  fusion.fuse(later, earlier, later_from_earlier.inverse());
   for (const KeyframeId id : later.keyframes) update_covisibility(map, id);
   return fusion.take_replaced();
 }

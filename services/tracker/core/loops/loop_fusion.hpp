@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "common/geometry/loop_match.hpp"
 #include "services/tracker/core/config/tracker_config.hpp"
@@ -14,10 +15,13 @@ using geometry::LoopMatch;
 /// Points that are gone, each with the one that took its place.
 using ReplacedPoints = std::map<PointId, PointId>;
 
-/// Whether the map confirms a loop: points of the earlier keyframe and its neighbours are searched in the
-/// later one, placed as was measured, and must agree with its features in position and depth, and look there
-/// as they did. True, too, where the two share points already.
-bool confirms(const SlamMap& map, const LoopMatch& loop, const DepthConfig& depth);
+/// Whether the map confirms that these keyframes show one place.
+///
+/// Points of an earlier keyframe and its neighbours are searched in the later one, placed as was measured, and
+/// must agree with its features in position and depth. Then how the points of all matches look there, and how
+/// far the map would have drifted, are weighed together: the sum of their log-odds must not be negative. True,
+/// too, where two keyframes share points already.
+bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthConfig& depth);
 
 /// Joins the two sides of a loop: what both see becomes one point, and their keyframes covisible.
 ///

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "common/geometry/loop_match.hpp"
+#include "services/tracker/core/map/slam_map.hpp"
+
+namespace rds::tracker {
+
+/// How far a loop says that the map has drifted.
+struct LoopDrift {
+  double moved_m = 0;  // from where the map has the later keyframe to where the loop has it
+  double way_m = 0;    // between the two keyframes, over covisible ones: drift adds up along it
+
+  /// Log-odds that the place is the same one and not one that looks alike, by the drift alone.
+  ///
+  ///   log( (1 − ε) · A / (2πσ²) · exp(−d² / 2σ²) + ε ),  σ = 0.1 m + 0.02 · way
+  ///
+  /// The tracker drifts by a share of its way, or in one case of so many (ε) it has been led astray; places
+  /// that look alike stand anywhere on a floor of area A.
+  [[nodiscard]] double log_odds() const;
+};
+
+/// @param loop  whose keyframes the map knows.
+/// @return nullopt where no way over covisible keyframes joins the two, so that nothing is known of how they
+/// stand to each other.
+std::optional<LoopDrift> drift_of(const SlamMap& map, const geometry::LoopMatch& loop);
+
+}  // namespace rds::tracker

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/loops/loop_drift.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/services/tracker/core/synthetic_scene.hpp"
+
+namespace rds::tracker {
+namespace {
+
+/// Keyframes 1 m apart around a square of 4 m, each covisible with the one before it; the last one, number 15,
+/// is 1 m from the first.
+class LoopDriftTest : public testing::Test {
+ protected:
+  LoopDriftTest() {
+    const auto features = test::view_of({}, Pose::Identity(), 0, random_).features;
+    for (int k = 0; k < 16; ++k) {
+      const auto side = static_cast<std::size_t>(k / 4);
+      const double along = k % 4;
+      const std::array<Eigen::Vector3d, 4> places{{{along, 0, 0}, {4, 0, along}, {4 - along, 0, 4}, {0, 0, 4 - along}}};
+      const KeyframeId id =
+          map_.add_keyframe(k, Pose(Eigen::Translation3d(places.at(side))), features).id;
+      if (k > 0) join(id - 1, id);
+    }
+  }
+  void join(KeyframeId a, KeyframeId b) {
+    map_.keyframe(a)->covisible.push_back({b, 20});
+    map_.keyframe(b)->covisible.push_back({a, 20});
+  }
+  /// The loop that has the last keyframe so far from where the map has it.
+  [[nodiscard]] geometry::LoopMatch loop(double moved_m) const {
+    const Pose seen = Eigen::Translation3d(moved_m, 0, 0) * map_.pose_of(15);
+    return {15, 0, map_.pose_of(0).inverse() * seen};
+  }
+
+  std::mt19937 random_{1};
+  SlamMap map_{ScalePyramid(8, 1.2)};
+};
+
+TEST_F(LoopDriftTest, IsMeasuredAlongTheShortestWayOverCovisibleKeyframes) {
+  const auto around = drift_of(map_, loop(0.3));
+  ASSERT_TRUE(around);
+  EXPECT_NEAR(around->way_m, 15, 1e-9);
+  EXPECT_NEAR(around->moved_m, 0.3, 1e-9);
+  join(2, 13);  // from (2, 0) to (0, 3)
+  EXPECT_NEAR(drift_of(map_, loop(0.3))->way_m, 2 + std::sqrt(13) + 2, 1e-9);
+}
+
+TEST_F(LoopDriftTest, NothingIsKnownOfKeyframesThatNothingJoins) {
+  map_.keyframe(7)->covisible = {{6, 20}};
+  map_.keyframe(8)->covisible = {{9, 20}};
+  EXPECT_FALSE(drift_of(map_, loop(0.3)));
+}
+
+TEST(LoopDriftOdds, FallWithTheDriftAndRiseWithTheWay) {
+  EXPECT_GT((LoopDrift{0.1, 15}.log_odds()), 3);
+  EXPECT_LT((LoopDrift{4, 15}.log_odds()), -3);
+  EXPECT_GT((LoopDrift{4, 150}.log_odds()), (LoopDrift{4, 15}.log_odds()));
+  EXPECT_LT((LoopDrift{0.1, 150}.log_odds()), (LoopDrift{0.1, 15}.log_odds()));
+}
+
+TEST(LoopDriftOdds, WhoIsLedAstrayMayStillBeJoined) {
+  const double astray = LoopDrift{50, 15}.log_odds();
+  EXPECT_NEAR(astray, (LoopDrift{5, 15}.log_odds()), 0.01);
+  EXPECT_GT(astray, -4);
+}
+
+}  // namespace
+}  // namespace rds::tracker

@@ -48,7 +48,7 @@ class ObservationModel {
   /// Of the sensor, σ_d = f·b·σ_z / z², and of where it measures.
   [[nodiscard]] double disparity_sigma_px(double depth_m) const {
     const double by_noise = fx_baseline_ * noise_.sigma_m(depth_m) / (depth_m * depth_m);
-    return std::hypot(kSigmas * by_noise, kCornerPx);
+    return std::hypot(by_noise, kCornerPx);
   }
 
   [[nodiscard]] Measurement measurement(const Feature& feature, const ScalePyramid& pyramid) const {
@@ -97,10 +97,8 @@ class ObservationModel {
   }
 
  private:
-  // Three: errors of neighbouring points, and of a point in many pictures, are alike and do not average out.
-  static constexpr double kSigmas = 3;
   // Corners lie at rims, where depth is of either side, and it lies beside colour by about a pixel.
-  static constexpr double kCornerPx = 0.57;
+  static constexpr double kCornerPx = 0.595;
   static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
 
   double fx_, fy_, cx_, cy_;

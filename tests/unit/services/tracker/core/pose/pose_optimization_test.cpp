@@ -47,7 +47,7 @@ TEST(ObservationModel, ADepthCountsAsTheCameraMeasures) {
     feature.depth_m = depth_m;
     return ObservationModel(camera, depth).measurement(feature, kPyramid).disparity_weight;
   };
-  EXPECT_NEAR(1 / weight("kinect_v1", 1), std::hypot(0.57, 3 * 525 * 0.0775 * 0.001884), 1e-6);
+  EXPECT_NEAR(1 / weight("kinect_v1", 1), std::hypot(0.595, 525 * 0.0775 * 0.001884), 1e-6);
   EXPECT_NEAR(1 / weight("kinect_v1", 2), 0.6, 0.005);
   EXPECT_NEAR(weight("realsense", 1), weight("realsense", 4), 1e-6) << "stereo's disparity is as good everywhere";
   EXPECT_LT(weight("realsense", 2), weight("kinect_v1", 2));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
 #include <Eigen/Core>
 
@@ -45,10 +45,10 @@ class ObservationModel {
 
   [[nodiscard]] double disparity(double depth_m) const { return fx_baseline_ / depth_m; }
 
-  /// Of the sensor, σ_d = f·b·σ_z / z², and of where it measures.
+  /// The sensor's, σ_d = f·b·σ_z / z², or, if that is more, of where it measures.
   [[nodiscard]] double disparity_sigma_px(double depth_m) const {
     const double by_noise = fx_baseline_ * noise_.sigma_m(depth_m) / (depth_m * depth_m);
-    return std::hypot(by_noise, kCornerPx);
+    return std::max(by_noise, kCornerPx);
   }
 
   [[nodiscard]] Measurement measurement(const Feature& feature, const ScalePyramid& pyramid) const {
@@ -98,7 +98,7 @@ class ObservationModel {
 
  private:
   // Corners lie at rims, where depth is of either side, and it lies beside colour by about a pixel.
-  static constexpr double kCornerPx = 0.595;
+  static constexpr double kCornerPx = 0.6;
   static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
 
   double fx_, fy_, cx_, cy_;

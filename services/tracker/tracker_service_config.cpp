@@ -6,12 +6,13 @@
 namespace rds::tracker {
 namespace {
 
-void read(config::ConfigReader& reader, CameraTopics& camera) {
+void read(config::ConfigReader& reader, CameraTopics& camera, geometry::DepthNoise& noise) {
   const topics::CameraPreset preset = topics::read_camera_preset(reader, "preset");
   topics::read_topic(reader, "color", preset.color, camera.color);
   topics::read_topic(reader, "camera_info", preset.camera_info, camera.camera_info);
   topics::read_topic(reader, "depth", preset.depth, camera.depth);
   reader.value("depth_info", camera.depth_info);
+  noise = topics::read_depth_noise(reader, "depth_noise", preset);
   reader.choice("transport", camera.transport, {"auto", "raw", "compressed"});
   reader.value("best_effort", camera.best_effort);
   reader.value("pairing_tolerance_s", camera.pairing_tolerance_s, 0.0, 0.5, "s");
@@ -40,7 +41,7 @@ void read(config::ConfigReader& reader, LockstepConfig& config) {
 void read(config::ConfigReader& reader, TrackerServiceConfig& config) {
   reader.value("nice", config.nice, 0, 19);
   reader.value("mapping_nice", config.mapping_nice, 0, 19);
-  read(reader.section("camera"), config.camera);
+  read(reader.section("camera"), config.camera, config.tracker.depth.noise);
   read(reader.section("frames"), config.frames);
   read(reader.section("inputs"), config.inputs);
   read(reader, config.lockstep);

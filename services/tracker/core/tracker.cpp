@@ -47,7 +47,7 @@ Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
     : config_(config),
       ports_(std::move(ports)),
       calibration_(config.self_calibration),
-      removal_(config.removal, config.depth.max_depth_m),
+      removal_(config.removal, config.depth),
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
       keyframes_(config.keyframe, config.localize_only),

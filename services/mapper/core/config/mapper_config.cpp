@@ -23,7 +23,6 @@ void read(ConfigReader& r, ConfirmationConfig& c) {
 
 void read(ConfigReader& r, SegmentationConfig& c) {
   r.value("enabled", c.enabled);
-  r.value("plane_noise", c.plane_noise, 0.0, 0.1, "1/m");
 }
 
 void read(ConfigReader& r, ObjectConfig& c) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/config/config_reader.hpp"
+#include "common/geometry/depth_noise.hpp"
 #include "common/labels/table.hpp"
 
 namespace rds::mapper {
@@ -17,6 +18,7 @@ struct SamplingConfig {
   double min_range_m = 0.4;  // depth along the optical axis
   double max_range_m = 4.0;  // farther points are not inserted; their rays pass free space up to here
   int edge_support = 3;      // not read: neighbours on a pixel's surface; with fewer it is a flying pixel
+  geometry::DepthNoise depth_noise = geometry::kDepthNoises.front();  // of the camera; the service reads it
 
   bool operator==(const SamplingConfig&) const = default;
 };
@@ -30,8 +32,7 @@ struct ConfirmationConfig {
 
 struct SegmentationConfig {
   bool enabled = true;
-  int stride = 2;              // not read: of the sampled points that are clustered
-  double plane_noise = 0.006;  // two standard deviations of depth, × depth² [1/m]: structured light
+  int stride = 2;  // not read: of the sampled points that are clustered
 
   bool operator==(const SegmentationConfig&) const = default;
 };

@@ -44,7 +44,7 @@ void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> b
   if (still.empty()) return;
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
   const auto segments =
-      config.segmentation.enabled ? segment(record, config.segmentation) : std::vector<Segment>{};
+      config.segmentation.enabled ? segment(record, config) : std::vector<Segment>{};
   record.objects.labels.assign(record.size(), 0);
   for (const auto* box : still) {
     const auto box_px = image_box(*box, record);

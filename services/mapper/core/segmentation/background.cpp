@@ -55,11 +55,11 @@ bool lies_along(const Plane& plane, const KeyframeRecord& record, std::size_t pi
 
 std::vector<std::uint8_t> find_background(const KeyframeRecord& record,
                                           std::span<const geometry::Box2> movable,
-                                          const SegmentationConfig& config) {
+                                          const geometry::DepthNoise& noise) {
   if (movable.empty()) return {};
   const auto in_boxes = pixels_in(movable, record.grid);
   std::vector<std::uint8_t> background(record.size(), 0);
-  for (const FlatSurface& surface : find_planes(record, config)) {
+  for (const FlatSurface& surface : find_planes(record, noise)) {
     if (!goes_on_outside(surface, record, in_boxes)) continue;
     record.grid.for_each(surface.pixels, [&](std::size_t i, int column, int row) {
       if (lies_along(surface.plane, record, i, column, row)) background[i] = 1;

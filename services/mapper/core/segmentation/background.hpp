@@ -16,6 +16,6 @@ namespace rds::mapper {
 /// @return 1 for each such pixel, 0 for others; empty without boxes.
 std::vector<std::uint8_t> find_background(const KeyframeRecord& record,
                                           std::span<const geometry::Box2> movable,
-                                          const SegmentationConfig& config);
+                                          const geometry::DepthNoise& noise);
 
 }  // namespace rds::mapper

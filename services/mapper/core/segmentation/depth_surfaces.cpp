@@ -14,6 +14,7 @@ namespace {
 constexpr int kNoReturnRadius = 4;  // sampled pixels
 constexpr std::uint32_t kMinPixels = 8;
 constexpr int kOneMetre = 10000;  // in depth_tenth_mm
+constexpr int kSlantTenthMm = 300;
 
 /// Disjoint sets of runs; the lowest one stands for its set.
 class RunSets {
@@ -50,7 +51,8 @@ struct Run {
 /// The runs of a picture in order, and which of them are connected.
 class Runs {
  public:
-  explicit Runs(const KeyframeRecord& record) : record_(record), above_(width()), row_(width()) {
+  Runs(const KeyframeRecord& record, const geometry::DepthNoise& noise)
+      : record_(record), noise_(noise), above_(width()), row_(width()) {
     for (std::size_t first = 0; first < record.size(); first += width()) {
       add_row(static_cast<std::uint32_t>(first));
       std::swap(above_, row_);
@@ -70,7 +72,6 @@ class Runs {
   [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(record_.grid.width); }
 
   void add_row(std::uint32_t first) {
-    constexpr auto kStepAt1m = static_cast<int>(kSurfaceStepM * kOneMetre);
     const std::uint16_t* depths = &record_.depth_tenth_mm[first];
     const PixelClass* classes = &record_.classes[first];
     const std::size_t width = this->width();
@@ -82,7 +83,7 @@ class Runs {
         continue;
       }
       const int depth = depths[x];
-      const int step = depth <= kOneMetre ? kStepAt1m : depth / 100 * kStepAt1m / 100;
+      const int step = surface_step_tenth_mm(depth, noise_);
       const auto is_connected = [&](int other) { return std::abs(other - depth) <= step; };
       if (run == kNone || !is_connected(depths[x - 1])) {
         run = sets_.add();
@@ -99,6 +100,7 @@ class Runs {
   }
 
   const KeyframeRecord& record_;
+  const geometry::DepthNoise& noise_;
   RunSets sets_;
   std::vector<Run> runs_;
   std::vector<std::uint32_t> above_;  // the run of each pixel in the row before
@@ -106,6 +108,12 @@ class Runs {
 };
 
 }  // namespace
+
+int surface_step_tenth_mm(int depth_tenth_mm, const geometry::DepthNoise& noise) {
+  const int slant = depth_tenth_mm <= kOneMetre ? kSlantTenthMm : depth_tenth_mm / 100 * kSlantTenthMm / 100;
+  const float depth_m = static_cast<float>(depth_tenth_mm) / kTenthMmPerM;
+  return std::max(slant, static_cast<int>(noise.difference_m(depth_m) * kTenthMmPerM));
+}
 
 cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
   cv::Mat1b none(record.grid.height, record.grid.width);
@@ -119,12 +127,10 @@ cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
 }
 
 bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config) {
-  constexpr float kToleranceAt1m = static_cast<float>(kSurfaceStepM) * kTenthMmPerM;
   const int width = record.grid.width;
   const std::uint16_t* middle = &record.depth_tenth_mm[record.grid.index(column, row)];
   const int depth = *middle;
-  const float scale = std::max(1.0F, static_cast<float>(depth) / kTenthMmPerM);
-  const auto tolerance = static_cast<int>(kToleranceAt1m * scale);
+  const int tolerance = surface_step_tenth_mm(depth, config.depth_noise);
   const auto near = [&](int r, int c) {
     return std::abs(middle[r * width + c] - depth) <= tolerance ? 1 : 0;
   };
@@ -142,8 +148,9 @@ bool is_on_surface(const KeyframeRecord& record, int column, int row, const Samp
   return count >= config.edge_support;
 }
 
-std::uint16_t find_surfaces(const KeyframeRecord& record, std::vector<std::uint16_t>& surface) {
-  Runs runs(record);
+std::uint16_t find_surfaces(const KeyframeRecord& record, const geometry::DepthNoise& noise,
+                            std::vector<std::uint16_t>& surface) {
+  Runs runs(record, noise);
   std::vector<std::uint32_t> pixels(runs.size(), 0);  // of the surface that begins with a run
   runs.for_each(
       [&](std::uint32_t run, std::uint32_t first) { pixels[first] += runs[run].end - runs[run].first; });

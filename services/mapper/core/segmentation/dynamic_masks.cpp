@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/segmentation/dynamic_masks.hpp"
 
+#include <cmath>
+
 #include <opencv2/imgproc.hpp>
 
 #include "services/mapper/core/segmentation/background.hpp"
@@ -9,12 +11,17 @@
 namespace rds::mapper {
 namespace {
 
-constexpr int kRimPx = 8;  // at edges a depth camera is off by several pixels
+/// Ten standard deviations across the axis: what is measured at a rim is a mixture of near and far over the
+/// width of a matching window, and depth is laid on colour with an error of a pixel or two.
+int rim_px(const geometry::DepthNoise& noise) {
+  constexpr double kSigmas = 10;
+  return static_cast<int>(std::ceil(kSigmas * noise.lateral_px));
+}
 
-/// A mask grown by kRimPx to all sides.
-std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, const KeyframeRecord& record) {
+/// A mask grown to all sides.
+std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int by_px, const KeyframeRecord& record) {
   std::vector<std::uint8_t> rim(mask.size());
-  const int radius = (kRimPx + record.grid.stride - 1) / record.grid.stride;
+  const int radius = (by_px + record.grid.stride - 1) / record.grid.stride;
   cv::Mat1b to(record.grid.height, record.grid.width, rim.data());
   cv::dilate(cv::Mat1b(record.grid.height, record.grid.width, mask.data()), to,
              cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
@@ -36,11 +43,11 @@ DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const Label
   }
   if (boxes_px.empty()) return {};
   DynamicMasks masks;
-  masks.background = find_background(record, boxes_px, config.segmentation);
+  masks.background = find_background(record, boxes_px, config.sampling.depth_noise);
   masks.object.resize(record.size());
   for (const auto& region : regions)
     for (const auto i : region.pixels) masks.object[i] = 1;
-  masks.beside = grown(masks.object, record);
+  masks.beside = grown(masks.object, rim_px(config.sampling.depth_noise), record);
   for (const auto& region : regions)
     if (!region.pixels.empty())
       for (const auto i : region.small_parts) masks.beside[i] = 1;

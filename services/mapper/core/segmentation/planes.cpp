@@ -31,9 +31,9 @@ class Block {
 /// The cells of a picture; free are those that are no part of a plane yet.
 class Cells {
  public:
-  Cells(const KeyframeRecord& record, const SegmentationConfig& config)
+  Cells(const KeyframeRecord& record, const geometry::DepthNoise& noise)
       : record_(record),
-        config_(config),
+        noise_(noise),
         columns_((record.grid.width + kCellPx - 1) / kCellPx),
         rows_((record.grid.height + kCellPx - 1) / kCellPx),
         sums_(static_cast<std::size_t>(columns_ * rows_)),
@@ -109,7 +109,7 @@ class Cells {
         const auto cell = static_cast<std::size_t>(row / kCellPx * columns_ + column);
         if (near[cell] == 0) continue;
         for_row_of(cell, row % kCellPx, [&](std::size_t i) {
-          if (looks_static(record_.classes[i]) && lies_on(surface.plane, record_.point_in_camera(i), config_))
+          if (looks_static(record_.classes[i]) && lies_on(surface.plane, record_.point_in_camera(i), noise_))
             surface.pixels.push_back(i);
         });
       }
@@ -152,16 +152,16 @@ class Cells {
     for (const auto i : cells) points.add(sums_[i]);
     return points;
   }
-  /// Standard deviation that points on a plane may have: the tolerance is two of them.
+  /// Standard deviation that points on a plane may have: half of what one of them may be off.
   [[nodiscard]] double limit_m(const PointSums& points) const {
-    return tolerance_m(points.mean().z(), config_) / 2;
+    return noise_.plane_tolerance_m(points.mean().z()) / 2;
   }
   [[nodiscard]] bool is_on(const Plane& plane, const PointSums& points) const {
     return points.deviation_m(plane) < limit_m(points);
   }
 
   const KeyframeRecord& record_;
-  const SegmentationConfig& config_;
+  const geometry::DepthNoise& noise_;
   int columns_;
   int rows_;
   std::vector<PointSums> sums_;
@@ -170,8 +170,8 @@ class Cells {
 
 }  // namespace
 
-std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const SegmentationConfig& config) {
-  Cells cells(record, config);
+std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const geometry::DepthNoise& noise) {
+  Cells cells(record, noise);
   const double needed = kMinPlaneShare * static_cast<double>(record.size()) / (kCellPx * kCellPx);
   std::vector<CellIndices> regions;
   for (const auto seed : cells.seeds()) regions.push_back(cells.take_region(seed));

@@ -15,14 +15,9 @@ struct FlatSurface {
 /// Share of the picture that a plane fills at least: 10 000 px of 640×480.
 inline constexpr double kMinPlaneShare = 0.033;
 
-/// How far from its plane a point is measured at most, at this depth [m].
-inline double tolerance_m(double depth_m, const SegmentationConfig& config) {
-  constexpr double kReliefM = 0.01;  // of walls and table tops, beside the noise of depth
-  return kReliefM + config.plane_noise * depth_m * depth_m;
-}
 /// True for a point in the camera's frame that is measured as well as on the plane.
-inline bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const SegmentationConfig& config) {
-  return std::abs(plane.distance_m(point.cast<double>())) < tolerance_m(double{point.z()}, config);
+inline bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const geometry::DepthNoise& noise) {
+  return std::abs(plane.distance_m(point.cast<double>())) < noise.plane_tolerance_m(double{point.z()});
 }
 
 /// Splits the picture into square cells, fits planes to their points, and joins the cells that deviate from a
@@ -34,6 +29,6 @@ inline bool lies_on(const Plane& plane, const Eigen::Vector3f& point, const Segm
 /// @return surfaces of at least kMinPlaneShare of the picture, the largest first; pixels that are not
 /// kStatic take no part. Source: Proença & Gao 2018 (CAPE), §III. Deviation: cells are compared with the
 /// plane, not by their normals.
-std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const SegmentationConfig& config);
+std::vector<FlatSurface> find_planes(const KeyframeRecord& record, const geometry::DepthNoise& noise);
 
 }  // namespace rds::mapper

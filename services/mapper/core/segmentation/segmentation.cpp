@@ -103,16 +103,17 @@ geometry::Box2 box_around(const std::vector<std::size_t>& pixels, const Keyframe
 
 }  // namespace
 
-std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationConfig& config) {
+std::vector<Segment> segment(const KeyframeRecord& record, const MapperConfig& config) {
+  const int stride = config.segmentation.stride;
   std::vector<Segment> segments;
   std::vector<std::uint8_t> on_plane(record.size(), 0);
-  for (auto& surface : find_planes(record, config)) {
+  for (auto& surface : find_planes(record, config.sampling.depth_noise)) {
     for (const auto i : surface.pixels) on_plane[i] = 1;
     const auto box = box_around(surface.pixels, record);
     segments.push_back({box, std::move(surface.pixels), surface.plane});
   }
-  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, config.stride))) {
-    auto pixels = pixels_of(cluster.indices, config.stride, record, on_plane);
+  for (const auto& cluster : find_clusters(organised_cloud(record, on_plane, stride))) {
+    auto pixels = pixels_of(cluster.indices, stride, record, on_plane);
     const auto box = box_around(pixels, record);
     segments.push_back({box, std::move(pixels), std::nullopt});
   }

@@ -17,6 +17,6 @@ struct Segment {
 ///
 /// Pixels without depth are NaN, never (0, 0, 0). Pixels that are not kStatic take no part.
 /// Source: paper §IV-C, module "Point Cloud Segmentation".
-std::vector<Segment> segment(const KeyframeRecord& record, const SegmentationConfig& config);
+std::vector<Segment> segment(const KeyframeRecord& record, const MapperConfig& config);
 
 }  // namespace rds::mapper

@@ -24,13 +24,13 @@ bool lies_in(const ObjectPlace& place, const Segment& segment, const KeyframeRec
 
 /// Takes the pixels on a plane away, if the others lie on one side of it: a plane that passes through an
 /// object, as that of a table top through the chair before it, does not bound it.
-void remove_support(const Plane& plane, const KeyframeRecord& record, const SegmentationConfig& config,
+void remove_support(const Plane& plane, const KeyframeRecord& record, const geometry::DepthNoise& noise,
                     std::vector<std::size_t>& pixels) {
   std::vector<std::size_t> others;
   double above = 0;
   for (const auto i : pixels) {
     const Eigen::Vector3f point = record.point_in_camera(i);
-    if (lies_on(plane, point, config)) continue;
+    if (lies_on(plane, point, noise)) continue;
     others.push_back(i);
     above += plane.distance_m(point.cast<double>()) > 0 ? 1 : 0;
   }
@@ -40,10 +40,10 @@ void remove_support(const Plane& plane, const KeyframeRecord& record, const Segm
 }
 
 bool is_flush(const std::vector<std::size_t>& region, std::span<const Plane> planes,
-              const KeyframeRecord& record, const SegmentationConfig& config) {
+              const KeyframeRecord& record, const geometry::DepthNoise& noise) {
   return std::ranges::any_of(planes, [&](const Plane& plane) {
     const auto out = std::ranges::count_if(
-        region, [&](std::size_t i) { return !lies_on(plane, record.point_in_camera(i), config); });
+        region, [&](std::size_t i) { return !lies_on(plane, record.point_in_camera(i), noise); });
     return static_cast<double>(out) < kStandsOut * static_cast<double>(region.size());
   });
 }
@@ -52,6 +52,7 @@ bool is_flush(const std::vector<std::size_t>& region, std::span<const Plane> pla
 
 StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
                            std::span<const Segment> segments, const MapperConfig& config) {
+  const geometry::DepthNoise& noise = config.sampling.depth_noise;
   const auto place = object_place(record, box);
   if (!place) return {};
   std::vector<std::uint8_t> is_object(record.size(), 0);
@@ -66,14 +67,14 @@ StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
     });
     if (!own && segment.plane) elsewhere.push_back(*segment.plane);
   }
-  StaticObject object{{}, is_flush(region, elsewhere, record, config.segmentation)};
+  StaticObject object{{}, is_flush(region, elsewhere, record, noise)};
   if (object.flush)
     for (const auto i : region) is_object[i] = 1;
   const cv::Rect box_around = record.grid.inside(place->box_px);
   const std::size_t end = record.grid.index(0, box_around.y + box_around.height);
   for (std::size_t i = record.grid.index(0, box_around.y); i < end; ++i)
     if (is_object[i] != 0 && looks_static(record.classes[i])) object.pixels.push_back(i);
-  for (const auto& plane : elsewhere) remove_support(plane, record, config.segmentation, object.pixels);
+  for (const auto& plane : elsewhere) remove_support(plane, record, noise, object.pixels);
   return object;
 }
 

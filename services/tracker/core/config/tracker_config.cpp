@@ -19,7 +19,6 @@ void read(config::ConfigReader& r, ExtractionConfig& c) {
 void read(config::ConfigReader& r, DepthConfig& c) {
   r.value("max_depth_m", c.max_depth_m, 0.5, 100.0, "m");
   r.value("close_depth_m", c.close_depth_m, 0.3, 100.0, "m");
-  r.value("disparity_sigma_px", c.disparity_sigma_px, 0.05, 10.0, "px");
 }
 
 void read(config::ConfigReader& r, SelfCalibrationConfig& c) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/depth_noise.hpp"
+
 namespace rds::config {
 class ConfigReader;
 }
@@ -29,8 +31,7 @@ struct ExtractionConfig {
 struct DepthConfig {
   double max_depth_m = 8.0;    // beyond: as if not measured
   double close_depth_m = 3.2;  // points nearer than this are made into map points at once
-  double disparity_sigma_px =
-      0.6;  // of one depth measurement as a disparity (ObservationModel), at any level
+  geometry::DepthNoise noise = geometry::kDepthNoises.front();  // the service reads it
 
   bool operator==(const DepthConfig&) const = default;
 };

@@ -12,10 +12,7 @@ namespace {
 constexpr int kWindow = 10;             // cells, some 40 px
 constexpr double kLeastMeasured = .85;  // of a window's cells
 constexpr double kFarthestM = 6;        // beyond, a window of a Kinect's depth is a few steps
-// Of 1/z [1/m]. Khoshelham & Elberink 2012: σ_z = 1.4e-3 z² at random and steps of 2.9e-3 z² (σ = step /
-// √12).
-constexpr double kSigma = 1.6e-3;
-constexpr double kLargestRms = 2 * kSigma;  // two steps side by side in a window of a true plane
+constexpr double kLargestRms = 2;  // of σ: two steps side by side in a window of a true plane
 
 bool shows_static(const DepthView& view, int column, int row) {
   const float z = view.depth_m(row, column);
@@ -25,7 +22,9 @@ bool shows_static(const DepthView& view, int column, int row) {
 /// Least squares of 1/z over rays, with the normal equations of one window.
 class InverseDepthFit {
  public:
-  void add(const Eigen::Vector3d& ray, double inverse_depth) {
+  void add(const Eigen::Vector3d& ray, double depth_m, const geometry::DepthNoise& noise) {
+    const double inverse_depth = 1 / depth_m;
+    variances_ += std::pow(noise.sigma_m(depth_m) * inverse_depth * inverse_depth, 2);
     ata_ += ray * ray.transpose();
     atb_ += ray * inverse_depth;
     btb_ += inverse_depth * inverse_depth;
@@ -36,7 +35,7 @@ class InverseDepthFit {
   [[nodiscard]] std::optional<Eigen::Vector3d> normal() const {
     const Eigen::Vector3d plane = ata_.ldlt().solve(atb_);
     const double squares = btb_ - plane.dot(atb_);
-    if (!plane.allFinite() || squares > count_ * kLargestRms * kLargestRms) return std::nullopt;
+    if (!plane.allFinite() || squares > kLargestRms * kLargestRms * variances_) return std::nullopt;
     return plane.normalized();
   }
 
@@ -44,6 +43,7 @@ class InverseDepthFit {
   Eigen::Matrix3d ata_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d atb_ = Eigen::Vector3d::Zero();
   double btb_ = 0;
+  double variances_ = 0;
   int count_ = 0;
 };
 
@@ -57,8 +57,8 @@ std::vector<Eigen::Vector3d> plane_normals(const DepthView& view) {
       for (int row = top; row < top + kWindow; ++row)
         for (int column = left; column < left + kWindow; ++column)
           if (shows_static(view, column, row))
-            fit.add(view.grid->ray(column, row).cast<double>(),
-                    1 / static_cast<double>(view.depth_m(row, column)));
+            fit.add(view.grid->ray(column, row).cast<double>(), double{view.depth_m(row, column)},
+                    view.grid->noise());
       if (fit.count() < kLeastMeasured * kWindow * kWindow) continue;
       if (const auto normal = fit.normal()) normals.push_back(*normal);
     }

@@ -13,8 +13,8 @@ namespace rds::tracker {
 /// window of cells, half a window apart, whose depth is a plane's to within the sensor's noise.
 ///
 /// Of a plane n·p = d, the inverse depth is linear in the ray (x, y, 1): 1/z = n·(x, y, 1)/d, and the noise
-/// of a structured-light sensor, which grows with z², is the same everywhere in 1/z. So a window is fitted by
-/// ordinary least squares.
+/// of a camera that triangulates, which grows with z², is the same everywhere in 1/z: σ_z / z². (Of another
+/// camera it is nearly so within a window.) So a window is fitted by ordinary least squares.
 std::vector<Eigen::Vector3d> plane_normals(const DepthView& view);
 
 }  // namespace rds::tracker

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kKeyframes = 40;     // of either submap, spread over it
 constexpr std::size_t kMeasurements = 80;  // of each, spread over its features
 constexpr float kNearPx = 8;               // from a measurement to the features that it is compared with
-// Surfaces are slanted and have edges: the depths of two neighbours differ by more than noise.
+// Surfaces are slanted and have edges: the depths of two neighbours differ by more than noise. That is within
+// these up to 7 m, whatever the camera (docs/decisions/depth-noise.md).
 constexpr double kSlackM = 0.15;
 constexpr double kSlackShare = 0.1;
 // Of a rendered building at the right place .0003, of strips that stand out of a wall .004 … .012; 2.8 m off

@@ -11,7 +11,9 @@ constexpr int kStride = 2;  // cells, between those that are asked for planes
 }  // namespace
 
 Background::Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& unknown)
-    : picture_(picture), surfaces_{picture.depth_m, grid}, planes_(fit_planes(samples_outside(unknown))) {}
+    : picture_(picture),
+      surfaces_{picture.depth_m, grid},
+      planes_(fit_planes(samples_outside(unknown), grid.noise())) {}
 
 std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& unknown) const {
   const cv::Mat1f& depth_m = picture_.depth_m;
@@ -29,7 +31,7 @@ bool Background::shows(const cv::Point& cell, bool wide) const {
   if (!(picture_.depth_m(cell) > 0)) return false;
   const Eigen::Vector3f p = surfaces_.point(cell.x, cell.y);
   const auto may_show = [&](const BackgroundPlane& plane) {
-    return (plane.wide || !wide) && is_near(plane, p);
+    return (plane.wide || !wide) && is_near(plane, p, surfaces_.grid.noise());
   };
   if (std::ranges::none_of(planes_, may_show)) return false;
   const Eigen::Vector3f n = surfaces_.normal(cell.x, cell.y);

@@ -7,20 +7,23 @@
 #include <opencv2/core.hpp>
 
 #include "common/geometry/camera_model.hpp"
+#include "common/geometry/depth_noise.hpp"
 #include "common/image/rgbd_frame.hpp"
 
 namespace rds::tracker {
 
-/// How a camera's pictures are divided into square cells, some 160 across.
+/// How a camera's pictures are divided into square cells, some 160 across, and how well it measures depth.
 class GridGeometry {
  public:
   using Numbers = Eigen::Array<float, Eigen::Dynamic, 1, 0, 256, 1>;  // of some points
   using Cells = Eigen::Array<int, Eigen::Dynamic, 1, 0, 256, 1>;
 
   GridGeometry() = default;
-  explicit GridGeometry(const geometry::CameraModel& camera);
+  explicit GridGeometry(const geometry::CameraModel& camera,
+                        const geometry::DepthNoise& noise = geometry::kDepthNoises.front());
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return camera_; }
+  [[nodiscard]] const geometry::DepthNoise& noise() const { return noise_; }
   [[nodiscard]] int cell_px() const { return cell_px_; }
   [[nodiscard]] cv::Size size() const { return size_; }
   /// Ray (x, y, 1) through the middle of a cell.
@@ -53,6 +56,7 @@ class GridGeometry {
 
  private:
   geometry::CameraModel camera_;
+  geometry::DepthNoise noise_ = geometry::kDepthNoises.front();
   int cell_px_ = 1;
   cv::Size size_;
   static constexpr float kNearestM = 0.1F;

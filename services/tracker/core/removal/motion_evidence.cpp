@@ -15,7 +15,9 @@ constexpr float kNothing = std::numeric_limits<float>::max();
 constexpr Eigen::Index kBatch = GridGeometry::Numbers::MaxRowsAtCompileTime;
 constexpr int kThinnest = 5;        // cells across, of a thing
 constexpr int kWitnesses = 2;       // earlier pictures
-constexpr float kStepM = 0.1F;      // nearer than what stood there before, 1 m away; grows with depth squared
+// Nearer than what stood there before, 1 m away; grows with depth squared. Twice a surface's own steps, which
+// is ten times and more what noise makes (docs/decisions/depth-noise.md).
+constexpr float kStepM = 0.1F;
 constexpr float kSameShare = 0.4F;  // of kStepM: so near is the same surface
 constexpr double kMinShare = 0.004;  // of the picture, of a moving thing
 constexpr double kMaxShare = 0.4;    // of what can be judged; more is an error of the pose

@@ -24,11 +24,11 @@ constexpr double kStableStepM = 0.03;
 void MovableSegmenter::set_picture(const image::RgbdFrame& picture) {
   if (picture.camera != grid_.camera()) {
     forget();
-    grid_ = GridGeometry(picture.camera);
+    grid_ = GridGeometry(picture.camera, depth_.noise);
   }
   last_ = std::exchange(now_, Now());
   now_.stamp_ns = picture.stamp_ns;
-  now_.cells.depth_m = depth_in_cells(picture.depth, grid_, max_depth_m_);
+  now_.cells.depth_m = depth_in_cells(picture.depth, grid_, depth_.max_depth_m);
 }
 
 void MovableSegmenter::detect_motion(const geometry::Pose& camera_from_map) {

@@ -22,8 +22,7 @@ namespace rds::tracker {
 /// not moved since, for half a second without either. For one thread at a time.
 class MovableSegmenter {
  public:
-  MovableSegmenter(const RemovalConfig& config, double max_depth_m)
-      : config_(config), max_depth_m_(max_depth_m) {}
+  MovableSegmenter(const RemovalConfig& config, const DepthConfig& depth) : config_(config), depth_(depth) {}
 
   /// First: the next picture; its depth is used.
   void set_picture(const image::RgbdFrame& picture);
@@ -68,7 +67,7 @@ class MovableSegmenter {
   [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
 
   RemovalConfig config_;
-  double max_depth_m_;
+  DepthConfig depth_;
   GridGeometry grid_;
   Now now_;
   Now last_;

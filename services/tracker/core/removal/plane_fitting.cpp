@@ -22,8 +22,8 @@ constexpr float kNarrowM = 0.06F;  // standard deviation along the narrower side
 constexpr float kWideM = 0.16F;    // wider than 0.55 m
 constexpr float kMinSine = 0.2F;   // of the triangle that makes a hypothesis
 
-bool agrees(const BackgroundPlane& plane, const SurfaceSample& sample) {
-  return is_near(plane, sample.point) && is_parallel(plane, sample.normal);
+bool agrees(const BackgroundPlane& plane, const SurfaceSample& sample, const geometry::DepthNoise& noise) {
+  return is_near(plane, sample.point, noise) && is_parallel(plane, sample.normal);
 }
 
 /// Numbers that only look random.
@@ -64,14 +64,15 @@ std::optional<BackgroundPlane> fit(const std::vector<SurfaceSample>& samples) {
 
 /// Every so many of the samples that agree with the plane; fewer if they cannot be more than `most`.
 std::size_t agreeing(const std::vector<SurfaceSample>& samples, std::size_t stride,
-                     const BackgroundPlane& plane, std::size_t most) {
+                     const BackgroundPlane& plane, const geometry::DepthNoise& noise, std::size_t most) {
   std::size_t may_agree = (samples.size() + stride - 1) / stride;
   for (std::size_t i = 0; i < samples.size() && may_agree > most; i += stride)
-    may_agree -= agrees(plane, samples[i]) ? 0 : 1;
+    may_agree -= agrees(plane, samples[i], noise) ? 0 : 1;
   return may_agree;
 }
 
-std::optional<BackgroundPlane> best_plane(const std::vector<SurfaceSample>& samples, Sequence& sequence) {
+std::optional<BackgroundPlane> best_plane(const std::vector<SurfaceSample>& samples,
+                                          const geometry::DepthNoise& noise, Sequence& sequence) {
   std::optional<BackgroundPlane> best;
   std::size_t most = 0;
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMaxAsked);
@@ -83,7 +84,7 @@ std::optional<BackgroundPlane> best_plane(const std::vector<SurfaceSample>& samp
     };
     const auto plane = plane_through({samples[middle].point, other(), other()});
     if (!plane) continue;
-    const std::size_t agree = agreeing(samples, stride, *plane, most);
+    const std::size_t agree = agreeing(samples, stride, *plane, noise, most);
     if (agree > most) {
       most = agree;
       best = plane;
@@ -94,20 +95,22 @@ std::optional<BackgroundPlane> best_plane(const std::vector<SurfaceSample>& samp
 
 }  // namespace
 
-std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples) {
+std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples,
+                                        const geometry::DepthNoise& noise) {
   std::vector<BackgroundPlane> planes;
   Sequence sequence;
   for (int i = 0; i < kMaxPlanes && samples.size() >= kMinSamples; ++i) {
-    const auto found = best_plane(samples, sequence);
+    const auto found = best_plane(samples, noise, sequence);
     if (!found) break;
     std::vector<SurfaceSample> on_plane;
     std::ranges::copy_if(samples, std::back_inserter(on_plane),
-                         [&](const SurfaceSample& s) { return agrees(*found, s); });
+                         [&](const SurfaceSample& s) { return agrees(*found, s, noise); });
     if (on_plane.size() < kMinSamples) break;
     const auto plane = fit(on_plane);
     if (plane) planes.push_back(*plane);
-    std::erase_if(samples,
-                  [&](const SurfaceSample& s) { return agrees(*found, s) || (plane && agrees(*plane, s)); });
+    std::erase_if(samples, [&](const SurfaceSample& s) {
+      return agrees(*found, s, noise) || (plane && agrees(*plane, s, noise));
+    });
   }
   return planes;
 }

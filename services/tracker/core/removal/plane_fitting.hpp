@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry/depth_noise.hpp"
+
 namespace rds::tracker {
 
 /// Points p with normal · p = distance, camera frame [m].
@@ -22,8 +24,9 @@ struct SurfaceSample {
 };
 
 /// As far as depth is measured right.
-inline bool is_near(const BackgroundPlane& plane, const Eigen::Vector3f& point) {
-  return std::abs(plane.normal.dot(point) - plane.distance) < 0.012F + 0.005F * point.z() * point.z();
+inline bool is_near(const BackgroundPlane& plane, const Eigen::Vector3f& point,
+                    const geometry::DepthNoise& noise) {
+  return std::abs(plane.normal.dot(point) - plane.distance) < noise.plane_tolerance_m(point.z());
 }
 
 /// As far as is known.
@@ -34,6 +37,7 @@ inline bool is_parallel(const BackgroundPlane& plane, const Eigen::Vector3f& nor
 }
 
 /// Large planes among samples, found by RANSAC, the largest first. The same samples give the same planes.
-std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples);
+std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples,
+                                        const geometry::DepthNoise& noise);
 
 }  // namespace rds::tracker

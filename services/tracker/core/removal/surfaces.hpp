@@ -9,8 +9,8 @@
 
 namespace rds::tracker {
 
-/// Largest step between neighbouring cells of one surface, 1 m away. It grows with depth squared, as noise
-/// does.
+/// Largest step between neighbouring cells of one surface, 1 m away; beyond, it grows with depth squared. That
+/// is ten times and more what noise makes, for slant, folds and rims (docs/decisions/depth-noise.md).
 inline constexpr double kSurfaceStepM = 0.05;
 
 /// Where a surface may go on to.

@@ -48,5 +48,34 @@ TEST(CameraPresets, GiveWayToATopicThatIsSet) {
   EXPECT_EQ(depth, "preset/depth");
 }
 
+geometry::DepthNoise noise_by(const std::string& yaml) {
+  config::ConfigReader reader(YAML::Load(yaml), "x.yaml");
+  const CameraPreset preset = read_camera_preset(reader, "preset");
+  const geometry::DepthNoise noise = read_depth_noise(reader, "depth_noise", preset);
+  EXPECT_NO_THROW(reader.finish());
+  return noise;
+}
+
+TEST(CameraPresets, SayHowWellTheirCameraMeasures) {
+  for (const CameraPreset& preset : kCameraPresets)
+    EXPECT_EQ(noise_by(std::string("{preset: ") + preset.name + "}").name, preset.depth_noise);
+  EXPECT_EQ(noise_by("{}"), geometry::kDepthNoises.front());
+  EXPECT_EQ(noise_by("{preset: orbbec, depth_noise: ''}").name, "orbbec");
+  EXPECT_EQ(noise_by("{preset: orbbec, depth_noise: realsense}").name, "realsense");
+}
+
+TEST(CameraPresets, ListNoisesWhereANameIsNone) {
+  config::ConfigReader reader(YAML::Load("{depth_noise: kinect}"), "x.yaml");
+  const geometry::DepthNoise noise = read_depth_noise(reader, "depth_noise", kCameraPresets[1]);
+  EXPECT_EQ(noise.name, kCameraPresets[1].depth_noise);
+  try {
+    reader.finish();
+    FAIL() << "no violation found";
+  } catch (const config::ConfigError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("depth_noise: kinect, expected one of: kinect_v1, xtion, realsense, "
+                                    "azure_kinect, orbbec, ideal"));
+  }
+}
+
 }  // namespace
 }  // namespace rds::topics

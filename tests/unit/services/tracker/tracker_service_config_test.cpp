@@ -45,5 +45,18 @@ TEST(TrackerServiceConfig, TakesTopicsOfThePresetUnlessTheyAreSet) {
   EXPECT_EQ(config.camera.depth, "mine/depth");
 }
 
+TEST(TrackerServiceConfig, TakesTheDepthNoiseOfThePresetUnlessItIsSet) {
+  const auto noise_by = [](const char* yaml) {
+    config::ConfigReader reader(YAML::Load(yaml), "tracker.yaml");
+    TrackerServiceConfig config;
+    read(reader, config);
+    EXPECT_NO_THROW(reader.finish());
+    return config.tracker.depth.noise.name;
+  };
+  EXPECT_EQ(noise_by("{}"), "kinect_v1");
+  EXPECT_EQ(noise_by("{camera: {preset: realsense}}"), "realsense");
+  EXPECT_EQ(noise_by("{camera: {preset: realsense, depth_noise: ideal}}"), "ideal");
+}
+
 }  // namespace
 }  // namespace rds::tracker

@@ -24,7 +24,7 @@ KeyframeInput noisy_wall() {
 }
 
 TEST(Planes, AWallIsFoundInANoisyPictureWithHoles) {
-  const auto planes = find_planes(record_of(noisy_wall()), SegmentationConfig{});
+  const auto planes = find_planes(record_of(noisy_wall()), geometry::kDepthNoises.front());
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_GT(std::abs(planes[0].plane.normal.z()), 0.999);
   EXPECT_NEAR(std::abs(planes[0].plane.offset_m), 3.0, 0.01);
@@ -33,7 +33,7 @@ TEST(Planes, AWallIsFoundInANoisyPictureWithHoles) {
 
 TEST(Planes, PartsOfAWallBesideSomebodyAreOnePlane) {
   auto input = test::SyntheticKeyframe(0).rectangle({130, 0, 60, 240}, 1.5).make();
-  const auto planes = find_planes(record_of(input), SegmentationConfig{});
+  const auto planes = find_planes(record_of(input), geometry::kDepthNoises.front());
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_NEAR(std::abs(planes[0].plane.offset_m), 3.0, 0.01);
   EXPECT_TRUE(std::ranges::any_of(planes[0].pixels, [](std::size_t i) { return i % 160 < 50; }));
@@ -46,7 +46,7 @@ TEST(Planes, ACurvedSurfaceIsNone) {
     for (int x = 0; x < 320; ++x)
       input.depth.values.at<float>(y, x) =
           static_cast<float>(2 - 0.5 * std::cos((x - 160) / 15.0) * std::cos((y - 120) / 15.0));
-  EXPECT_TRUE(find_planes(record_of(input), SegmentationConfig{}).empty());
+  EXPECT_TRUE(find_planes(record_of(input), geometry::kDepthNoises.front()).empty());
 }
 
 }  // namespace

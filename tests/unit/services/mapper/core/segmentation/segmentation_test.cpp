@@ -27,8 +27,8 @@ KeyframeInput wall_and_ball() {
 
 TEST(Segmentation, TakesTheWallAwayAndFindsTheObjectBeforeIt) {
   const auto record = record_of(wall_and_ball());
-  SegmentationConfig config;
-  config.stride = 1;
+  MapperConfig config;
+  config.segmentation.stride = 1;
   const auto segments = segment(record, config);
   ASSERT_EQ(segments.size(), 2U);
   ASSERT_TRUE(segments[0].plane);
@@ -40,7 +40,7 @@ TEST(Segmentation, TakesTheWallAwayAndFindsTheObjectBeforeIt) {
 }
 
 TEST(Segmentation, NothingMeasuredGivesNothing) {
-  EXPECT_TRUE(segment(record_of(test::SyntheticKeyframe(0, 0.0).make()), SegmentationConfig{}).empty());
+  EXPECT_TRUE(segment(record_of(test::SyntheticKeyframe(0, 0.0).make()), MapperConfig{}).empty());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ StaticObject object_of(const KeyframeInput& input, const cv::Rect& px, float dep
   MapperConfig config;
   config.segmentation.stride = 1;
   const auto record = test::measured(input, config.sampling);
-  const auto segments = segment(record, config.segmentation);
+  const auto segments = segment(record, config);
   const LabelledBox box{"chair", 0.9F,    {double(px.x), double(px.y), double(px.br().x), double(px.br().y)},
                         {},      depth_m, false};
   return static_object(record, box, segments, config);

@@ -13,7 +13,6 @@ using test::region_of;
 using test::room;
 using test::Somebody;
 
-constexpr double kMaxDepth_m = 8;
 constexpr std::int64_t kFrameNs = 100'000'000;
 
 class MovableCutting : public testing::Test {
@@ -31,7 +30,7 @@ class MovableCutting : public testing::Test {
   }
 
   RemovalConfig config;
-  MovableSegmenter cut{config, kMaxDepth_m};
+  MovableSegmenter cut{config, DepthConfig{}};
 };
 
 TEST_F(MovableCutting, CutsSomebodyOutOfHisBox) {
@@ -60,7 +59,7 @@ TEST_F(MovableCutting, NoBoxesNothing) {
 
 TEST_F(MovableCutting, WholeBoxesIfAskedFor) {
   config.method = "box";
-  cut = MovableSegmenter(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, DepthConfig{});
   const MovableMask mask = look(room(), {{{60, 20, 200, 200}, 0, 1}});
   EXPECT_TRUE(mask.covers({61, 21}));
   EXPECT_TRUE(mask.covers({199, 199}));
@@ -69,7 +68,7 @@ TEST_F(MovableCutting, WholeBoxesIfAskedFor) {
 
 TEST_F(MovableCutting, NothingIfSwitchedOff) {
   config.method = "off";
-  cut = MovableSegmenter(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, DepthConfig{});
   EXPECT_FALSE(look(room({0.2, 1.8}), {region_of({0.2, 1.8})}).any());
 }
 
@@ -83,7 +82,7 @@ TEST_F(MovableCutting, SeesWhoeverEntersWithoutAnyBox) {
 
 TEST_F(MovableCutting, WithoutMotionOnlyBoxesCount) {
   config.motion = false;
-  cut = MovableSegmenter(config, kMaxDepth_m);
+  cut = MovableSegmenter(config, DepthConfig{});
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   EXPECT_FALSE(look(room({-0.3, 1.8}, 8 * kFrameNs)).any());
 }
@@ -146,7 +145,7 @@ TEST_F(MovableCutting, APictureWithoutDepthHidesTheWholeBox) {
 
 TEST_F(MovableCutting, SameCallsSameMask) {
   const Somebody somebody{0.2, 1.8};
-  MovableSegmenter other(config, kMaxDepth_m);
+  MovableSegmenter other(config, DepthConfig{});
   for (int i = 0; i < 5; ++i) {
     const image::RgbdFrame picture = room({0.1 * i, 1.8}, i * kFrameNs);
     const std::vector<MovableRegion> regions{region_of(somebody, 5)};

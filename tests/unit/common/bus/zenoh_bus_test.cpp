@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 #include "common/bus/zenoh/zenoh_library.hpp"
-#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/wire/zenoh_names.hpp"
 #include "common/bus/zenoh/zenoh_settings.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
@@ -162,12 +162,6 @@ TEST_F(OnZenoh, HostileTokensAreNoEndpoints) {
 TEST_F(OnZenoh, ATopicsNameIsChecked) {
   EXPECT_THROW(reader_side->advertise<Header>("**", kStream), BusError);
   EXPECT_THROW(reader_side->advertise<Header>("a//b", kStream), BusError);
-}
-
-TEST_F(OnZenoh, KnowsNoSecuredDomain) {
-  ParticipantOptions options{.vendor = Vendor::kZenoh, .domain = test_domain(), .node_name = "node"};
-  options.credentials.emplace();
-  EXPECT_THROW(Participant::create(options), BusError);
 }
 
 TEST_F(OnZenoh, AWriterNeverWaits) {

@@ -24,6 +24,7 @@ class ZenohBackend final : public Backend {
     return std::make_unique<ZenohReader>(node_, topic, type, qos);
   }
   std::unique_ptr<BackendService> make_service(const std::string& name, const ServiceType& type) override {
+    if (access_) access_->check(name, true);
     const std::lock_guard lock(mutex_);
     if (!replies_) replies_ = std::make_shared<ZenohReplies>();
     return std::make_unique<ZenohService>(node_, replies_, name, type);

@@ -23,6 +23,9 @@ constexpr int kWaitBeforeCloseUs = 10'000'000;
 /// while.
 constexpr int kPictureBatches = 16;
 constexpr int kLargestMessage = 256 << 20;  // bytes
+/// What the kernel may hold of a link to other machines [bytes]: that cannot be overtaken any more, and its
+/// own choice, megabytes, takes a second on a link of 20 Mbit/s.
+constexpr int kSendBuffer = 32 << 10;
 
 /// A name or address without a port is that machine's router, or whoever listens in its place.
 std::string endpoint_of(const std::string& peer, const ZenohAccess* access) {
@@ -66,22 +69,25 @@ json link_settings() {
 }
 
 /// What a router and a participant have in common.
-json common_settings(const ZenohAccess* access) {
+/// @param elsewhere  whether there are links to other machines.
+json common_settings(const ZenohAccess* access, bool elsewhere) {
   json settings{{"timestamping", {{"enabled", true}}},
                 {"transport", {{"link", link_settings()}, {"shared_memory", {{"enabled", false}}}}}};
+  if (elsewhere)
+    for (const char* kind : {"tcp", "tls"}) settings["transport"]["link"][kind]["so_sndbuf"] = kSendBuffer;
   if (access == nullptr) return settings;
   // Both sides show a certificate of the domain's authority, and are known by the name in it: where they are
   // found says nothing.
   const Credentials& own = access->credentials();
   settings["transport"]["link"]["protocols"] = {"tls"};
-  settings["transport"]["link"]["tls"] = {{"root_ca_certificate", own.ca.string()},
-                                          {"enable_mtls", true},
-                                          {"listen_certificate", own.certificate.string()},
-                                          {"listen_private_key", own.key.string()},
-                                          {"connect_certificate", own.certificate.string()},
-                                          {"connect_private_key", own.key.string()},
-                                          {"verify_name_on_connect", false},
-                                          {"close_link_on_expiration", true}};
+  settings["transport"]["link"]["tls"].update({{"root_ca_certificate", own.ca.string()},
+                                               {"enable_mtls", true},
+                                               {"listen_certificate", own.certificate.string()},
+                                               {"listen_private_key", own.key.string()},
+                                               {"connect_certificate", own.certificate.string()},
+                                               {"connect_private_key", own.key.string()},
+                                               {"verify_name_on_connect", false},
+                                               {"close_link_on_expiration", true}});
   settings["access_control"] = access->rules();
   return settings;
 }
@@ -94,7 +100,7 @@ json connections(const Endpoints& endpoints, int timeout_ms) {
 
 std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess* access) {
   const bool elsewhere = !options.loopback_only && !options.peers.empty();
-  json settings = common_settings(access);
+  json settings = common_settings(access, elsewhere);
   settings["mode"] = "peer";
   settings["connect"] = connections(connected(options, access), -1);
   settings["listen"] = connections(listened(options, access), elsewhere ? -1 : 0);
@@ -110,7 +116,7 @@ std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess*
 
 std::string zenoh_router_settings(const Endpoints& listen, const Endpoints& connect,
                                   const ZenohAccess* access) {
-  json settings = common_settings(access);
+  json settings = common_settings(access, true);
   settings["mode"] = "router";
   settings["listen"] = {
       {"timeout_ms", 0}, {"exit_on_failure", true}, {"endpoints", endpoints_of(listen, access)}};

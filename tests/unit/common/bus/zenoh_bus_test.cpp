@@ -185,6 +185,9 @@ TEST_F(OnZenoh, TheUsersSettingsWin) {
       detail::zenoh_settings({.domain = 3, .node_name = "n", .peers = {"10.0.0.7", "tls/robot:1"}});
   EXPECT_THAT(ours, ::testing::HasSubstr(R"(["tcp/10.0.0.7:7447","tls/robot:1"])"));
   EXPECT_THAT(ours, ::testing::HasSubstr("224.0.0.224:7003"));
+  EXPECT_THAT(ours, ::testing::HasSubstr(R"("tcp":{"so_sndbuf":32768})"));
+  EXPECT_THAT(detail::zenoh_settings({.node_name = "n", .loopback_only = true}),
+              ::testing::Not(::testing::HasSubstr("so_sndbuf")));
   EXPECT_THROW((void)detail::open_zenoh(ours, "/no/such/file"), BusError);
 }
 

@@ -56,7 +56,7 @@ class Strangers(unittest.TestCase):
             stranger.process.terminate()
 
     def test_the_sdk_calls_a_service(self):
-        with Peer("server", "zenoh", DOMAIN), Stranger("call", "switch", DOMAIN, 10) as stranger:
+        with Peer("server", "zenoh", DOMAIN), Stranger("call", "switch", DOMAIN, 30) as stranger:
             self.assertTrue(stranger.wait_for(lambda lines: len(lines) >= 2))
             self.assertEqual(stranger.lines[:2], ["(True, 'on')", "(False, 'off')"])
 

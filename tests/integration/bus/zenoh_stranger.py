@@ -38,10 +38,12 @@ uint32 nanosec
 if mode == "call":
     # Jazzy's std_srvs/srv/SetBool.json
     client = ROS2ServiceClient(f"/{topic}", "std_srvs/srv/SetBool", "bool data", "bool success\nstring message", node_name="stranger", domain_id=domain,
-                               type_hash="RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a", timeout=seconds)
-    time.sleep(1)
+                               type_hash="RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a", timeout=2)
+    end = time.monotonic() + seconds
     for data in (True, False):
-        answer = client.call(data=data)
+        answer = None
+        while answer is None and time.monotonic() < end:  # it may not have found the service yet
+            answer = client.call(data=data)
         print(answer and (bool(answer.success), answer.message), flush=True)
     client.close()
 elif mode == "talk":

@@ -164,6 +164,33 @@ def type_hash(struct, structs):
     return "RIHS01_" + hashlib.sha256(json.dumps(description, ensure_ascii=True).encode()).hexdigest()
 
 
+# What ROS 2 puts into every service for those who watch its requests (service_msgs). Nobody here sends it; the services' hashes cover it.
+_EVENT_INFO = Struct("service_msgs", "ServiceEventInfo", (
+    Field("event_type", "uint8"), Field("stamp", "builtin_interfaces/msg/Time"), Field("client_gid", "uint8", array=16),
+    Field("sequence_number", "int64")), ())
+
+
+@dataclasses.dataclass(frozen=True)
+class _PartOfService(Struct):
+    """A struct in `module srv` that is neither request nor response."""
+
+    @property
+    def kind(self):
+        return "srv"
+
+
+def service_hash(request, structs):
+    """The hash of the service that this request belongs to, as type_hash()."""
+    name = request.name.removesuffix("_Request")
+    part = f"{request.package}/srv/{name}"
+    event = _PartOfService(request.package, name + "_Event", (
+        Field("info", _EVENT_INFO.ros_name), Field("request", part + "_Request", sequence=True, sequence_bound=1),
+        Field("response", part + "_Response", sequence=True, sequence_bound=1)), ())
+    service = _PartOfService(request.package, name, (
+        Field("request_message", part + "_Request"), Field("response_message", part + "_Response"), Field("event_message", event.ros_name)), ())
+    return type_hash(service, structs | {_EVENT_INFO.ros_name: _EVENT_INFO, event.ros_name: event})
+
+
 def msg_lines(struct):
     """The struct as the lines of its .msg file, without comments and blank lines."""
     def ros_type(field):

@@ -66,13 +66,15 @@ def fields_header(package, members, structs):
             f"namespace rds::messages {{\n{body}\n}}  // namespace rds::messages\n")
 
 
-def support_source(package, members):
+def support_source(package, members, structs):
     instances = "".join(f"template const TypeOps& type_ops<{s.cpp_name}>();\n" for s in members)
+    instances += "".join(f'template <>\nconst char* service_type_hash<{s.cpp_name}>() {{\n  return "{idl_model.service_hash(s, structs)}";\n}}\n'
+                         for s in members if s.name.endswith("_Request"))
     codecs = "".join(f"template Json to_json(const {s.cpp_name}&);\n"
                      f"template tl::expected<void, std::string> from_json(const Json&, {s.cpp_name}&);\n" for s in members)
     adds = "".join(f"  types.push_back(message_type<{s.cpp_name}>());\n" for s in members)
     return (f'{HEADER}#include "{package}/message_fields.hpp"\n#include "common/messages/json_fields.hpp"\n'
-            f'#include "common/messages/make_type_ops.hpp"\n#include "common/messages/registry.hpp"\n\n'
+            f'#include "common/bus/service_type.hpp"\n#include "common/messages/make_type_ops.hpp"\n#include "common/messages/registry.hpp"\n\n'
             f"namespace rds::bus {{\n{instances}}}  // namespace rds::bus\n\n"
             f"namespace rds::messages {{\n{codecs}\nvoid add_{package}(std::vector<MessageType>& types) {{\n{adds}}}\n"
             "}  // namespace rds::messages\n")
@@ -109,7 +111,7 @@ def main():
     for package in packages:
         members = [s for s in structs.values() if s.package == package]
         write_if_different(args.out / package / "message_fields.hpp", fields_header(package, members, structs))
-        write_if_different(args.out / package / "message_support.cpp", support_source(package, members))
+        write_if_different(args.out / package / "message_support.cpp", support_source(package, members, structs))
     write_if_different(args.out / "message_registry.cpp", registry_source(packages))
     write_if_different(args.out / "message_definitions.cpp", definitions_source(structs))
 

@@ -10,6 +10,7 @@
 
 #include "common/bus/guid.hpp"
 #include "common/bus/participant.hpp"
+#include "common/bus/service_type.hpp"
 
 /// What a bus has to provide. Everything else (threads, statistics) is written once, in participant_*.hpp.
 namespace rds::bus::detail {
@@ -87,8 +88,7 @@ class Backend {
   virtual std::unique_ptr<BackendReader> make_reader(const std::string& topic, const TypeOps& type,
                                                      const Qos& qos) = 0;
   /// @param name  of ROS, in full, without a leading slash.
-  virtual std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
-                                                       const TypeOps& response) = 0;
+  virtual std::unique_ptr<BackendService> make_service(const std::string& name, const ServiceType& type) = 0;
   [[nodiscard]] virtual Guid guid() const = 0;
   /// Endpoints of all other participants.
   [[nodiscard]] virtual std::vector<DiscoveredEndpoint> discovered() const = 0;

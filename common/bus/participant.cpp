@@ -37,12 +37,10 @@ class BusParticipant final : public Participant, public detail::ServiceHost {
     });
   }
 
-  std::unique_ptr<detail::ServiceEndpoint> make_service(const std::string& name, const TypeOps& request,
-                                                        const TypeOps& response,
+  std::unique_ptr<detail::ServiceEndpoint> make_service(const std::string& name, const ServiceType& type,
                                                         detail::ServiceHandler handler) override {
     return state_->explain_refusal([&] {
-      return std::make_unique<detail::ServerEndpoint>(state_, full_name(name), request, response,
-                                                      std::move(handler));
+      return std::make_unique<detail::ServerEndpoint>(state_, full_name(name), type, std::move(handler));
     });
   }
 

@@ -129,10 +129,11 @@ tl::expected<Credentials, std::string> read_credentials(const fs::path& folder, 
         fmt::format("{}: no such folder, expected one that rds secure init has made", folder.string()));
   const fs::path part = base / identity;
   if (!fs::is_directory(part, error))
-    return tl::unexpected(fmt::format("{}: no such folder, expected the certificate, key and permissions of {}",
-                                      part.string(), identity));
-  Credentials credentials{identity,         base / kCaFile,   base / kGovernanceFile, part / kCertificateFile,
-                          part / kKeyFile, part / kPermissionsFile};
+    return tl::unexpected(fmt::format(
+        "{}: no such folder, expected the certificate, key and permissions of {}", part.string(), identity));
+  Credentials credentials{
+      identity,        base / kCaFile,         base / kGovernanceFile, part / kCertificateFile,
+      part / kKeyFile, part / kPermissionsFile};
   try {
     check(credentials, Clock::to_time_t(now));
   } catch (const Refused& refused) {
@@ -140,6 +141,17 @@ tl::expected<Credentials, std::string> read_credentials(const fs::path& folder, 
     return tl::unexpected(std::string(refused.what()));
   }
   return credentials;
+}
+
+tl::expected<std::string, std::string> openssl::read_signed(const fs::path& document,
+                                                            const fs::path& authority,
+                                                            Clock::time_point now) {
+  try {
+    return check_signature(document, read_certificate(authority).get(), Clock::to_time_t(now));
+  } catch (const Refused& refused) {
+    ERR_clear_error();
+    return tl::unexpected(std::string(refused.what()));
+  }
 }
 
 }  // namespace rds::bus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,6 +12,7 @@
 #include <openssl/pkcs7.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
+#include <tl/expected.hpp>
 
 /// OpenSSL's objects with an owner, for those who make and those who check credentials.
 namespace rds::bus::openssl {
@@ -51,5 +54,13 @@ inline std::string subject_of(const X509* certificate) {
   X509_NAME_print_ex(memory.get(), X509_get_subject_name(certificate), 0, XN_FLAG_RFC2253);
   return content_of(memory);
 }
+
+/// The text of a signed document (S/MIME).
+///
+/// @param authority  file of the certificate, in PEM form, that must have signed it.
+/// @return or one sentence that names the file.
+tl::expected<std::string, std::string> read_signed(const std::filesystem::path& document,
+                                                   const std::filesystem::path& authority,
+                                                   std::chrono::system_clock::time_point now);
 
 }  // namespace rds::bus::openssl

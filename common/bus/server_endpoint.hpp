@@ -12,12 +12,12 @@ namespace rds::bus::detail {
 /// Takes requests on a thread of its own and hands them to the handler.
 class ServerEndpoint final : public ServiceEndpoint {
  public:
-  ServerEndpoint(std::shared_ptr<ParticipantState> state, const std::string& name, const TypeOps& request,
-                 const TypeOps& response, ServiceHandler handler)
+  ServerEndpoint(std::shared_ptr<ParticipantState> state, const std::string& name, const ServiceType& type,
+                 ServiceHandler handler)
       : handler_(std::move(handler)),
-        request_(request),
-        pool_(request),
-        service_(std::make_shared<Service>(std::move(state), name, request, response)),
+        request_(type.request),
+        pool_(type.request),
+        service_(std::make_shared<Service>(std::move(state), name, type)),
         thread_([this](const std::stop_token& stop) { run(stop); }) {
     const std::lock_guard lock(service_->state->mutex);
     service_->state->services.insert(this);
@@ -45,11 +45,10 @@ class ServerEndpoint final : public ServiceEndpoint {
  private:
   /// What answers need that come later.
   struct Service {
-    Service(std::shared_ptr<ParticipantState> participant, std::string full_name, const TypeOps& request,
-            const TypeOps& response)
+    Service(std::shared_ptr<ParticipantState> participant, std::string full_name, const ServiceType& type)
         : state(std::move(participant)),
           name(std::move(full_name)),
-          backend(state->backend->make_service(name, request, response)) {}
+          backend(state->backend->make_service(name, type)) {}
 
     bool reply(const Caller& caller, const void* response) {
       const bool written = backend->reply(caller, response);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/bus/participant.hpp"
+#include "common/bus/service_type.hpp"
 
 namespace rds::bus {
 
@@ -27,8 +28,8 @@ using ServiceHandler =
 class ServiceHost {
  public:
   virtual ~ServiceHost() = default;
-  virtual std::unique_ptr<ServiceEndpoint> make_service(const std::string& name, const TypeOps& request,
-                                                        const TypeOps& response, ServiceHandler handler) = 0;
+  virtual std::unique_ptr<ServiceEndpoint> make_service(const std::string& name, const ServiceType& type,
+                                                        ServiceHandler handler) = 0;
 };
 
 }  // namespace detail
@@ -56,13 +57,13 @@ using Answer = std::function<bool(const Response&)>;
 /// decoded, makes the handler throw, or nobody takes its answer; once there was one, the participant's
 /// statistics name the service.
 /// @param name  as of topics: see TopicNames::full_name().
-/// @throws BusError, on Zenoh always: it has topics only.
+/// @throws BusError
 template <class Request, class Response>
 ServiceServer serve_later(Participant& participant, const std::string& name,
                           std::function<void(std::shared_ptr<const Request>, Answer<Response>)> handler) {
   auto& host = dynamic_cast<detail::ServiceHost&>(participant);
   return ServiceServer(host.make_service(
-      name, type_ops<Request>(), type_ops<Response>(),
+      name, service_type<Request, Response>(),
       [handler = std::move(handler)](std::shared_ptr<const void> request,
                                      std::function<bool(const void*)> answer) {
         handler(std::static_pointer_cast<const Request>(std::move(request)),

@@ -59,7 +59,7 @@ void CommandServices::post(const std::string& verb, std::function<void(const Com
 }
 
 bool offers_services(const bus::ParticipantOptions& participant) {
-  return participant.vendor != bus::Vendor::kZenoh && !participant.credentials;
+  return !participant.credentials;
 }
 
 }  // namespace rds::service

@@ -27,7 +27,7 @@ class CommandServices {
   bus::ServiceServer state_;
 };
 
-/// Whether services of ROS 2 are offered: not on Zenoh, and not in a secured domain, whose permissions name
+/// Whether services of ROS 2 are offered: not in a secured domain, whose permissions name
 /// topics alone.
 bool offers_services(const bus::ParticipantOptions& participant);
 

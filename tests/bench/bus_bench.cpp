@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Latency from write() to the callback in another process over 127.0.0.1, for every pair of vendors that
-// hear each other, and for each vendor of DDS on a secured domain.
+// hear each other, and for each bus on a secured domain.
 // The reader runs as a child process, because Cyclone DDS takes a short cut between participants of one
 // process.
 #include <algorithm>
@@ -186,6 +186,7 @@ RDS_BUS_BENCHMARK(cyclonedds_to_cyclonedds, Vendor::kCycloneDds, Vendor::kCyclon
 RDS_BUS_BENCHMARK(zenoh_to_zenoh, Vendor::kZenoh, Vendor::kZenoh, false);
 RDS_BUS_BENCHMARK(fastdds_secured, Vendor::kFastDds, Vendor::kFastDds, true);
 RDS_BUS_BENCHMARK(cyclonedds_secured, Vendor::kCycloneDds, Vendor::kCycloneDds, true);
+RDS_BUS_BENCHMARK(zenoh_secured, Vendor::kZenoh, Vendor::kZenoh, true);
 
 }  // namespace
 }  // namespace rds::bus

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   rds::doctor::add_doctor_command(rds);
   rds::tools::add_simulate_command(rds);
   rds::secure::add_secure_command(rds);
+  rds::tools::add_router_command(rds);
   try {
     rds.parse(argc, argv);
   } catch (const CLI::RuntimeError& e) {

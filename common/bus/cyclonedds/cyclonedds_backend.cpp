@@ -73,11 +73,10 @@ class CycloneBackend final : public Backend {
                                              const Qos& qos) override {
     return make_cyclone_reader(topic, type, qos);
   }
-  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
-                                               const TypeOps& response) override {
-    return make_cyclonedds_service(make_cyclone_reader(request_topic(name), as_bytes(request), kServiceQos),
-                                   make_cyclone_writer(reply_topic(name), as_bytes(response), kServiceQos),
-                                   response);
+  std::unique_ptr<BackendService> make_service(const std::string& name, const ServiceType& type) override {
+    return make_cyclonedds_service(
+        make_cyclone_reader(request_topic(name), as_bytes(type.request), kServiceQos),
+        make_cyclone_writer(reply_topic(name), as_bytes(type.response), kServiceQos), type.response);
   }
   [[nodiscard]] Guid guid() const override { return guid_of(participant_.get()); }
 

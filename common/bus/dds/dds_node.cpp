@@ -98,10 +98,8 @@ class DdsNode final : public Backend {
     return std::make_unique<AnnouncedReader>(participant_->make_reader(kRosPrefix + topic, type, qos),
                                              announcer_);
   }
-  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
-                                               const TypeOps& response) override {
-    return std::make_unique<AnnouncedService>(participant_->make_service(name, request, response),
-                                              announcer_);
+  std::unique_ptr<BackendService> make_service(const std::string& name, const ServiceType& type) override {
+    return std::make_unique<AnnouncedService>(participant_->make_service(name, type), announcer_);
   }
   [[nodiscard]] Guid guid() const override { return participant_->guid(); }
 

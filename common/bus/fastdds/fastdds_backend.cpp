@@ -126,11 +126,10 @@ class FastBackend final : public Backend {
                                              const Qos& qos) override {
     return make_fast_reader(topic, type, qos);
   }
-  std::unique_ptr<BackendService> make_service(const std::string& name, const TypeOps& request,
-                                               const TypeOps& response) override {
-    return make_fastdds_service(make_fast_reader(request_topic(name), request, kServiceQos), publisher_,
-                                find_topic(reply_topic(name), response),
-                                fastdds_writer_qos(response, kServiceQos));
+  std::unique_ptr<BackendService> make_service(const std::string& name, const ServiceType& type) override {
+    return make_fastdds_service(make_fast_reader(request_topic(name), type.request, kServiceQos), publisher_,
+                                find_topic(reply_topic(name), type.response),
+                                fastdds_writer_qos(type.response, kServiceQos));
   }
   [[nodiscard]] Guid guid() const override { return to_guid(participant_->guid()); }
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const override {

@@ -11,13 +11,15 @@
 extern "C" {
 #endif
 
-#define RDS_ZENOH_VERSION 1 /* of this file; the crate has the same number */
+#define RDS_ZENOH_VERSION 2 /* of this file; the crate has the same number */
 
 typedef struct RdsZenohSession RdsZenohSession;
 typedef struct RdsZenohPublisher RdsZenohPublisher;
 typedef struct RdsZenohSubscriber RdsZenohSubscriber;
 typedef struct RdsZenohBuffer RdsZenohBuffer;
 typedef struct RdsZenohSample RdsZenohSample;
+typedef struct RdsZenohQueryable RdsZenohQueryable;
+typedef struct RdsZenohQuery RdsZenohQuery;
 typedef struct RdsZenohToken RdsZenohToken;
 typedef struct RdsZenohWatch RdsZenohWatch;
 
@@ -48,6 +50,7 @@ typedef struct {
 } RdsZenohView;
 
 typedef void (*RdsZenohOnSample)(void* object, RdsZenohSample* sample); /* the callback owns the sample */
+typedef void (*RdsZenohOnQuery)(void* object, RdsZenohQuery* query);    /* the callback owns the query */
 typedef void (*RdsZenohOnToken)(void* object, const char* key, size_t key_size, int alive);
 typedef void (*RdsZenohRelease)(void* object);
 
@@ -78,6 +81,20 @@ typedef struct {
   void (*view)(const RdsZenohSample* sample, RdsZenohView* view);
   void (*gather)(const RdsZenohSample* sample, uint8_t* data); /* room for the whole payload */
   void (*free_sample)(RdsZenohSample* sample);
+
+  /* Answers whoever asks by get(). A query that is given back is over for who has asked. */
+  RdsZenohQueryable* (*declare_queryable)(const RdsZenohSession* session, const char* key, RdsZenohOnQuery callback,
+                                          void* object, RdsZenohRelease release, char* error, size_t capacity);
+  void (*undeclare_queryable)(RdsZenohQueryable* queryable);
+  void (*view_query)(const RdsZenohQuery* query, RdsZenohView* view);
+  void (*gather_query)(const RdsZenohQuery* query, uint8_t* data); /* room for the whole payload */
+  /* Takes the buffer, whatever comes of it. May wait as put(), longer where who asks wants it so. */
+  int (*reply)(const RdsZenohQuery* query, RdsZenohBuffer* buffer, const uint8_t* attachment, size_t attachment_size);
+  void (*free_query)(RdsZenohQuery* query);
+  /* Asks all complete queryables at a key; takes the buffer. The callback gets each answer. */
+  int (*get)(const RdsZenohSession* session, const char* key, RdsZenohBuffer* buffer, const uint8_t* attachment,
+             size_t attachment_size, uint64_t timeout_ms, RdsZenohOnSample callback, void* object,
+             RdsZenohRelease release);
 
   RdsZenohToken* (*declare_token)(const RdsZenohSession* session, const char* key, char* error, size_t capacity);
   void (*undeclare_token)(RdsZenohToken* token);

@@ -4,14 +4,28 @@
 namespace rds::bus::detail {
 
 void ZenohGraph::take(std::string_view token, bool alive) {
+  const Guid gid = gid_of_token(token);
+  if (is_client_token(token)) {
+    if (!alive) {
+      clients_.remove(gid);
+    } else if (clients_.size() < kMostEndpoints) {
+      // as a publisher: those are remembered when they leave
+      clients_.put(gid, {.topic = "", .type = "", .publisher = true, .guid = text_of(gid)}, gid);
+    }
+    return;
+  }
   auto read = parse_endpoint_token(token);
   if (!read || read->session == session_) return;
-  const Guid gid = gid_of_token(token);
   if (!alive) {
     others_.remove(gid);
   } else if (others_.size() < kMostEndpoints) {
     others_.put(gid, std::move(read->endpoint), read->session);
   }
+}
+
+bool ZenohGraph::has_left(const Guid& client) const {
+  const auto is_he = [guid = text_of(client)](const DiscoveredEndpoint& other) { return other.guid == guid; };
+  return clients_.guid_of(client) && clients_.count_if(is_he) == 0;
 }
 
 void ZenohGraph::add_own(std::string_view token) {

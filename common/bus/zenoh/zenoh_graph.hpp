@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "common/bus/endpoint_directory.hpp"
-#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/wire/zenoh_names.hpp"
 
 namespace rds::bus::detail {
 
@@ -25,6 +25,8 @@ class ZenohGraph {
   [[nodiscard]] std::vector<DiscoveredEndpoint> discovered() const { return others_.endpoints(); }
   /// Endpoints, our own too, at the other side of this one.
   [[nodiscard]] int matched(const std::string& topic, const std::string& type, bool publisher) const;
+  /// Whether this client of a service was there and is no more.
+  [[nodiscard]] bool has_left(const Guid& client) const;
   /// The session that a writer is of; nullopt for one that was never announced.
   [[nodiscard]] std::optional<Guid> session_of(const Guid& gid) const;
 
@@ -34,6 +36,7 @@ class ZenohGraph {
   Guid session_;
   EndpointDirectory<Guid> own_;
   EndpointDirectory<Guid> others_;
+  EndpointDirectory<Guid> clients_;  // of services
 };
 
 }  // namespace rds::bus::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/bus/zenoh/zenoh_library.hpp"
 
+#include <csignal>
 #include <cstdlib>
 
 #include <dlfcn.h>
@@ -17,6 +18,25 @@ void allow_many_slow_readers() {
   setenv("ZENOH_RUNTIME", "(rx: (worker_threads: 4), net: (worker_threads: 2, max_blocking_threads: 512))",
          0);
 }
+
+/// While it lives the threads that are made inherit that SIGPIPE is blocked. Zenoh's write to sockets whose
+/// other end has gone, and rely on a signal that only programs in Rust ignore; ours may need it to end behind
+/// a pipe.
+class BlockedPipeSignal {
+ public:
+  BlockedPipeSignal() {
+    sigset_t pipe_signal;
+    sigemptyset(&pipe_signal);
+    sigaddset(&pipe_signal, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_signal, &before_);
+  }
+  ~BlockedPipeSignal() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  BlockedPipeSignal(const BlockedPipeSignal&) = delete;
+  BlockedPipeSignal& operator=(const BlockedPipeSignal&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 const RdsZenohApi& load() {
   allow_many_slow_readers();
@@ -45,7 +65,13 @@ void ZenohFailure::refuse(const std::string& what) const {
   throw BusError("Zenoh refused " + what + ": " + text_);
 }
 
+const char* users_settings() {
+  const char* file = std::getenv("ZENOH_CONFIG");
+  return file == nullptr || *file == '\0' ? nullptr : file;
+}
+
 ZenohSession open_zenoh(const std::string& settings, const char* over) {
+  const BlockedPipeSignal for_its_threads;
   ZenohFailure failure;
   return ZenohSession(failure.check(
       zenoh_library().open(settings.c_str(), over, failure.text(), ZenohFailure::kCapacity), "a session"));

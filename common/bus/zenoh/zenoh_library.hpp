@@ -25,13 +25,18 @@ struct GiveBack {
 
 using ZenohBuffer = std::unique_ptr<RdsZenohBuffer, GiveBack<&RdsZenohApi::free_buffer>>;
 using ZenohPublisher = std::unique_ptr<RdsZenohPublisher, GiveBack<&RdsZenohApi::undeclare_publisher>>;
+using ZenohQuery = std::unique_ptr<RdsZenohQuery, GiveBack<&RdsZenohApi::free_query>>;
+using ZenohQueryable = std::unique_ptr<RdsZenohQueryable, GiveBack<&RdsZenohApi::undeclare_queryable>>;
 using ZenohSample = std::unique_ptr<RdsZenohSample, GiveBack<&RdsZenohApi::free_sample>>;
 using ZenohSession = std::unique_ptr<RdsZenohSession, GiveBack<&RdsZenohApi::close>>;
 using ZenohSubscriber = std::unique_ptr<RdsZenohSubscriber, GiveBack<&RdsZenohApi::undeclare_subscriber>>;
 using ZenohToken = std::unique_ptr<RdsZenohToken, GiveBack<&RdsZenohApi::undeclare_token>>;
 using ZenohWatch = std::unique_ptr<RdsZenohWatch, GiveBack<&RdsZenohApi::undeclare_watch>>;
 
-// @throws BusError, in the first three naming what was to be declared.
+/// The file of settings that the user lays over ours; null: none.
+const char* users_settings();
+
+// @throws BusError, which names what was to be declared.
 ZenohSession open_zenoh(const std::string& settings, const char* over);
 ZenohPublisher declare_publisher(const ZenohSession& session, const std::string& key,
                                  const RdsZenohPublisherOptions& options);
@@ -42,6 +47,10 @@ template <class Object>
 ZenohSubscriber declare_subscriber(const ZenohSession& session, const std::string& key,
                                    const RdsZenohSubscriberOptions& options, RdsZenohOnSample callback,
                                    std::shared_ptr<Object> object);
+/// As above, for requests.
+template <class Object>
+ZenohQueryable declare_queryable(const ZenohSession& session, const std::string& key,
+                                 RdsZenohOnQuery callback, std::shared_ptr<Object> object);
 /// As above, for tokens.
 template <class Object>
 ZenohWatch declare_watch(const ZenohSession& session, const std::string& key, RdsZenohOnToken callback,
@@ -79,6 +88,17 @@ ZenohSubscriber declare_subscriber(const ZenohSession& session, const std::strin
       zenoh_library().declare_subscriber(session.get(), key.c_str(), &options, callback, held.release(),
                                          &release_object<Object>, failure.text(), ZenohFailure::kCapacity),
       "a subscriber on " + key));
+}
+
+template <class Object>
+ZenohQueryable declare_queryable(const ZenohSession& session, const std::string& key,
+                                 RdsZenohOnQuery callback, std::shared_ptr<Object> object) {
+  ZenohFailure failure;
+  auto held = std::make_unique<std::shared_ptr<Object>>(std::move(object));
+  return ZenohQueryable(failure.check(
+      zenoh_library().declare_queryable(session.get(), key.c_str(), callback, held.release(),
+                                        &release_object<Object>, failure.text(), ZenohFailure::kCapacity),
+      "a service at " + key));
 }
 
 template <class Object>

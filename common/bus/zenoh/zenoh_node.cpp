@@ -2,17 +2,11 @@
 #include "common/bus/zenoh/zenoh_node.hpp"
 
 #include <array>
-#include <cstdlib>
 
 #include "common/bus/zenoh/zenoh_settings.hpp"
 
 namespace rds::bus::detail {
 namespace {
-
-ZenohSession open(const ParticipantOptions& options) {
-  const char* over = std::getenv("ZENOH_CONFIG");
-  return open_zenoh(zenoh_settings(options), over == nullptr || *over == '\0' ? nullptr : over);
-}
 
 std::string id_of(const ZenohSession& session) {
   std::array<char, 33> text{};
@@ -26,8 +20,8 @@ void take_token(void* graph, const char* token, std::size_t size, int alive) {
 
 }  // namespace
 
-ZenohNode::ZenohNode(const ParticipantOptions& options)
-    : session_(open(options)),
+ZenohNode::ZenohNode(const ParticipantOptions& options, const ZenohAccess* access)
+    : session_(open_zenoh(zenoh_settings(options, access), users_settings())),
       name_{options.domain, id_of(session_), options.node_name, normal_namespace(options.node_namespace)},
       guid_(session_guid(name_.session).value_or(Guid{})),
       graph_(std::make_shared<ZenohGraph>(guid_)),

@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "common/bus/zenoh/zenoh_access.hpp"
 #include "common/bus/zenoh/zenoh_graph.hpp"
 #include "common/bus/zenoh/zenoh_library.hpp"
 
@@ -11,8 +12,8 @@ namespace rds::bus::detail {
 /// A session of Zenoh that says by its tokens which node of ROS 2 it is, and hears those of the others.
 class ZenohNode {
  public:
-  /// @throws BusError
-  explicit ZenohNode(const ParticipantOptions& options);
+  /// @param access  of a secured domain, or null. @throws BusError
+  ZenohNode(const ParticipantOptions& options, const ZenohAccess* access);
 
   [[nodiscard]] const ZenohSession& session() const { return session_; }
   [[nodiscard]] const ZenohGraph& graph() const { return *graph_; }
@@ -21,6 +22,9 @@ class ZenohNode {
 
   /// The token of an endpoint that is new.
   std::string new_endpoint(const std::string& topic, const TypeOps& type, const Qos& qos, bool publisher);
+  std::string new_service(const std::string& name, const ServiceType& type) {
+    return service_token(name_, ++entities_, name, type, true);
+  }
   void add_own(const std::string& token) { graph_->add_own(token); }
   void remove_own(const std::string& token) { graph_->remove_own(token); }
 

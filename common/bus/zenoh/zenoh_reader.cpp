@@ -10,45 +10,10 @@ RdsZenohSubscriberOptions subscriber_options(const Qos& qos) {
 }
 
 void push_sample(void* inbox, RdsZenohSample* sample) {
-  (*static_cast<std::shared_ptr<ZenohInbox>*>(inbox))->push(ZenohSample(sample));
+  (*static_cast<std::shared_ptr<ZenohInbox<ZenohSample>>*>(inbox))->push(ZenohSample(sample));
 }
 
 }  // namespace
-
-void ZenohInbox::push(ZenohSample sample) {
-  {
-    const std::lock_guard lock(mutex_);
-    samples_.push_back(std::move(sample));
-    if (samples_.size() > depth_) samples_.pop_front();
-  }
-  changed_.notify_one();
-}
-
-ZenohSample ZenohInbox::pop() {
-  const std::lock_guard lock(mutex_);
-  if (samples_.empty()) return nullptr;
-  ZenohSample sample = std::move(samples_.front());
-  samples_.pop_front();
-  return sample;
-}
-
-void ZenohInbox::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return woken_ || !samples_.empty(); });
-}
-
-bool ZenohInbox::wait_for(std::chrono::seconds limit) {
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, limit, [this] { return woken_ || !samples_.empty(); });
-}
-
-void ZenohInbox::wake() {
-  {
-    const std::lock_guard lock(mutex_);
-    woken_ = true;
-  }
-  changed_.notify_one();
-}
 
 ZenohReader::ZenohReader(ZenohNode& node, const std::string& topic, const TypeOps& type, const Qos& qos)
     : node_(node),
@@ -56,7 +21,7 @@ ZenohReader::ZenohReader(ZenohNode& node, const std::string& topic, const TypeOp
       type_(type),
       token_(node.new_endpoint(topic, type, qos, false)),
       gid_(gid_of_token(token_)),
-      inbox_(std::make_shared<ZenohInbox>(static_cast<std::size_t>(history_depth(qos)))),
+      inbox_(std::make_shared<ZenohInbox<ZenohSample>>(static_cast<std::size_t>(history_depth(qos)))),
       subscriber_(declare_subscriber(node.session(), topic_key_of_any_version(node.domain(), topic, type),
                                      subscriber_options(qos), &push_sample, inbox_)),
       announced_(node, token_) {}

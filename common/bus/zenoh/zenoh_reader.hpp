@@ -2,37 +2,14 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
 
 #include "common/bus/backend.hpp"
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
+#include "common/bus/zenoh/zenoh_inbox.hpp"
 #include "common/bus/zenoh/zenoh_node.hpp"
 #include "common/bus/zenoh/zenoh_qos.hpp"
 
 namespace rds::bus::detail {
-
-/// The newest samples that have come and were not taken yet. Thread-safe.
-class ZenohInbox {
- public:
-  explicit ZenohInbox(std::size_t depth) : depth_(depth) {}
-
-  void push(ZenohSample sample);
-  /// @return null if there is none.
-  ZenohSample pop();
-  void wait();
-  /// @return false if nothing has come meanwhile.
-  bool wait_for(std::chrono::seconds limit);
-  void wake();
-
- private:
-  std::size_t depth_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<ZenohSample> samples_;
-  bool woken_ = false;
-};
 
 class ZenohReader final : public BackendReader {
  public:
@@ -55,7 +32,7 @@ class ZenohReader final : public BackendReader {
   const TypeOps& type_;
   std::string token_;
   Guid gid_;
-  std::shared_ptr<ZenohInbox> inbox_;
+  std::shared_ptr<ZenohInbox<ZenohSample>> inbox_;
   ZenohSubscriber subscriber_;
   AnnouncedEndpoint announced_;
   // Of the thread that takes:

@@ -7,6 +7,9 @@
 namespace rds::bus::detail {
 namespace {
 
+using nlohmann::json;
+using Endpoints = std::vector<std::string>;
+
 constexpr int kRouterPort = 7447;    // Zenoh's own
 constexpr int kScoutingPort = 7000;  // plus the domain; below RTPS' ports and apart from Zenoh's 7446
 /// What a session waits for to know the others before it is used: a reader asks for what was written before
@@ -20,48 +23,106 @@ constexpr int kWaitBeforeCloseUs = 10'000'000;
 /// while.
 constexpr int kPictureBatches = 16;
 constexpr int kLargestMessage = 256 << 20;  // bytes
+/// What the kernel may hold of a link to other machines [bytes]: that cannot be overtaken any more, and its
+/// own choice, megabytes, takes a second on a link of 20 Mbit/s.
+constexpr int kSendBuffer = 32 << 10;
 
-/// A name or address is that machine's router, or whoever listens in its place.
-std::string endpoint_of(const std::string& peer) {
-  return peer.find('/') == std::string::npos ? fmt::format("tcp/{}:{}", peer, kRouterPort) : peer;
+/// A name or address without a port is that machine's router, or whoever listens in its place.
+std::string endpoint_of(const std::string& peer, const ZenohAccess* access) {
+  if (peer.find('/') == std::string::npos) {
+    const std::string link = access == nullptr ? "tcp/" : "tls/";
+    return link + peer + (peer.find(':') == std::string::npos ? fmt::format(":{}", kRouterPort) : "");
+  }
+  if (access != nullptr && !peer.starts_with("tls/"))
+    throw BusError("peer '" + peer + "': expected tls/..., the domain is secured");
+  return peer;
 }
 
-std::vector<std::string> connected(const ParticipantOptions& options) {
-  if (options.loopback_only) return {};
-  if (options.peers.empty()) return {endpoint_of("127.0.0.1")};
-  std::vector<std::string> endpoints;
-  for (const std::string& peer : options.peers) endpoints.push_back(endpoint_of(peer));
+Endpoints endpoints_of(const Endpoints& peers, const ZenohAccess* access) {
+  Endpoints endpoints;
+  for (const std::string& peer : peers) endpoints.push_back(endpoint_of(peer, access));
   return endpoints;
+}
+
+Endpoints connected(const ParticipantOptions& options, const ZenohAccess* access) {
+  if (options.loopback_only) return {};
+  return endpoints_of(options.peers.empty() ? Endpoints{"127.0.0.1"} : options.peers, access);
 }
 
 /// With peers elsewhere, a machine's first process takes the router's port, so that they find it and, by it,
 /// the others. When it goes, another one follows.
-std::vector<std::string> listened(const ParticipantOptions& options) {
-  if (options.loopback_only || options.peers.empty()) return {"tcp/127.0.0.1:0"};
-  return {"tcp/0.0.0.0:0", fmt::format("tcp/0.0.0.0:{}", kRouterPort)};
+Endpoints listened(const ParticipantOptions& options, const ZenohAccess* access) {
+  const std::string link = access == nullptr ? "tcp" : "tls";
+  if (options.loopback_only || options.peers.empty()) return {link + "/127.0.0.1:0"};
+  return {link + "/0.0.0.0:0", fmt::format("{}/0.0.0.0:{}", link, kRouterPort)};
+}
+
+json link_settings() {
+  return {{"tx",
+           {{"lease", kLeaseMs},
+            {"queue",
+             {{"size", {{"data_low", kPictureBatches}}},
+              {"congestion_control",
+               {{"drop", {{"wait_before_drop", kWaitBeforeDropUs}}},
+                {"block", {{"wait_before_close", kWaitBeforeCloseUs}}}}}}}}},
+          {"rx", {{"max_message_size", kLargestMessage}}}};
+}
+
+/// What a router and a participant have in common.
+/// @param elsewhere  whether there are links to other machines.
+json common_settings(const ZenohAccess* access, bool elsewhere) {
+  json settings{{"timestamping", {{"enabled", true}}},
+                {"transport", {{"link", link_settings()}, {"shared_memory", {{"enabled", false}}}}}};
+  if (elsewhere)
+    for (const char* kind : {"tcp", "tls"}) settings["transport"]["link"][kind]["so_sndbuf"] = kSendBuffer;
+  if (access == nullptr) return settings;
+  // Both sides show a certificate of the domain's authority, and are known by the name in it: where they are
+  // found says nothing.
+  const Credentials& own = access->credentials();
+  settings["transport"]["link"]["protocols"] = {"tls"};
+  settings["transport"]["link"]["tls"].update({{"root_ca_certificate", own.ca.string()},
+                                               {"enable_mtls", true},
+                                               {"listen_certificate", own.certificate.string()},
+                                               {"listen_private_key", own.key.string()},
+                                               {"connect_certificate", own.certificate.string()},
+                                               {"connect_private_key", own.key.string()},
+                                               {"verify_name_on_connect", false},
+                                               {"close_link_on_expiration", true}});
+  settings["access_control"] = access->rules();
+  return settings;
+}
+
+json connections(const Endpoints& endpoints, int timeout_ms) {
+  return {{"timeout_ms", timeout_ms}, {"exit_on_failure", false}, {"endpoints", endpoints}};
 }
 
 }  // namespace
 
-std::string zenoh_settings(const ParticipantOptions& options) {
+std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess* access) {
   const bool elsewhere = !options.loopback_only && !options.peers.empty();
-  return fmt::format(
-      R"({{mode: "peer",
-connect: {{timeout_ms: -1, exit_on_failure: false, endpoints: {}}},
-listen: {{timeout_ms: {}, exit_on_failure: false, endpoints: {}}},
-open: {{return_conditions: {{connect_scouted: true, declares: true}}}},
-scouting: {{delay: {}, multicast: {{enabled: true, address: "224.0.0.224:{}", interface: "127.0.0.1"}}, gossip: {{enabled: true}}}},
-timestamping: {{enabled: true}},
-transport: {{
-  link: {{
-    tx: {{lease: {}, queue: {{size: {{data_low: {}}}, congestion_control: {{drop: {{wait_before_drop: {}}}, block: {{wait_before_close: {}}}}}}}}},
-    rx: {{max_message_size: {}}},
-  }},
-  shared_memory: {{enabled: false}},
-}}}})",
-      nlohmann::json(connected(options)).dump(), elsewhere ? -1 : 0, nlohmann::json(listened(options)).dump(),
-      kFindingMs, kScoutingPort + options.domain, kLeaseMs, kPictureBatches, kWaitBeforeDropUs,
-      kWaitBeforeCloseUs, kLargestMessage);
+  json settings = common_settings(access, elsewhere);
+  settings["mode"] = "peer";
+  settings["connect"] = connections(connected(options, access), -1);
+  settings["listen"] = connections(listened(options, access), elsewhere ? -1 : 0);
+  settings["open"] = {{"return_conditions", {{"connect_scouted", true}, {"declares", true}}}};
+  settings["scouting"] = {{"delay", kFindingMs},
+                          {"multicast",
+                           {{"enabled", true},
+                            {"address", fmt::format("224.0.0.224:{}", kScoutingPort + options.domain)},
+                            {"interface", "127.0.0.1"}}},
+                          {"gossip", {{"enabled", true}}}};
+  return settings.dump();
+}
+
+std::string zenoh_router_settings(const Endpoints& listen, const Endpoints& connect,
+                                  const ZenohAccess* access) {
+  json settings = common_settings(access, true);
+  settings["mode"] = "router";
+  settings["listen"] = {
+      {"timeout_ms", 0}, {"exit_on_failure", true}, {"endpoints", endpoints_of(listen, access)}};
+  settings["connect"] = connections(endpoints_of(connect, access), -1);
+  settings["scouting"] = {{"multicast", {{"enabled", false}}}, {"gossip", {{"enabled", true}}}};
+  return settings.dump();
 }
 
 }  // namespace rds::bus::detail

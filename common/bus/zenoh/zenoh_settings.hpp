@@ -2,12 +2,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/bus/zenoh/zenoh_access.hpp"
 
 namespace rds::bus::detail {
 
-/// A session's configuration in Zenoh's own form; common/bus/zenoh/README.md explains it.
-std::string zenoh_settings(const ParticipantOptions& options);
+// A session's configuration in Zenoh's own form; common/bus/zenoh/README.md explains it.
+
+/// @param access  of a secured domain: every link is encrypted, and of those who have a certificate. @throws
+/// BusError
+///                if a peer is named by another kind of link.
+std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess* access = nullptr);
+
+/// Of a router, for all domains. Endpoints, names or addresses; @throws BusError as above.
+std::string zenoh_router_settings(const std::vector<std::string>& listen,
+                                  const std::vector<std::string>& connect,
+                                  const ZenohAccess* access = nullptr);
 
 }  // namespace rds::bus::detail

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "common/bus/backend.hpp"
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 #include "common/bus/zenoh/zenoh_node.hpp"
 #include "common/bus/zenoh/zenoh_qos.hpp"
 

@@ -5,7 +5,15 @@
 //   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at
 //                                                30 Hz, then says {"refused": n, "slowest_ms": t}
 //   bus_peer census VENDOR DOMAIN COUNT          says {"seconds": t} when it has discovered COUNT of its kind
+//   bus_peer keeper VENDOR DOMAIN COUNT          writes the numbers from 0 to COUNT - 1, ten a second, of
+//   which
+//                                                late readers get the last 100
+//   bus_peer late VENDOR DOMAIN                  says each of these numbers that it gets
+//   bus_peer server VENDOR DOMAIN                serves "switch" (std_srvs/srv/SetBool), and answers what it
+//   was asked
 // --network before these: with multicast and on every interface, as services are; else on 127.0.0.1.
+// --peers LIST before these: as --network, and with these peers.
+// --secure FOLDER IDENTITY before these: in a secured domain.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -14,8 +22,12 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
+#include "common/bus/peer_addresses.hpp"
+#include "common/bus/service_server.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
+#include "std_srvs/srv/SetBool_Request.h"
+#include "std_srvs/srv/SetBool_Response.h"
 
 namespace {
 
@@ -83,18 +95,73 @@ void census(Participant& participant, std::ptrdiff_t count, Clock::time_point st
   stay();
 }
 
+void keep(Participant& participant, int count) {
+  auto publisher = participant.advertise<std_msgs::msg::Header>("number", rds::bus::kLatchedEvery);
+  const std::jthread writer([&](const std::stop_token& stop) {
+    std_msgs::msg::Header number;
+    for (int i = 0; i < count && !stop.stop_requested(); ++i) {
+      number.frame_id(std::to_string(i));
+      publisher.write(number);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  });
+  stay();
+}
+
+void join_late(Participant& participant) {
+  auto subscription = participant.subscribe<std_msgs::msg::Header>(
+      "number", rds::bus::kLatchedEvery, [](const std::shared_ptr<const std_msgs::msg::Header>& number) {
+        std::cout << number->frame_id() << std::endl;
+      });
+  stay();
+}
+
+void serve(Participant& participant) {
+  using std_srvs::srv::SetBool_Request;
+  using std_srvs::srv::SetBool_Response;
+  const auto server = rds::bus::serve<SetBool_Request, SetBool_Response>(
+      participant, "switch", [](const SetBool_Request& request) {
+        SetBool_Response response;
+        response.success(request.data());
+        response.message(request.data() ? "on" : "off");
+        return response;
+      });
+  stay();
+}
+
+/// Takes what stands before the mode.
+rds::bus::ParticipantOptions take_options(std::vector<std::string>& arguments) {
+  rds::bus::ParticipantOptions options{.node_name = "bus_peer", .loopback_only = true};
+  std::size_t taken = 0;
+  for (; arguments.at(taken).starts_with("--"); ++taken) {
+    const std::string option = arguments.at(taken);
+    if (option == "--secure") {
+      auto credentials = rds::bus::read_credentials(arguments.at(taken + 1), arguments.at(taken + 2));
+      if (!credentials) throw std::runtime_error(credentials.error());
+      options.credentials = *credentials;
+      taken += 2;
+      continue;
+    }
+    options.loopback_only = false;
+    if (option == "--peers") options.peers = rds::bus::peer_addresses(arguments.at(++taken));
+  }
+  arguments.erase(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(taken));
+  return options;
+}
+
 int run(std::vector<std::string> arguments) {
   const auto start = Clock::now();
-  const bool network = arguments.at(0) == "--network";
-  if (network) arguments.erase(arguments.begin());
+  rds::bus::ParticipantOptions options = take_options(arguments);
   const std::string& mode = arguments.at(0);
-  const auto participant = Participant::create({.vendor = rds::bus::vendor_from_name(arguments.at(1)),
-                                                .domain = std::stoi(arguments.at(2)),
-                                                .node_name = "bus_peer",
-                                                .loopback_only = !network});
+  options.vendor = rds::bus::vendor_from_name(arguments.at(1));
+  options.domain = std::stoi(arguments.at(2));
+  const auto participant = Participant::create(options);
   if (mode == "reader") read(*participant);
   if (mode == "talker") talk(*participant, arguments.at(1));
   if (mode == "writer") write(*participant, std::stoi(arguments.at(3)), std::stoi(arguments.at(4)));
+  if (mode == "keeper") keep(*participant, std::stoi(arguments.at(3)));
+  if (mode == "late") join_late(*participant);
+  if (mode == "server") serve(*participant);
   if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);
   return 0;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a program of ROS 2 asks of our nodes by services, on both vendors, each in the form of its own rmw.
+#include <array>
+
 #include <gmock/gmock.h>
 
 #include "lifecycle_msgs/srv/GetState_Request.h"
@@ -90,8 +92,14 @@ TEST_P(NodeServices, CarryOutCommands) {
   EXPECT_TRUE(reset->success()) << reset->message();
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices,
-                         ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
+constexpr std::array kVendors{
+    bus::Vendor::kFastDds,
+    bus::Vendor::kCycloneDds,
+#ifdef RDS_HAS_ZENOH
+    bus::Vendor::kZenoh,
+#endif
+};
+INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices, ::testing::ValuesIn(kVendors),
                          [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace

@@ -55,6 +55,11 @@ class Strangers(unittest.TestCase):
             self.assertEqual(numbers, list(range(numbers[0], numbers[0] + 5)))
             stranger.process.terminate()
 
+    def test_the_sdk_calls_a_service(self):
+        with Peer("server", "zenoh", DOMAIN), Stranger("call", "switch", DOMAIN, 30) as stranger:
+            self.assertTrue(stranger.wait_for(lambda lines: len(lines) >= 2))
+            self.assertEqual(stranger.lines[:2], ["(True, 'on')", "(False, 'off')"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import peer_process
@@ -60,6 +61,26 @@ class Processes(unittest.TestCase):
         finally:
             for peer in peers:
                 peer.__exit__()
+
+    def test_from_the_start_of_a_program_to_its_first_message(self):
+        domain = next(DOMAINS)
+        with Peer("talker", "zenoh", domain):  # ten a second
+            seconds = []
+            for _ in range(5):
+                start = time.monotonic()
+                with Peer("reader", "zenoh", domain) as reader:
+                    self.assertTrue(reader.wait_for(lambda lines: len(lines) >= 1))
+                    seconds.append(time.monotonic() - start)
+        print(f"start to first message: median {sorted(seconds)[2]:.2f} s, longest {max(seconds):.2f} s", file=sys.stderr)
+        self.assertLess(min(seconds), 1)  # a busy machine takes longer
+
+    def test_an_idle_participant_is_small(self):
+        with Peer("reader", "zenoh", next(DOMAINS)) as peer:
+            time.sleep(3)
+            with open(f"/proc/{peer.process.pid}/status", encoding="utf-8") as status:
+                resident_mb = next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
+        print(f"idle participant: {resident_mb:.1f} MiB resident", file=sys.stderr)
+        self.assertLess(resident_mb, 32)
 
     def test_a_program_without_the_library_says_so(self):
         copy = os.path.join(os.environ.get("TMPDIR", "/tmp"), f"bus_peer_{os.getpid()}")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node of ROS 2 on Zenoh made of PyPI's zenoh-ros2-sdk: zenoh_stranger.py talk|listen TOPIC DOMAIN SECONDS
+"""A node of ROS 2 on Zenoh made of PyPI's zenoh-ros2-sdk: zenoh_stranger.py talk|listen|call TOPIC DOMAIN SECONDS
 
-Publishes small pictures with numbers as frame_id, or prints the frame_id of each that it hears.
+Publishes small pictures with numbers as frame_id, or prints the frame_id of each that it hears, or calls a service (std_srvs/srv/SetBool) with
+true and false and prints the answers.
 """
 import os
 import sys
@@ -14,7 +15,7 @@ os.environ["ZENOH_CONFIG_OVERRIDE"] = ";".join([
     'scouting/multicast/interface="127.0.0.1"', 'listen/endpoints=["tcp/127.0.0.1:0"]'])
 
 import numpy as np  # noqa: E402
-from zenoh_ros2_sdk import ROS2Publisher, ROS2Subscriber  # noqa: E402
+from zenoh_ros2_sdk import ROS2Publisher, ROS2ServiceClient, ROS2Subscriber  # noqa: E402
 
 HASH = "RIHS01_d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47"
 DEFINITION = """std_msgs/Header header
@@ -34,7 +35,18 @@ int32 sec
 uint32 nanosec
 """
 
-if mode == "talk":
+if mode == "call":
+    # Jazzy's std_srvs/srv/SetBool.json
+    client = ROS2ServiceClient(f"/{topic}", "std_srvs/srv/SetBool", "bool data", "bool success\nstring message", node_name="stranger", domain_id=domain,
+                               type_hash="RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a", timeout=2)
+    end = time.monotonic() + seconds
+    for data in (True, False):
+        answer = None
+        while answer is None and time.monotonic() < end:  # it may not have found the service yet
+            answer = client.call(data=data)
+        print(answer and (bool(answer.success), answer.message), flush=True)
+    client.close()
+elif mode == "talk":
     publisher = ROS2Publisher(f"/{topic}", "sensor_msgs/msg/Image", DEFINITION, type_hash=HASH, domain_id=domain, node_name="stranger")
     types = publisher.session_mgr.store.types
     end = time.monotonic() + seconds

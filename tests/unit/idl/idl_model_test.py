@@ -60,6 +60,14 @@ class TypeHash(unittest.TestCase):
                                    ("_Response", "31b937b82de3612426be79f231e386259f97e8dc843e3f2845288b4bfa296bdd")):
             self.assertEqual(idl_model.type_hash(STRUCTS["rcl_interfaces/srv/ListParameters" + part], STRUCTS), "RIHS01_" + hash_of_part)
 
+    def test_of_services_equals_that_of_jazzy(self):
+        # the .json files of Jazzy's packages
+        for name, hash_of_service in (("lifecycle_msgs/srv/GetState", "800a0a5aae599782b02932de0caf563f6dc4e7e94b794eadde075ba2cbef9795"),
+                                      ("std_srvs/srv/SetBool", "abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a"), ("rcl_interfaces/srv/SetParameters", "56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0"),
+                                      ("nav_msgs/srv/GetMap", "c8ae77c9995b3554b5ba80e4d4d443f970ac65143102a1d893ec24fc07b31147")):
+            with self.subTest(name):
+                self.assertEqual(idl_model.service_hash(STRUCTS[name + "_Request"], STRUCTS), "RIHS01_" + hash_of_service)
+
 
 class Definition(unittest.TestCase):
     def test_names_what_a_type_contains_each_once(self):

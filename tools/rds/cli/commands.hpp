@@ -52,6 +52,8 @@ void add_topic_command(CLI::App& rds);
 void add_status_command(CLI::App& rds);
 /// `rds models list|fetch|check`: the detector's networks. Faults are std::runtime_error (one sentence).
 void add_models_command(CLI::App& rds);
+/// `rds router`: passes messages on between machines with --bus zenoh.
+void add_router_command(CLI::App& rds);
 /// `rds simulate --out DIR`: renders a recording of a furnished room with walking people, with its truth.
 void add_simulate_command(CLI::App& rds);
 }  // namespace tools

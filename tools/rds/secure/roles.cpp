@@ -63,6 +63,7 @@ std::vector<Role> roles(const Topics& camera_topics) {
        Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
       {"player", camera_topics, {topics::kTrackingState.name, topics::kServiceStatus.name}},
       {"camera", camera_topics, {}},
+      {"router", {}, {}, true},
   };
 }
 

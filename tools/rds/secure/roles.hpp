@@ -11,10 +11,12 @@ struct Role {
   std::string name;  // of its folder, its certificate and, after "rds-", its service
   std::vector<std::string> publishes;
   std::vector<std::string> subscribes;
+  bool relays = false;  // on Zenoh, passes on what others may write and read
 };
 
 /// The services; and the kinds of outsiders: an operator, who alone commands, a reader of maps, a player of
-/// recordings and a camera's driver.
+/// recordings, a camera's driver and a
+/// router of Zenoh.
 ///
 /// @param camera_topics  all topics of the camera.
 std::vector<Role> roles(const std::vector<std::string>& camera_topics);

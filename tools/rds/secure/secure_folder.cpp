@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "common/bus/security.hpp"
+#include "common/bus/zenoh/zenoh_access.hpp"
 #include "tools/rds/secure/roles.hpp"
 #include "tools/rds/secure/security_documents.hpp"
 
@@ -43,8 +44,10 @@ std::vector<std::string> fill(const fs::path& folder, const FolderOptions& optio
   const CertificateAuthority authority(options.validity);
   write_file(folder / bus::kCaFile, kPublic, authority.certificate());
   write_file(folder / bus::kGovernanceFile, kPublic, authority.sign(governance(options.camera_topics)));
+  const std::vector<Role> all = roles(options.camera_topics);
+  write_file(folder / bus::kAccessFile, kPublic, authority.sign(access_list(all)));
   std::vector<std::string> names;
-  for (const Role& role : roles(options.camera_topics)) {
+  for (const Role& role : all) {
     const Identity identity = authority.issue(role.name);
     const fs::path part = folder / role.name;
     make_folder(part);
@@ -60,8 +63,9 @@ std::vector<std::string> fill(const fs::path& folder, const FolderOptions& optio
 /// @return a sentence if the folder must stay as it is.
 std::string reason_to_keep(const fs::path& folder, bool force) {
   if (!fs::exists(fs::symlink_status(folder))) return "";
-  if (!force) return fmt::format("{}: exists; --force makes new certificates, and the old ones are void",
-                                 folder.string());
+  if (!force)
+    return fmt::format("{}: exists; --force makes new certificates, and the old ones are void",
+                       folder.string());
   if (!fs::is_regular_file(folder / bus::kGovernanceFile))
     return fmt::format("{}: is no folder of rds secure init, and is left alone", folder.string());
   return "";

@@ -20,8 +20,8 @@ struct FolderOptions {
 /// From a day before `now`, for machines whose clocks are late, to ten years after.
 Validity ten_years(std::chrono::system_clock::time_point now);
 
-/// Makes the folder of a secured domain (common/bus/security.hpp says what is in it) for all roles. The folder
-/// and the parts have mode 0700, private keys 0600. It is there whole or not at all.
+/// Makes the folder of a secured domain (common/bus/security.hpp says what is in it) for all roles. The
+/// folder and the parts have mode 0700, private keys 0600. It is there whole or not at all.
 ///
 /// @return the names of its parts, or one sentence. A folder that is there is replaced only with `force`, and
 ///         only if it is one of these.

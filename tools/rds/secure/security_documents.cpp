@@ -3,6 +3,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/bus/security.hpp"
 #include "common/topics/topics.hpp"
@@ -108,6 +109,17 @@ std::string permissions(const Role& role, const std::string& subject, const Vali
 )",
                      role.name, subject, date(validity.from), date(validity.until), all_domains(),
                      topics("publish", role.publishes), topics("subscribe", role.subscribes));
+}
+
+std::string access_list(const std::vector<Role>& roles) {
+  nlohmann::json list;
+  for (const Role& role : roles) {
+    if (role.relays)
+      list[role.name] = {{"relays", true}};
+    else
+      list[role.name] = {{"publishes", role.publishes}, {"subscribes", role.subscribes}};
+  }
+  return list.dump(2) + "\n";
 }
 
 }  // namespace rds::secure

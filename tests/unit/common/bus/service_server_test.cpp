@@ -153,15 +153,7 @@ TEST_P(ServiceOf, CountsAnAnswerToOneWhoHasLeft) {
 std::string name_of_parameter(const ::testing::TestParamInfo<Vendor>& info) {
   return name_of(info.param);
 }
-INSTANTIATE_TEST_SUITE_P(Vendors, ServiceOf, ::testing::Values(Vendor::kFastDds, Vendor::kCycloneDds),
-                         name_of_parameter);
-
-#ifdef RDS_HAS_ZENOH
-TEST(ServiceOfZenoh, IsRefused) {
-  auto participant = join(Vendor::kZenoh, "node");
-  EXPECT_THROW((serve<SetBool_Request, SetBool_Response>(*participant, "~/switch", &echo)), BusError);
-}
-#endif
+INSTANTIATE_TEST_SUITE_P(Vendors, ServiceOf, ::testing::ValuesIn(kAllVendors), name_of_parameter);
 
 }  // namespace
 }  // namespace rds::bus

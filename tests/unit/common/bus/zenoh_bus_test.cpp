@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 #include "common/bus/zenoh/zenoh_library.hpp"
-#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/wire/zenoh_names.hpp"
 #include "common/bus/zenoh/zenoh_settings.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
@@ -164,12 +164,6 @@ TEST_F(OnZenoh, ATopicsNameIsChecked) {
   EXPECT_THROW(reader_side->advertise<Header>("a//b", kStream), BusError);
 }
 
-TEST_F(OnZenoh, KnowsNoSecuredDomain) {
-  ParticipantOptions options{.vendor = Vendor::kZenoh, .domain = test_domain(), .node_name = "node"};
-  options.credentials.emplace();
-  EXPECT_THROW(Participant::create(options), BusError);
-}
-
 TEST_F(OnZenoh, AWriterNeverWaits) {
   const auto writer_side = join(Vendor::kZenoh, "writer");
   const auto read = reader_side->subscribe<Image>("pictures", kSensor, [](const auto&) {});
@@ -191,6 +185,9 @@ TEST_F(OnZenoh, TheUsersSettingsWin) {
       detail::zenoh_settings({.domain = 3, .node_name = "n", .peers = {"10.0.0.7", "tls/robot:1"}});
   EXPECT_THAT(ours, ::testing::HasSubstr(R"(["tcp/10.0.0.7:7447","tls/robot:1"])"));
   EXPECT_THAT(ours, ::testing::HasSubstr("224.0.0.224:7003"));
+  EXPECT_THAT(ours, ::testing::HasSubstr(R"("tcp":{"so_sndbuf":32768})"));
+  EXPECT_THAT(detail::zenoh_settings({.node_name = "n", .loopback_only = true}),
+              ::testing::Not(::testing::HasSubstr("so_sndbuf")));
   EXPECT_THROW((void)detail::open_zenoh(ours, "/no/such/file"), BusError);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What rmw_zenoh writes on the network, and what anybody may write there.
-#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/wire/zenoh_names.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 #include "common/bus/zenoh/zenoh_graph.hpp"
 
 namespace rds::bus::detail {
@@ -64,6 +64,37 @@ TEST(ZenohNames, OfNodesAndServicesAreNoEndpoints) {
   std::string service = kToken;
   service.replace(service.find("/MP/"), 4, "/SS/");
   EXPECT_FALSE(parse_endpoint_token(service));
+}
+
+// rmw_zenoh's docs/design.md
+TEST(ZenohNames, OfServicesAreThoseOfRmwZenoh) {
+  const std::string hash = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a";
+  TypeOps request{};
+  request.dds_name = "example_interfaces::srv::dds_::AddTwoInts_Request_";
+  const ServiceType type{request, request, hash.c_str()};
+  EXPECT_EQ(service_key(2, "add_two_ints", type),
+            "2/add_two_ints/example_interfaces::srv::dds_::AddTwoInts_/" + hash);
+  const ZenohNodeName node{2, "f9980ee0495eaafb3e38f0d19e2eae12", "add_two_ints_server"};
+  const std::string server = service_token(node, 10, "add_two_ints", type, true);
+  EXPECT_EQ(server,
+            "@ros2_lv/2/f9980ee0495eaafb3e38f0d19e2eae12/0/10/SS/%/%/add_two_ints_server/%add_two_ints/"
+            "example_interfaces::srv::dds_::AddTwoInts_/" +
+                hash + "/::,10:,:,:,,");
+  EXPECT_FALSE(is_client_token(server));
+  EXPECT_TRUE(is_client_token(service_token(node, 10, "add_two_ints", type, false)));
+}
+
+TEST(ZenohGraph, KnowsWhoAskedAndHasLeft) {
+  ZenohGraph graph(*session_guid("1"));
+  std::string client = kToken;
+  client.replace(client.find("/MP/"), 4, "/SC/");
+  const Guid gid = gid_of_token(client);
+  EXPECT_FALSE(graph.has_left(gid)) << "never announced";
+  graph.take(client, true);
+  EXPECT_FALSE(graph.has_left(gid));
+  graph.take(client, false);
+  EXPECT_TRUE(graph.has_left(gid));
+  EXPECT_TRUE(graph.discovered().empty());
 }
 
 TEST(ZenohNames, ATopicIsNoPattern) {

@@ -5,10 +5,12 @@ use std::ffi::{c_char, c_int, c_void, CStr};
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
 use zenoh::key_expr::KeyExpr;
+use zenoh::query::Query;
 use zenoh::sample::Sample;
 
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 pub type OnSample = extern "C" fn(*mut c_void, *mut Sample);
+pub type OnQuery = extern "C" fn(*mut c_void, *mut Query);
 pub type OnToken = extern "C" fn(*mut c_void, *const c_char, usize, c_int);
 pub type Release = extern "C" fn(*mut c_void);
 
@@ -45,7 +47,7 @@ pub unsafe fn text<'a>(text: *const c_char) -> Result<&'a str, Failure> {
 }
 
 pub unsafe fn key(key: *const c_char) -> Result<KeyExpr<'static>, Failure> {
-    Ok(KeyExpr::try_from(text(key)?.to_owned())?)
+    KeyExpr::try_from(text(key)?.to_owned())
 }
 
 /// The caller's object behind a callback. Released with the last callback that knows it.

@@ -4,16 +4,19 @@
 mod border;
 mod liveliness;
 mod publisher;
+mod queryable;
 mod session;
 mod subscriber;
 
 use std::ffi::{c_char, c_int, c_void};
 
-use border::{OnSample, OnToken, Release};
+use border::{OnQuery, OnSample, OnToken, Release};
 use publisher::{Buffer, Publisher, PublisherOptions};
+use queryable::Queryable;
 use session::Session;
 use subscriber::{Subscriber, SubscriberOptions, View};
 use zenoh::liveliness::LivelinessToken;
+use zenoh::query::Query;
 use zenoh::sample::Sample;
 
 type Watch = zenoh::pubsub::Subscriber<()>;
@@ -47,6 +50,24 @@ pub struct Api {
     view: unsafe extern "C" fn(*const Sample, *mut View),
     gather: unsafe extern "C" fn(*const Sample, *mut u8),
     free_sample: unsafe extern "C" fn(*mut Sample),
+    declare_queryable:
+        unsafe extern "C" fn(*const Session, Text, OnQuery, *mut c_void, Release, Error, usize) -> *mut Queryable,
+    undeclare_queryable: unsafe extern "C" fn(*mut Queryable),
+    view_query: unsafe extern "C" fn(*const Query, *mut View),
+    gather_query: unsafe extern "C" fn(*const Query, *mut u8),
+    reply: unsafe extern "C" fn(*const Query, *mut Buffer, *const u8, usize) -> c_int,
+    free_query: unsafe extern "C" fn(*mut Query),
+    get: unsafe extern "C" fn(
+        *const Session,
+        Text,
+        *mut Buffer,
+        *const u8,
+        usize,
+        u64,
+        OnSample,
+        *mut c_void,
+        Release,
+    ) -> c_int,
     declare_token: unsafe extern "C" fn(*const Session, Text, Error, usize) -> *mut LivelinessToken,
     undeclare_token: unsafe extern "C" fn(*mut LivelinessToken),
     declare_watch:
@@ -55,7 +76,7 @@ pub struct Api {
 }
 
 static API: Api = Api {
-    version: 1,
+    version: 2,
     open: session::open,
     close: session::close,
     id: session::id,
@@ -69,6 +90,13 @@ static API: Api = Api {
     view: subscriber::view,
     gather: subscriber::gather,
     free_sample: border::give_back::<Sample>,
+    declare_queryable: queryable::declare_queryable,
+    undeclare_queryable: border::give_back::<Queryable>,
+    view_query: queryable::view_query,
+    gather_query: queryable::gather_query,
+    reply: queryable::reply,
+    free_query: border::give_back::<Query>,
+    get: queryable::get,
     declare_token: liveliness::declare_token,
     undeclare_token: border::give_back::<LivelinessToken>,
     declare_watch: liveliness::declare_watch,

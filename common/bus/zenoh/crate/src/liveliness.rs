@@ -16,11 +16,11 @@ pub unsafe extern "C" fn declare_token(
     capacity: usize,
 ) -> *mut LivelinessToken {
     made(error, capacity, || {
-        Ok((*session)
+        (*session)
             .session
             .liveliness()
             .declare_token(key(key_expression)?)
-            .wait()?)
+            .wait()
     })
 }
 
@@ -36,7 +36,7 @@ pub unsafe extern "C" fn declare_watch(
 ) -> *mut Subscriber<()> {
     let object = Object::new(object, release);
     made(error, capacity, || {
-        let watch = (*session)
+        (*session)
             .session
             .liveliness()
             .declare_subscriber(key(key_expression)?)
@@ -46,7 +46,6 @@ pub unsafe extern "C" fn declare_watch(
                 let alive = c_int::from(sample.kind() == SampleKind::Put);
                 callback(object.get(), token.as_ptr().cast(), token.len(), alive);
             })
-            .wait()?;
-        Ok(watch)
+            .wait()
     })
 }

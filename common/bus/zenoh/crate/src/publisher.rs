@@ -63,7 +63,7 @@ pub unsafe extern "C" fn declare_publisher(
         if options.latched != 0 {
             builder = builder.publisher_detection();
         }
-        Ok(builder.wait()?)
+        builder.wait()
     })
 }
 
@@ -84,5 +84,5 @@ pub unsafe extern "C" fn put(
 ) -> c_int {
     let payload = ZBytes::from(*Box::from_raw(buffer));
     let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
-    c_int::from(done(|| Ok((*publisher).put(payload).attachment(attachment).wait()?)))
+    c_int::from(done(|| (*publisher).put(payload).attachment(attachment).wait()))
 }

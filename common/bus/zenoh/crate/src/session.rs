@@ -29,7 +29,7 @@ fn settings(ours: &str, file: Option<&str>) -> Result<Config, Failure> {
         let theirs = std::fs::read_to_string(file).map_err(|e| explain(&e))?;
         lay_over(&mut settings, json5::from_str(&theirs).map_err(|e| explain(&e))?);
     }
-    Ok(Config::from_json5(&settings.to_string())?)
+    Config::from_json5(&settings.to_string())
 }
 
 pub unsafe extern "C" fn open(
@@ -47,7 +47,7 @@ pub unsafe extern "C" fn open(
 }
 
 pub unsafe extern "C" fn close(session: *mut Session) {
-    done(|| Ok(Box::from_raw(session).session.close().wait()?));
+    done(|| Box::from_raw(session).session.close().wait());
 }
 
 pub unsafe extern "C" fn id(session: *const Session, out: *mut c_char) {

@@ -2,7 +2,8 @@
 use std::ffi::{c_char, c_void};
 use std::time::Duration;
 
-use zenoh::sample::Sample;
+use zenoh::bytes::ZBytes;
+use zenoh::sample::{Sample, SourceInfo};
 use zenoh::Wait;
 use zenoh_ext::{AdvancedSubscriber, AdvancedSubscriberBuilderExt, HistoryConfig, RecoveryConfig};
 
@@ -72,32 +73,53 @@ pub unsafe extern "C" fn declare_subscriber(
     })
 }
 
-pub unsafe extern "C" fn view(sample: *const Sample, view: *mut View) {
-    let (sample, view) = (&*sample, &mut *view);
-    let key = sample.key_expr().as_str();
+/// Shows a message: `source` is the writing session's identifier.
+pub unsafe fn show(
+    view: &mut View,
+    key: &str,
+    payload: Option<&ZBytes>,
+    attachment: Option<&ZBytes>,
+    source: Option<&SourceInfo>,
+) {
     view.key = key.as_ptr().cast();
     view.key_size = key.len();
-    view.size = sample.payload().len();
-    let mut pieces = sample.payload().slices();
-    view.data = match (pieces.next(), pieces.next()) {
-        (Some(only), None) => only.as_ptr(),
-        _ => std::ptr::null(),
-    };
-    view.attachment_size = sample.attachment().map_or(0, |a| a.len());
-    if let Some(attachment) = sample.attachment() {
+    view.size = payload.map_or(0, |p| p.len());
+    view.data = std::ptr::null();
+    if let Some(payload) = payload {
+        let mut pieces = payload.slices();
+        if let (Some(only), None) = (pieces.next(), pieces.next()) {
+            view.data = only.as_ptr();
+        }
+    }
+    view.attachment_size = attachment.map_or(0, |a| a.len());
+    if let Some(attachment) = attachment {
         let bytes = attachment.to_bytes();
         let count = bytes.len().min(ATTACHMENT);
         view.attachment[..count].copy_from_slice(&bytes[..count]);
     }
-    let source = sample
-        .source_info()
-        .map_or(String::new(), |s| s.source_id().zid().to_string());
+    let source = source.map_or(String::new(), |s| s.source_id().zid().to_string());
     write_text(&source, view.source.as_mut_ptr());
 }
 
-pub unsafe extern "C" fn gather(sample: *const Sample, mut data: *mut u8) {
-    for piece in (*sample).payload().slices() {
+/// Writes a payload into one piece.
+pub unsafe fn gather_into(payload: &ZBytes, mut data: *mut u8) {
+    for piece in payload.slices() {
         std::ptr::copy_nonoverlapping(piece.as_ptr(), data, piece.len());
         data = data.add(piece.len());
     }
+}
+
+pub unsafe extern "C" fn view(sample: *const Sample, view: *mut View) {
+    let s = &*sample;
+    show(
+        &mut *view,
+        s.key_expr().as_str(),
+        Some(s.payload()),
+        s.attachment(),
+        s.source_info(),
+    );
+}
+
+pub unsafe extern "C" fn gather(sample: *const Sample, data: *mut u8) {
+    gather_into((*sample).payload(), data);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/zenoh/zenoh_attachment.hpp"
+#include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 
 namespace rds::bus::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/bus/zenoh/zenoh_names.hpp"
+#include "common/bus/zenoh/wire/zenoh_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -45,10 +45,16 @@ std::string hash_in_names(const TypeOps& type) {
   return type.type_hash.empty() ? kNoHash : type.type_hash;
 }
 
-std::string key(int domain, const std::string& topic, const TypeOps& type, const std::string& hash) {
-  if (topic.empty() || topic.find_first_of("*$?#@") != std::string::npos)
-    throw BusError("topic '" + topic + "': expected a name without * $ ? # @");
-  return fmt::format("{}/{}/{}/{}", domain, topic, type.dds_name, hash);
+std::string key(int domain, const std::string& name, const std::string& type, const std::string& hash) {
+  if (name.empty() || name.find_first_of("*$?#@") != std::string::npos)
+    throw BusError("topic '" + name + "': expected a name without * $ ? # @");
+  return fmt::format("{}/{}/{}/{}", domain, name, type, hash);
+}
+
+/// "std_srvs::srv::dds_::Trigger_" of "std_srvs::srv::dds_::Trigger_Request_".
+std::string service_name_of(const ServiceType& type) {
+  const std::string& request = type.request.dds_name;
+  return request.substr(0, request.rfind("Request_"));
 }
 
 std::string node_prefix(const ZenohNodeName& node, int entity, const char* kind) {
@@ -93,11 +99,15 @@ std::optional<Guid> session_guid(std::string_view text) {
 }
 
 std::string topic_key(int domain, const std::string& topic, const TypeOps& type) {
-  return key(domain, topic, type, hash_in_names(type));
+  return key(domain, topic, type.dds_name, hash_in_names(type));
 }
 
 std::string topic_key_of_any_version(int domain, const std::string& topic, const TypeOps& type) {
-  return key(domain, topic, type, "*");
+  return key(domain, topic, type.dds_name, "*");
+}
+
+std::string service_key(int domain, const std::string& name, const ServiceType& type) {
+  return key(domain, name, service_name_of(type), type.type_hash);
 }
 
 std::string_view type_hash_of_key(std::string_view key) {
@@ -117,6 +127,18 @@ std::string endpoint_token(const ZenohNodeName& node, int entity, const std::str
                            const TypeOps& type, const Qos& qos, bool publisher) {
   return fmt::format("{}/{}/{}/{}/{}", node_prefix(node, entity, publisher ? "MP" : "MS"),
                      mangled("/" + topic), type.dds_name, hash_in_names(type), qos_text(qos));
+}
+
+std::string service_token(const ZenohNodeName& node, int entity, const std::string& name,
+                          const ServiceType& type, bool server) {
+  return fmt::format("{}/{}/{}/{}/{}", node_prefix(node, entity, server ? "SS" : "SC"), mangled("/" + name),
+                     service_name_of(type), type.type_hash, qos_text({.reliable = true, .depth = 10}));
+}
+
+bool is_client_token(std::string_view token) {
+  constexpr std::size_t kKind = 5;
+  const auto chunks = split(token.substr(0, kLongestToken), '/');
+  return chunks.size() > kKind && chunks[0] == "@ros2_lv" && chunks[kKind] == "SC";
 }
 
 Guid gid_of_token(std::string_view token) {

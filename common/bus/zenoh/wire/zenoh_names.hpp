@@ -8,6 +8,7 @@
 
 #include "common/bus/guid.hpp"
 #include "common/bus/participant.hpp"
+#include "common/bus/service_type.hpp"
 
 /// What rmw_zenoh calls things on the network (its docs/design.md; Jazzy 0.2.4 and later, Kilted 0.6 and
 /// later).
@@ -23,6 +24,10 @@ std::string topic_key(int domain, const std::string& topic, const TypeOps& type)
 
 /// As topic_key(), for the messages of all definitions of the type.
 std::string topic_key_of_any_version(int domain, const std::string& topic, const TypeOps& type);
+
+/// Where the requests of a service go: "0/node/reset/std_srvs::srv::dds_::Trigger_/RIHS01_…".
+/// @throws BusError for a name that is none.
+std::string service_key(int domain, const std::string& name, const ServiceType& type);
 
 /// The type hash at the end of a topic's key; "" where it has none.
 std::string_view type_hash_of_key(std::string_view key);
@@ -42,6 +47,10 @@ std::string node_token(const ZenohNodeName& node);
 std::string endpoint_token(const ZenohNodeName& node, int entity, const std::string& topic,
                            const TypeOps& type, const Qos& qos, bool publisher);
 
+/// Of a service's server or client.
+std::string service_token(const ZenohNodeName& node, int entity, const std::string& name,
+                          const ServiceType& type, bool server);
+
 /// By which messages name their writer: XXH3 (128 bits) of its token.
 Guid gid_of_token(std::string_view token);
 
@@ -52,5 +61,8 @@ struct ZenohEndpoint {
 
 /// @return nullopt for everything but a well-formed token of a publisher or subscription.
 std::optional<ZenohEndpoint> parse_endpoint_token(std::string_view token);
+
+/// @return whether this is the token of a service's client.
+bool is_client_token(std::string_view token);
 
 }  // namespace rds::bus::detail

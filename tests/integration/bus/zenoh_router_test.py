@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Programs that meet through a router alone, as machines do that do not reach each other: zenoh_router_test.py PATH_OF_bus_peer PATH_OF_rds"""
+
+import functools
+import itertools
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import peer_process
+
+RDS = sys.argv.pop(2)
+PEER = sys.argv.pop(1)
+DOMAINS = itertools.count(10 + os.getpid() % 180)
+
+
+def free_port():
+    with socket.socket() as socket_:
+        socket_.bind(("127.0.0.1", 0))
+        return socket_.getsockname()[1]
+
+
+class Router(unittest.TestCase):
+    """Each peer is a client of its router: it dials out, and nobody can dial it. Unless a test says otherwise."""
+
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.addCleanup(self.place.cleanup)
+        self.domain = next(DOMAINS)
+        self.port = free_port()
+        self.peer = self.peers_of(self.port)
+
+    def peers_of(self, port):
+        settings = pathlib.Path(self.place.name) / f"{port}.json5"
+        settings.write_text(json.dumps({"mode": "client", "connect": {"endpoints": [f"tcp/127.0.0.1:{port}"]}, "listen": {"endpoints": []},
+                                        "scouting": {"multicast": {"enabled": False}}}))
+        return functools.partial(peer_process.Peer, PEER, environment=os.environ | {"ZENOH_CONFIG": str(settings)})
+
+    def router(self, port=None, *options):
+        router = peer_process.Peer(RDS, "router", "--listen", f"127.0.0.1:{port or self.port}", *options)
+        self.addCleanup(router.process.kill)
+        return router
+
+    def end(self, router):
+        router.send(signal.SIGTERM)
+        self.assertEqual(router.process.wait(10), 0)
+        router.process.stdin.close()
+        router.process.stdout.close()
+
+    def test_two_that_dial_it_hear_each_other(self):
+        router = self.router()
+        with self.peer("keeper", "zenoh", self.domain, 30) as keeper, self.peer("late", "zenoh", self.domain) as reader:
+            self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "29"), reader.lines)
+            self.assertEqual(reader.lines, [str(i) for i in range(30)])
+            self.assertTrue(keeper.lives())
+        self.end(router)
+
+    def test_pictures_come_whole(self):
+        router = self.router()
+        with self.peer("reader", "zenoh", self.domain) as reader, self.peer("writer", "zenoh", self.domain, 1, 60) as writer:
+            self.assertTrue(writer.wait_for(lambda lines: len(lines) == 1))
+            self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "59"), reader.lines[-3:])
+            self.assertEqual(reader.lines, sorted(reader.lines, key=int))
+        self.end(router)
+
+    def test_two_routers_in_a_row(self):
+        second = free_port()
+        routers = [self.router(), self.router(second, "--connect", f"127.0.0.1:{self.port}")]
+        with self.peer("keeper", "zenoh", self.domain, 30) as _, self.peers_of(second)("late", "zenoh", self.domain) as reader:
+            self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "29"), reader.lines)
+            self.assertEqual(reader.lines, [str(i) for i in range(30)])
+        for router in routers:
+            self.end(router)
+
+    def test_killed_and_started_again(self):
+        with self.router() as router, self.peer("keeper", "zenoh", self.domain, 120) as _, self.peer("late", "zenoh", self.domain) as first:
+            self.assertTrue(first.wait_for(lambda lines: len(lines) >= 20))
+            router.send(signal.SIGKILL)
+            router.process.wait(10)
+            time.sleep(1)
+            with self.peer("late", "zenoh", self.domain) as second:  # while there is none
+                time.sleep(3)
+                again = self.router()
+                for reader in (first, second):
+                    self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "119"), reader.lines[-3:])
+                with self.peer("late", "zenoh", self.domain) as third:  # after all
+                    self.assertTrue(third.wait_for(lambda lines: lines and lines[-1] == "119"), third.lines[-3:])
+                    time.sleep(1)
+                    self.assertEqual(third.lines, [str(i) for i in range(20, 120)])
+                self.assertEqual(first.lines, [str(i) for i in range(120)])
+                # it hears from the moment on when it is connected again, and what was kept then: a hundred
+                self.assertEqual(second.lines, [str(i) for i in range(int(second.lines[0]), 120)])
+                self.assertLessEqual(int(second.lines[0]), 20)
+                self.end(again)
+
+    def test_peers_that_also_reach_each_other_hear_all_once(self):
+        peers = functools.partial(peer_process.Peer, PEER, "--peers", f"tcp/127.0.0.1:{self.port}")
+        with self.router() as router, peers("keeper", "zenoh", self.domain, 80) as _, peers("late", "zenoh", self.domain) as reader:
+            self.assertTrue(reader.wait_for(lambda lines: len(lines) >= 20))
+            router.send(signal.SIGKILL)
+            self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "79"), reader.lines[-3:])
+            self.assertEqual(reader.lines, [str(i) for i in range(80)])
+
+    def test_a_port_that_is_taken_is_one_sentence(self):
+        router = self.router()
+        time.sleep(1)
+        result = subprocess.run([RDS, "router", "--listen", f"127.0.0.1:{self.port}"], capture_output=True, text=True, check=False, timeout=30)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.end(router)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -21,4 +21,12 @@ struct RigidAlignment {
 /// Source: Umeyama 1991, eqs. 40–43, with scale 1 (Horn's problem). Deviation: none.
 RigidAlignment align_rigid(std::span<const Eigen::Vector3d> source, std::span<const Eigen::Vector3d> target);
 
+/// The rigid transform whose rotation minimises Σ ‖R_target − R · R_source‖² (Frobenius), and which lays the
+/// positions' means on each other. Where a camera hardly leaves its place, its positions leave the rotation
+/// open, its orientations do not.
+///
+/// @return target_from_source. @throws std::invalid_argument if the counts differ or are 0.
+/// Source: Hartley et al. 2013, Rotation Averaging, §5.3 (chordal mean).
+Pose align_orientations(std::span<const Pose> source, std::span<const Pose> target);
+
 }  // namespace rds::geometry

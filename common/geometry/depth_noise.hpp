@@ -52,15 +52,16 @@ constexpr DepthNoise triangulating(std::string_view name, double disparity_sigma
   return {name, 0, disparity_sigma_px / (focal_length_px * baseline_m), 0, lateral_px};
 }
 
-/// PrimeSense's disparities: ½ of a step of ⅛ px at random, and the rounding to steps (step / √12).
+/// A Kinect's disparities, PrimeSense's: ½ of a step of ⅛ px at random, and the rounding to steps (step / √12).
 /// Source: Khoshelham & Elberink 2012, §4: f = 586 px, B = 75 mm, m/(f·B) = 2.85e-5 / cm, σ_d' = ½.
 inline constexpr double kPrimeSenseDisparityPx = 0.0722;
 
 /// The first is the default.
 inline constexpr std::array kDepthNoises{
-    // Nguyen, Izadi & Lovell 2012, eqs. 1 and 3, surfaces up to 60° aslant; with rounding.
-    DepthNoise{"kinect_v1", .0012, .0019, .4, .8},
-    // The Kinect's chip and baseline, by the equation above: 2 m .0066 (Nguyen .0061), 4 m .026 (.026).
+    // σ_L: Nguyen, Izadi & Lovell 2012, eq. 1. Their σ_z (eq. 3), .0012 + .0019 (z − .4)² m, is the same from
+    // 1 m on to an eighth.
+    triangulating("kinect_v1", kPrimeSenseDisparityPx, 586, .075, .8),
+    // The Kinect's chip and baseline.
     triangulating("xtion", kPrimeSenseDisparityPx, 586, .075, .8),
     // D435 at 848×480: Intel, "Best-known methods for tuning D400 depth cameras": RMS = z²·subpixel/(f·B),
     // .08 px on a textured surface. σ_L not published; it matches windows, too.

@@ -110,7 +110,6 @@ BENCHMARK(keyframe_insertion)->Unit(benchmark::kMicrosecond);
 LocalMappingJob job_of(Scene& s) {
   LocalMappingJob job = make_mapping_job(*s.map, s.newest);
   job.pyramid = s.pyramid;
-  job.depth = s.config.depth;
   return job;
 }
 

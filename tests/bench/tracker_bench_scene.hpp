@@ -96,7 +96,7 @@ struct Scene {
   TrackerConfig config;
   ScalePyramid pyramid{config.extraction.levels, config.extraction.scale_factor};
   image::RgbdFrame last, next;
-  ObservationModel model{next.camera, config.depth};
+  ObservationModel model{next.camera};
   std::shared_ptr<const ImagePyramid> last_images, next_images;
   std::unique_ptr<SlamMap> map;
   vision::PlaceIndex places;

@@ -18,9 +18,11 @@ ProcessResult run(const fs::path& dataset, const fs::path& out, const std::vecto
   return run_process(command, limit, environment);
 }
 
-nlohmann::json score(const fs::path& dataset, const fs::path& out, const fs::path& background) {
+nlohmann::json score(const fs::path& dataset, const fs::path& out, const fs::path& background,
+                     const std::vector<std::string>& arguments) {
   std::vector<std::string> command{rds(), "eval", dataset.string(), out.string(), "--json"};
   if (!background.empty()) command.insert(command.end(), {"--background", background.string()});
+  command.insert(command.end(), arguments.begin(), arguments.end());
   const ProcessResult result = run_process(command, std::chrono::seconds(120));
   if (result.status != 0) throw std::runtime_error("rds eval: " + result.standard_error);
   return nlohmann::json::parse(result.standard_output);

@@ -22,9 +22,10 @@ ProcessResult run(const std::filesystem::path& dataset, const std::filesystem::p
                   std::chrono::seconds limit = std::chrono::seconds(300),
                   const Process::Environment& environment = {});
 
-/// Figures of `rds eval DATASET OUT --json [--background DIR]`.
+/// Figures of `rds eval DATASET OUT --json [--background DIR] [ARGUMENTS]`.
 nlohmann::json score(const std::filesystem::path& dataset, const std::filesystem::path& out,
-                     const std::filesystem::path& background = {});
+                     const std::filesystem::path& background = {},
+                     const std::vector<std::string>& arguments = {});
 
 /// A number of a command's answer, which is JSON; 0 if there is none.
 std::uint64_t number_in(const std::string& answer, const char* key);

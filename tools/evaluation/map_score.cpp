@@ -137,7 +137,7 @@ tl::expected<std::vector<VoxelKey>, std::string> map_in_truth(const OctreeFile& 
                                                               const MapScoreInput& input,
                                                               const std::vector<StampedPose>& truth,
                                                               const std::vector<StampedPose>& keyframes) {
-  const auto errors = evaluate_trajectory(truth, keyframes);
+  const auto errors = evaluate_trajectory(truth, keyframes, {.align = input.align});
   const auto file = (input.out / "keyframes.txt").string();
   if (!errors)
     return tl::unexpected(

@@ -8,6 +8,8 @@
 
 #include <tl/expected.hpp>
 
+#include "tools/evaluation/trajectory_evaluation.hpp"
+
 namespace rds::evaluation {
 
 struct MapScoreInput {
@@ -16,6 +18,7 @@ struct MapScoreInput {
   std::filesystem::path out;         // map.ot, keyframes.txt
   int every = 5;                     // frames between two depth pictures that are looked at
   std::filesystem::path seen_by = {};  // results whose keyframes tell what can be in the map; empty: out's
+  Alignment align = Alignment::kPositions;
 };
 
 struct ResidueScore {

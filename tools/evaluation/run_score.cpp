@@ -98,7 +98,7 @@ Result add_boxes(const RunScoreInput& input, Figures& figures) {
 
 Result add_map(const RunScoreInput& input, Figures& figures) {
   if (!input.background || !std::filesystem::exists(input.out / "map.ot")) return {};
-  const auto score = score_map({input.dataset, *input.background, input.out, input.every});
+  const auto score = score_map({input.dataset, *input.background, input.out, input.every, {}, input.align});
   if (!score) return tl::unexpected(score.error());
   figures["map_nodes"] = score->nodes;
   figures["map_occupied"] = score->occupied;
@@ -120,7 +120,7 @@ Result add_objects(const RunScoreInput& input, Figures& figures) {
   if (!truth) return tl::unexpected(truth.error());
   const auto keyframes = geometry::read_trajectory(input.out / "keyframes.txt");
   if (!keyframes) return tl::unexpected(keyframes.error());
-  const auto errors = evaluate_trajectory(*truth, *keyframes);
+  const auto errors = evaluate_trajectory(*truth, *keyframes, {.align = input.align});
   if (!errors)
     return tl::unexpected(fmt::format("{}: expected at least 3 poses that match groundtruth.txt in time",
                                       (input.out / "keyframes.txt").string()));

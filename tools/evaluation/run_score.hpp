@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
+#include "tools/evaluation/trajectory_evaluation.hpp"
+
 namespace rds::evaluation {
 
 struct RunScoreInput {
@@ -16,6 +18,7 @@ struct RunScoreInput {
   std::optional<std::filesystem::path>
       background;  // the sequence without people: switches the map's figures on
   int every = 5;   // depth pictures between two that the map is compared with
+  Alignment align = Alignment::kPositions;  // of map and objects
 };
 
 /// The figures of a whole run against exact truth, by name: tracked, ate_live, ate_final [m],

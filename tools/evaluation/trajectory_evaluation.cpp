@@ -89,7 +89,9 @@ std::optional<TrajectoryErrors> evaluate_trajectory(std::span<const StampedPose>
     points.emplace_back(estimate[j].map_from_camera.translation());
   }
   const auto alignment = geometry::align_rigid(points, truth_points);
-  result.truth_from_estimate = alignment.target_from_source;
+  result.truth_from_estimate = options.align == Alignment::kOrientations
+                                   ? geometry::align_orientations(matched.estimate, matched.truth)
+                                   : alignment.target_from_source;
   result.similarity_scale = alignment.similarity_scale;
   for (std::size_t k = 0; k < points.size(); ++k)
     result.error_m.push_back((result.truth_from_estimate * points[k] - truth_points[k]).norm());

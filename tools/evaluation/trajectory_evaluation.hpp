@@ -12,9 +12,16 @@
 
 namespace rds::evaluation {
 
+/// By what an estimate is laid on the truth.
+enum class Alignment {
+  kPositions,     // as ATE asks
+  kOrientations,  // where the camera hardly leaves its place: align_orientations()
+};
+
 struct TrajectoryEvaluationOptions {
   double max_difference_s = 0.02;  // poses further apart in time are no pair
   double rpe_interval_s = 1.0;
+  Alignment align = Alignment::kPositions;
 };
 
 struct RelativeErrors {
@@ -26,7 +33,7 @@ struct RelativeErrors {
 /// Error of an estimated trajectory against the truth.
 struct TrajectoryErrors {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // indices into truth, estimate
-  ErrorStatistics absolute_m;                              // ATE after one rigid alignment
+  ErrorStatistics absolute_m;                              // after one rigid alignment: ATE
   std::vector<double> error_m;                             // of each pair
   geometry::Pose truth_from_estimate = geometry::Pose::Identity();
   double similarity_scale = 1;  // reported, never applied

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,10 @@ namespace {
 using evaluation::ErrorStatistics;
 using evaluation::TrajectoryErrors;
 using nlohmann::ordered_json;
+
+const std::map<std::string, evaluation::Alignment> kAlignments{
+    {"positions", evaluation::Alignment::kPositions},
+    {"orientations", evaluation::Alignment::kOrientations}};
 
 struct EvalOptions {
   std::string truth;
@@ -84,8 +89,8 @@ void evaluate_files(const EvalOptions& options) {
 void evaluate_run(const EvalOptions& options) {
   std::optional<std::filesystem::path> background;
   if (!options.background.empty()) background = options.background;
-  const auto figures =
-      value_or_exit(evaluation::score_run({options.truth, options.estimate, background, options.every}));
+  const auto figures = value_or_exit(evaluation::score_run(
+      {options.truth, options.estimate, background, options.every, options.trajectory.align}));
   if (options.json)
     fmt::print("{}\n", figures.dump());
   else
@@ -105,6 +110,12 @@ void add_eval_command(CLI::App& rds) {
   command->add_option("--every", options->every, "Depth pictures between two that the map is compared with")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command
+      ->add_option("--align", options->trajectory.align,
+                   "What lays map and objects, or a trajectory, on the truth; orientations where the camera "
+                   "hardly leaves its place")
+      ->transform(CLI::CheckedTransformer(kAlignments))
+      ->default_str("positions");
   command
       ->add_option("--max-diff", options->trajectory.max_difference_s, "Poses further apart are no pair [s]")
       ->check(CLI::Range(0.0, 10.0))

@@ -69,7 +69,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   picture.camera = calibration_.calibrated(given.camera);
   const std::int64_t started_us = ports_.now_us();
   TrackingContext context{
-      mapper_.map(), localizer_.settings(), picture, ObservationModel(picture.camera, config_.depth), {}, {}};
+      mapper_.map(), localizer_.settings(), picture, ObservationModel(picture.camera), {}, {}};
   prepare(given, regions, context);
   PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
   TrackedFrame& frame = estimate.frame;

@@ -19,8 +19,8 @@ struct ReturnScore {
   }
 };
 
-/// @param keyframes  with their final poses in any frame, ascending in time; those whose stamps the truth does
-/// not reach are left out. @param truth  ascending in time.
+/// @param keyframes  with their final poses in any frame, ascending in time; those whose stamps the truth
+/// does not reach are left out. @param truth  ascending in time.
 ReturnScore score_returns(std::span<const geometry::StampedPose> keyframes,
                           std::span<const geometry::StampedPose> truth);
 

@@ -74,7 +74,7 @@ Result<tracker::MergedMap> merge_tracked(const Source& earlier, const Source& la
   if (!first) return tl::unexpected(first.error());
   const auto second = tracked_map(later, *extraction);
   if (!second) return tl::unexpected(second.error());
-  auto merged = tracker::merge_maps(*first, *second, tracker::DepthConfig());
+  auto merged = tracker::merge_maps(*first, *second);
   if (!merged) return not_merged(earlier, later, merged.error());
   const auto poses = tracker::keyframe_poses(merged->saved.map);
   merge.sections[map_file::kKeyframePoses] = map_file::to_bytes(poses);

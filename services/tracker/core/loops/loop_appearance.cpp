@@ -15,8 +15,8 @@ namespace {
 constexpr float kNearPx = 12;         // from a point to the measurements that it is compared with
 constexpr double kSlackShare = 0.05;  // of the depth, between neighbours on a slanted surface
 constexpr int kFewest = 40;           // points that say something
-// The share of points that look as they did is .76 … .92 in the same place, seen from far less; in rooms of the
-// same shape and furniture, with other pictures on the walls, .41 … .78. Logistic between the two.
+// The share of points that look as they did is .76 … .92 in the same place, seen from far less; in rooms of
+// the same shape and furniture, with other pictures on the walls, .41 … .78. Logistic between the two.
 constexpr double kEvenShare = 0.72;
 constexpr double kSharePerNat = 0.04;
 
@@ -46,7 +46,7 @@ bool has_picture(const SlamMap& map, const MapPoint& point) {
 double SeenAgain::log_odds() const { return expected < kFewest ? 0 : (share() - kEvenShare) / kSharePerNat; }
 
 SeenAgain see_again(const SlamMap& map, std::span<const PointId> points, const Keyframe& keyframe,
-                    const Pose& camera_from_map, const DepthConfig& depth) {
+                    const Pose& camera_from_map) {
   if (!keyframe.images) return {};
   std::vector<PointId> measured;
   std::ranges::copy_if(points, std::back_inserter(measured), [&](PointId id) {
@@ -56,7 +56,7 @@ SeenAgain see_again(const SlamMap& map, std::span<const PointId> points, const K
   });
   image::RgbdFrame picture;
   picture.camera = keyframe.features->camera();
-  const ObservationModel model(picture.camera, depth);
+  const ObservationModel model(picture.camera);
   PointSearch search(map, measured, {picture, *keyframe.images, camera_from_map, keyframe.motion}, model,
                      map.pyramid(), std::numeric_limits<int>::max());
   const FollowedPoints followed = search.find({});

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/map/slam_map.hpp"
 
 namespace rds::tracker {
@@ -14,8 +13,8 @@ struct SeenAgain {
   int alike = 0;  // whose surroundings look there as in the keyframes that saw them
 
   [[nodiscard]] double share() const { return expected > 0 ? static_cast<double>(alike) / expected : 0; }
-  /// Log-odds that the place is the same one and not one that looks alike; 0 where too few points are expected,
-  /// as in a saved map.
+  /// Log-odds that the place is the same one and not one that looks alike; 0 where too few points are
+  /// expected, as in a saved map.
   [[nodiscard]] double log_odds() const;
   void operator+=(const SeenAgain& other) {
     expected += other.expected;
@@ -29,6 +28,6 @@ struct SeenAgain {
 /// @param points  of the place. @param camera_from_map  the keyframe's pose there.
 /// Points without a kept picture, as in a saved map, are not expected, and none is in a keyframe without one.
 SeenAgain see_again(const SlamMap& map, std::span<const PointId> points, const Keyframe& keyframe,
-                    const Pose& camera_from_map, const DepthConfig& depth);
+                    const Pose& camera_from_map);
 
 }  // namespace rds::tracker

@@ -76,12 +76,11 @@ bool is_known(const SlamMap& map, const LoopMatch& loop) {
 
 /// The pose of the keyframe at the later side's centre by the earlier side's points that show in it.
 /// @return camera_from_map; nullopt if too few of them do.
-std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side& earlier, const Side& later,
-                          const DepthConfig& depth) {
+std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side& earlier, const Side& later) {
   const Keyframe& centre = *map.keyframe(later.centre);
   const Pose measured = map.pose_of(loop.earlier) * loop.earlier_from_later *
                         map.pose_of(loop.later).inverse() * centre.map_from_camera;
-  const View view{centre, measured.inverse(), ObservationModel(centre.features->camera(), depth)};
+  const View view{centre, measured.inverse(), ObservationModel(centre.features->camera())};
   std::vector<PointObservation> observations;
   std::vector<bool> taken(centre.points.size());
   for (const PointId id : earlier.points) {
@@ -99,14 +98,14 @@ std::optional<Pose> align(const SlamMap& map, const LoopMatch& loop, const Side&
 /// Fuses points of one side into the keyframes of the other.
 class Fusion {
  public:
-  Fusion(SlamMap& map, const DepthConfig& depth) : map_(map), depth_(depth) {}
+  explicit Fusion(SlamMap& map) : map_(map) {}
 
   /// @param here_from_there  moves points of `from` to where the keyframes of `into` should see them.
   void fuse(const Side& from, const Side& into, const Pose& here_from_there) {
     for (const KeyframeId id : into.keyframes) {
       const Keyframe& keyframe = *std::as_const(map_).keyframe(id);
       const View view{keyframe, keyframe.map_from_camera.inverse(),
-                      ObservationModel(keyframe.features->camera(), depth_)};
+                      ObservationModel(keyframe.features->camera())};
       for (const PointId p : from.points) fuse(p, view, here_from_there);
     }
   }
@@ -147,13 +146,12 @@ class Fusion {
   }
 
   SlamMap& map_;
-  DepthConfig depth_;
   ReplacedPoints replaced_;
 };
 
 }  // namespace
 
-bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthConfig& depth) {
+bool confirms(const SlamMap& map, std::span<const LoopMatch> loops) {
   const LoopMatch* aligned = nullptr;
   SeenAgain again;
   for (const LoopMatch& loop : loops) {
@@ -161,26 +159,26 @@ bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthC
     const Side earlier = side_of(map, loop.earlier);
     const Side later = side_of(map, loop.later);
     if (share_points(earlier, later)) return true;
-    const auto camera_from_map = align(map, loop, earlier, later, depth);
+    const auto camera_from_map = align(map, loop, earlier, later);
     if (!camera_from_map) continue;
     aligned = &loop;
-    again += see_again(map, earlier.points, *map.keyframe(later.centre), *camera_from_map, depth);
+    again += see_again(map, earlier.points, *map.keyframe(later.centre), *camera_from_map);
   }
   if (aligned == nullptr) return false;
   const auto drift = drift_of(map, *aligned);
   return again.log_odds() + (drift ? drift->log_odds() : 0) >= 0;
 }
 
-std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, const DepthConfig& depth) {
+std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop) {
   if (!is_known(map, loop)) return std::nullopt;
   const Side earlier = side_of(map, loop.earlier);
   const Side later = side_of(map, loop.later);
   if (share_points(earlier, later)) return std::nullopt;
-  const auto camera_from_map = align(map, loop, earlier, later, depth);
+  const auto camera_from_map = align(map, loop, earlier, later);
   if (!camera_from_map) return std::nullopt;
   const Pose map_from_later = std::as_const(map).keyframe(later.centre)->map_from_camera;
   const Pose later_from_earlier = map_from_later * *camera_from_map;
-  Fusion fusion(map, depth);
+  Fusion fusion(map);
   fusion.fuse(earlier, later, later_from_earlier);
   fusion.fuse(later, earlier, later_from_earlier.inverse());
   for (const KeyframeId id : later.keyframes) update_covisibility(map, id);

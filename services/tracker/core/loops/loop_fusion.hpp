@@ -5,7 +5,6 @@
 #include <span>
 
 #include "common/geometry/loop_match.hpp"
-#include "services/tracker/core/config/tracker_config.hpp"
 #include "services/tracker/core/map/slam_map.hpp"
 
 namespace rds::tracker {
@@ -17,11 +16,11 @@ using ReplacedPoints = std::map<PointId, PointId>;
 
 /// Whether the map confirms that these keyframes show one place.
 ///
-/// Points of an earlier keyframe and its neighbours are searched in the later one, placed as was measured, and
-/// must agree with its features in position and depth. Then how the points of all matches look there, and how
-/// far the map would have drifted, are weighed together: the sum of their log-odds must not be negative. True,
-/// too, where two keyframes share points already.
-bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthConfig& depth);
+/// Points of an earlier keyframe and its neighbours are searched in the later one, placed as was measured,
+/// and must agree with its features in position and depth. Then how the points of all matches look there, and
+/// how far the map would have drifted, are weighed together: the sum of their log-odds must not be negative.
+/// True, too, where two keyframes share points already.
+bool confirms(const SlamMap& map, std::span<const LoopMatch> loops);
 
 /// Joins the two sides of a loop: what both see becomes one point, and their keyframes covisible.
 ///
@@ -31,6 +30,6 @@ bool confirms(const SlamMap& map, std::span<const LoopMatch> loops, const DepthC
 /// @return the points that were replaced; nullopt if the map does not confirm the loop, or shares points
 /// there already: then nothing has changed.
 /// Source: Mur-Artal et al. 2015, §VII-C. Deviation: the sides' alignment comes from the map's points.
-std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop, const DepthConfig& depth);
+std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop);
 
 }  // namespace rds::tracker

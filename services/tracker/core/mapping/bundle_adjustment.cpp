@@ -129,7 +129,7 @@ class Bundle {
   explicit Bundle(MappingScene& scene) : scene_(scene) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
-      models_.emplace_back(known_camera(k, scene.job()), scene.job().depth);
+      models_.emplace_back(known_camera(k, scene.job()));
     }
   }
 

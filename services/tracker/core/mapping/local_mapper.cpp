@@ -98,7 +98,6 @@ LocalMappingJob LocalMapper::prepared(LocalMappingJob&& job, const SelfCalibrati
   job.focal_scale = calibration.focal_scale();
   job.given_fx = calibration.given_fx();
   job.pyramid = settings_.pyramid;
-  job.depth = settings_.depth;
   return job;
 }
 
@@ -119,7 +118,7 @@ bool LocalMapper::is_mostly_static(KeyframeId id) const {
 
 std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose> corrected,
                                                    std::span<const LoopMatch> loops) {
-  if (!loops.empty() && !confirms(map_, loops, settings_.depth)) return std::nullopt;
+  if (!loops.empty() && !confirms(map_, loops)) return std::nullopt;
   apply_correction(map_, corrected);
   ++revision_;
   return join(loops);
@@ -128,7 +127,7 @@ std::optional<ReplacedPoints> LocalMapper::correct(std::span<const KeyframePose>
 ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
   ReplacedPoints replaced;
   for (const LoopMatch& loop : loops) {
-    auto by_loop = join_loop(map_, loop, settings_.depth);
+    auto by_loop = join_loop(map_, loop);
     if (!by_loop) continue;
     adjustment_is_due_ = true;
     replaced.merge(*by_loop);
@@ -138,7 +137,7 @@ ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
 
 std::optional<ReplacedPoints> LocalMapper::join(const SubmapMove& move,
                                                 std::span<const LoopMatch> sightings) {
-  if (!confirms(map_, sightings, settings_.depth) || !fits(map_, move)) return std::nullopt;
+  if (!confirms(map_, sightings) || !fits(map_, move)) return std::nullopt;
   move_submap(map_, move);
   ++revision_;
   return join(sightings);

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "services/tracker/core/calibration/self_calibration.hpp"
+#include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/map/map_checkpoint.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
-#include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 #include "services/tracker/core/removal/depth_grid.hpp"

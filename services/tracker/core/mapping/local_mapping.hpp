@@ -33,7 +33,6 @@ struct LocalMappingJob {
   double focal_scale = 1;                  // the same, on the focal length it was given with
   double given_fx = 0;                     // px, of the camera that these two are about
   ScalePyramid pyramid{1, 1};
-  DepthConfig depth;
 };
 
 /// What local mapping found out.

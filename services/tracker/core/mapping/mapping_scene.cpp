@@ -75,7 +75,7 @@ namespace {
 void search_point(MappingScene& scene, std::size_t point, std::size_t keyframe, LocalMappingResult& result) {
   const LocalMappingJob& job = scene.job();
   const MappingKeyframe& view = job.keyframes[keyframe];
-  const ObservationModel model(view.features->camera(), job.depth);
+  const ObservationModel model(view.features->camera());
   const MapPoint& p = job.points[point];
   const auto projected = project_point(p, view.map_from_camera.inverse(), view.map_from_camera.translation(),
                                        *view.features, model, job.pyramid);

@@ -35,7 +35,7 @@ Sightings find_later_in_earlier(SlamMap& map, const SlamMap& earlier, const Pose
 }
 
 tl::expected<LoopMatch, std::string> choose_joint(const SlamMap& map, const Sightings& found,
-                                                  std::size_t searched, const DepthConfig& depth) {
+                                                  std::size_t searched) {
   std::vector<std::size_t> agreeing = agreements(map, found);
   bool is_contradicted = false;
   while (!agreeing.empty()) {
@@ -43,7 +43,7 @@ tl::expected<LoopMatch, std::string> choose_joint(const SlamMap& map, const Sigh
     if (*best < kAgreeingSightings) break;
     const LoopMatch& match = found[static_cast<std::size_t>(best - agreeing.begin())].match;
     const bool is_confirmed = std::ranges::any_of(found, [&](const FoundKeyframe& f) {
-      return agree(map, match, f.match) && confirms(map, std::span(&f.match, 1), depth);
+      return agree(map, match, f.match) && confirms(map, std::span(&f.match, 1));
     });
     if (is_confirmed && fits(map, move_of(map, match))) return match;
     is_contradicted = true;

@@ -22,6 +22,6 @@ Sightings find_later_in_earlier(SlamMap& map, const SlamMap& earlier, const Pose
 /// The sighting that most others agree with, of those that points confirm and nothing contradicts.
 /// @param searched  keyframes. @return or why there is none, in words that can follow "B ".
 tl::expected<LoopMatch, std::string> choose_joint(const SlamMap& map, const Sightings& found,
-                                                  std::size_t searched, const DepthConfig& depth);
+                                                  std::size_t searched);
 
 }  // namespace rds::tracker

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/loops/loop_fusion.hpp"
+#include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/merging/common_place.hpp"
 #include "services/tracker/core/merging/map_union.hpp"
@@ -46,27 +46,25 @@ bool is_in_place(const SlamMap& map, const LoopMatch& match) {
   return are_one(map.pose_of(match.later), placed_by(map, match));
 }
 
-void adjust(SlamMap& map, const SavedMap& earlier, const DepthConfig& depth) {
+void adjust(SlamMap& map, const SavedMap& earlier) {
   LocalMappingJob job = make_global_job(map);
   job.focal_scale = earlier.camera.focal_scale;
   job.given_fx = earlier.camera.given_fx;
   job.pyramid = map.pyramid();
-  job.depth = depth;
   if (const auto result = run_global_adjustment(job)) apply_global_adjustment(map, *result);
 }
 
 /// Fuses what both maps see, and adjusts, until no sighting more agrees. @return the points that were fused.
-std::size_t fuse_and_adjust(SlamMap& map, const SavedMap& earlier, Sightings sightings,
-                            const DepthConfig& depth) {
+std::size_t fuse_and_adjust(SlamMap& map, const SavedMap& earlier, Sightings sightings) {
   std::size_t fused = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto agreeing = std::ranges::stable_partition(
         sightings, [&](const FoundKeyframe& f) { return !is_in_place(map, f.match); });
     if (agreeing.empty()) break;
     for (const FoundKeyframe& f : agreeing)
-      if (const auto replaced = join_loop(map, f.match, depth)) fused += replaced->size();
+      if (const auto replaced = join_loop(map, f.match)) fused += replaced->size();
     sightings.erase(agreeing.begin(), agreeing.end());
-    adjust(map, earlier, depth);
+    adjust(map, earlier);
   }
   return fused;
 }
@@ -96,8 +94,7 @@ void measure(const SlamMap& map, const Sightings& found, MapJoint& joint) {
 
 }  // namespace
 
-tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const SavedMap& later,
-                                                const DepthConfig& depth) {
+tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const SavedMap& later) {
   const Keyframe* first = first_keyframe(earlier.map);
   const Keyframe* other = first_keyframe(later.map);
   if (first == nullptr || other == nullptr)
@@ -110,15 +107,15 @@ tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const S
   SlamMap& map = merged.saved.map;
   MapJoint& joint = merged.joint;
 
-  const PoseSettings settings{map.pyramid(), depth};
+  const PoseSettings settings{map.pyramid(), {}};
   const Sightings found = find_later_in_earlier(map, earlier.map, settings, merged.first_of_later);
   joint.searched = later.map.keyframes().size();
   joint.found = found.size();
-  const auto chosen = choose_joint(map, found, joint.searched, depth);
+  const auto chosen = choose_joint(map, found, joint.searched);
   if (!chosen) return tl::unexpected(chosen.error());
   const Pose before = map.pose_of(chosen->later);
   move_submap(map, move_of(map, *chosen));
-  joint.fused = fuse_and_adjust(map, earlier, found, depth);
+  joint.fused = fuse_and_adjust(map, earlier, found);
   joint.earlier_from_later = map.pose_of(chosen->later) * before.inverse();
   measure(map, found, joint);
   std::as_const(later.map).keyframes().for_each([&](const Keyframe& k) {

@@ -45,7 +45,6 @@ struct MergedMap {
 /// enough in common.
 /// Source: Campos et al. 2021 (ORB-SLAM3), §VI-B. Deviation: all sightings are there at once, so the largest
 /// set that agrees is taken, not the first.
-tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const SavedMap& later,
-                                                const DepthConfig& depth);
+tl::expected<MergedMap, std::string> merge_maps(const SavedMap& earlier, const SavedMap& later);
 
 }  // namespace rds::tracker

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-
 #include <Eigen/Core>
 
 #include "common/geometry/camera_model.hpp"
@@ -31,25 +29,18 @@ struct Measurement {
 /// z.
 ///
 /// Comparing disparities instead of depths gives depth noise that grows with z² a constant size.
-/// Source: Mur-Artal & Tardós 2017, §III-A. Deviation: the disparity has a standard deviation of its own
-/// (disparity_sigma_px()), for a depth sensor measures much better than a matched stereo pair.
+/// Source: Mur-Artal & Tardós 2017, §III-A. Deviation: the disparity has a standard deviation of its own,
+/// for a depth sensor measures much better than a matched stereo pair.
 class ObservationModel {
  public:
-  ObservationModel(const geometry::CameraModel& camera, const DepthConfig& depth)
+  explicit ObservationModel(const geometry::CameraModel& camera)
       : fx_(camera.fx),
         fy_(camera.fy),
         cx_(camera.cx),
         cy_(camera.cy),
-        fx_baseline_(camera.fx * kBaselineM),
-        noise_(depth.noise) {}
+        fx_baseline_(camera.fx * kBaselineM) {}
 
   [[nodiscard]] double disparity(double depth_m) const { return fx_baseline_ / depth_m; }
-
-  /// The sensor's, σ_d = f·b·σ_z / z², or, if that is more, of where it measures.
-  [[nodiscard]] double disparity_sigma_px(double depth_m) const {
-    const double by_noise = fx_baseline_ * noise_.sigma_m(depth_m) / (depth_m * depth_m);
-    return std::max(by_noise, kCornerPx);
-  }
 
   [[nodiscard]] Measurement measurement(const Feature& feature, const ScalePyramid& pyramid) const {
     Measurement m;
@@ -57,7 +48,7 @@ class ObservationModel {
     m.px_weight = 1 / pyramid.scale(feature.level);
     if (feature.depth_m > 0) {
       m.disparity_px = disparity(static_cast<double>(feature.depth_m));
-      m.disparity_weight = 1 / disparity_sigma_px(static_cast<double>(feature.depth_m));
+      m.disparity_weight = 1 / kDisparitySigmaPx;
     }
     return m;
   }
@@ -97,13 +88,13 @@ class ObservationModel {
   }
 
  private:
-  // Corners lie at rims, where depth is of either side, and it lies beside colour by about a pixel.
-  static constexpr double kCornerPx = 0.6;
+  // Corners lie at rims, where depth is of either side, and it lies beside colour by about a pixel. The
+  // sensor's own part, f·b·σ_z / z², is less for every camera beyond .3 m (docs/decisions/depth-noise.md).
+  static constexpr double kDisparitySigmaPx = 0.6;
   static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
 
   double fx_, fy_, cx_, cy_;
   double fx_baseline_;
-  geometry::DepthNoise noise_;
 };
 
 }  // namespace rds::tracker

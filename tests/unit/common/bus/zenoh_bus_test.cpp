@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "common/bus/zenoh/wire/zenoh_attachment.hpp"
-#include "common/bus/zenoh/zenoh_library.hpp"
 #include "common/bus/zenoh/wire/zenoh_names.hpp"
+#include "common/bus/zenoh/zenoh_library.hpp"
 #include "common/bus/zenoh/zenoh_settings.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"

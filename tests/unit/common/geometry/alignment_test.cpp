@@ -58,5 +58,29 @@ TEST(AlignRigid, RefusesUnequalCounts) {
   EXPECT_THROW(align_rigid({}, {}), std::invalid_argument);
 }
 
+/// A camera that turns in its place, and is measured 4 mm off here and there.
+TEST(AlignOrientations, IsSureWhereTheCameraHardlyMoves) {
+  std::vector<Pose> source;
+  std::vector<Pose> target;
+  std::vector<Eigen::Vector3d> source_points;
+  std::vector<Eigen::Vector3d> target_points;
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d place = 0.01 * Eigen::Vector3d(std::sin(i), std::cos(i), std::sin(2 * i));
+    const Eigen::AngleAxisd turn(0.02 * i, Eigen::Vector3d::UnitY());
+    source.push_back(make_pose(place, Eigen::Quaterniond(turn)));
+    target.push_back(some_pose() * source.back());
+    target.back().translation() += 0.004 * Eigen::Vector3d(std::cos(0.3 * i), std::sin(0.2 * i), std::cos(i));
+    source_points.emplace_back(source.back().translation());
+    target_points.emplace_back(target.back().translation());
+  }
+  const auto off_rad = [](const Pose& found) {
+    return Eigen::AngleAxisd(found.linear().transpose() * some_pose().linear()).angle();
+  };
+  EXPECT_LT(off_rad(align_orientations(source, target)), 1e-9);
+  EXPECT_GT(off_rad(align_rigid(source_points, target_points).target_from_source), 0.01);
+  EXPECT_LT((align_orientations(source, target).translation() - some_pose().translation()).norm(), 0.004);
+  EXPECT_THROW(align_orientations(source, {}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace rds::geometry

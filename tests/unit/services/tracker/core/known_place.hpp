@@ -30,7 +30,7 @@ class KnownPlace {
   }
 
   TrackingContext context() {
-    return {map, settings, picture, ObservationModel(picture.camera, settings.depth), {}, {}};
+    return {map, settings, picture, ObservationModel(picture.camera), {}, {}};
   }
 
   std::mt19937 random{3};

@@ -22,7 +22,7 @@ class LoopAppearance : public testing::Test {
   [[nodiscard]] SeenAgain look(const Pose& move, const SlamMap& map) const {
     std::vector<PointId> points;
     map.points().for_each([&](const MapPoint& p) { points.push_back(p.id); });
-    return see_again(map, points, newest_, newest_.map_from_camera.inverse() * move, {});
+    return see_again(map, points, newest_, newest_.map_from_camera.inverse() * move);
   }
   /// Other pictures hang on the wall's left part.
   void paint(double share) {

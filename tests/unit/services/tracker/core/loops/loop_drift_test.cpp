@@ -11,8 +11,8 @@
 namespace rds::tracker {
 namespace {
 
-/// Keyframes 1 m apart around a square of 4 m, each covisible with the one before it; the last one, number 15,
-/// is 1 m from the first.
+/// Keyframes 1 m apart around a square of 4 m, each covisible with the one before it; the last one, number
+/// 15, is 1 m from the first.
 class LoopDriftTest : public testing::Test {
  protected:
   LoopDriftTest() {
@@ -20,7 +20,8 @@ class LoopDriftTest : public testing::Test {
     for (int k = 0; k < 16; ++k) {
       const auto side = static_cast<std::size_t>(k / 4);
       const double along = k % 4;
-      const std::array<Eigen::Vector3d, 4> places{{{along, 0, 0}, {4, 0, along}, {4 - along, 0, 4}, {0, 0, 4 - along}}};
+      const std::array<Eigen::Vector3d, 4> places{
+          {{along, 0, 0}, {4, 0, along}, {4 - along, 0, 4}, {0, 0, 4 - along}}};
       const KeyframeId id =
           map_.add_keyframe(k, Pose(Eigen::Translation3d(places.at(side))), features).id;
       if (k > 0) join(id - 1, id);

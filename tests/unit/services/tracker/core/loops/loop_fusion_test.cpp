@@ -19,7 +19,7 @@ class LoopFusion : public ::testing::Test {
 
 TEST_F(LoopFusion, WhatBothSidesSeeBecomesOnePoint) {
   const std::size_t before = laps.map.points().size();
-  const auto replaced = join_loop(laps.map, TwoLaps::loop(), {});
+  const auto replaced = join_loop(laps.map, TwoLaps::loop());
   ASSERT_TRUE(replaced);
   EXPECT_EQ(laps.map.points().size(), before - replaced->size());
   std::size_t twice = 0;
@@ -36,7 +36,7 @@ TEST_F(LoopFusion, WhatBothSidesSeeBecomesOnePoint) {
 
 TEST_F(LoopFusion, TheLocalMapSeesBothSides) {
   ASSERT_EQ(laps.shared(9, 4), 0);
-  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop(), {}));
+  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop()));
   EXPECT_GT(laps.shared(9, 4), 100);
   EXPECT_GT(laps.shared(5, 0), 100);
   const LocalMap local = select_local_map(laps.map, laps.map.keyframe(9)->points, 1);
@@ -44,14 +44,14 @@ TEST_F(LoopFusion, TheLocalMapSeesBothSides) {
 }
 
 TEST_F(LoopFusion, AMeasurementThatIsOffByItsNoiseIsGoodEnough) {
-  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop(test::pose(0.006, 0.004, -0.005, 0.003)), {}));
+  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop(test::pose(0.006, 0.004, -0.005, 0.003))));
   EXPECT_GT(laps.shared(9, 4), 100);
 }
 
 TEST_F(LoopFusion, AnotherPlaceIsNotJoined) {
   const std::size_t before = laps.map.points().size();
-  EXPECT_FALSE(join_loop(laps.map, TwoLaps::loop(test::pose(0.4, 0.1, 0, 0.2)), {}));
-  EXPECT_FALSE(join_loop(laps.map, {1000, 3, Pose::Identity()}, {}));
+  EXPECT_FALSE(join_loop(laps.map, TwoLaps::loop(test::pose(0.4, 0.1, 0, 0.2))));
+  EXPECT_FALSE(join_loop(laps.map, {1000, 3, Pose::Identity()}));
   EXPECT_EQ(laps.map.points().size(), before);
   EXPECT_EQ(laps.shared(9, 4), 0);
 }
@@ -59,15 +59,40 @@ TEST_F(LoopFusion, AnotherPlaceIsNotJoined) {
 TEST_F(LoopFusion, AKeyframeThatWasCulledStandsForItsAnchor) {
   laps.map.cull_keyframe(3);
   laps.map.cull_keyframe(9);
-  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop(), {}));
+  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop()));
   EXPECT_GT(laps.shared(8, 4), 100);
 }
 
 TEST_F(LoopFusion, JoinsOnceAndNotAgain) {
-  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop(), {}));
+  ASSERT_TRUE(join_loop(laps.map, TwoLaps::loop()));
   const std::size_t after = laps.map.points().size();
-  join_loop(laps.map, TwoLaps::loop(), {});
+  join_loop(laps.map, TwoLaps::loop());
   EXPECT_EQ(laps.map.points().size(), after);
+}
+
+/// The second lap goes on from the first: keyframes 4 and 5 are covisible.
+void go_on(TwoLaps& laps) {
+  laps.map.keyframe(4)->covisible.push_back({5, 20});
+  laps.map.keyframe(5)->covisible.push_back({4, 20});
+}
+
+TEST(LoopConfirmation, ASmallDriftIsConfirmed) {
+  TwoLaps laps(test::pose(0.1, 0.05, 0, 0.02));
+  go_on(laps);
+  EXPECT_TRUE(confirms(laps.map, std::vector{TwoLaps::loop()}));
+}
+
+TEST(LoopConfirmation, WhatTheMapCannotHaveDriftedIsRefusedWhereLooksSayNothing) {
+  TwoLaps laps(test::pose(5, 0, 0));
+  EXPECT_TRUE(confirms(laps.map, std::vector{TwoLaps::loop()})) << "nothing joins the laps, as with submaps";
+  go_on(laps);
+  EXPECT_FALSE(confirms(laps.map, std::vector{TwoLaps::loop()}));
+}
+
+TEST(LoopConfirmation, WhatTheMapDoesNotKnowOrShowIsRefused) {
+  const TwoLaps laps(test::pose(0.1, 0.05, 0, 0.02));
+  EXPECT_FALSE(confirms(laps.map, std::vector<LoopMatch>{{1000, 3, Pose::Identity()}}));
+  EXPECT_FALSE(confirms(laps.map, std::vector{TwoLaps::loop(test::pose(0.4, 0.1, 0, 0.2))}));
 }
 
 }  // namespace

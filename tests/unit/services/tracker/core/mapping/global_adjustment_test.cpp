@@ -14,7 +14,7 @@ using test::TwoLaps;
 
 class GlobalAdjustment : public ::testing::Test {
  protected:
-  GlobalAdjustment() { join_loop(laps.map, TwoLaps::loop(), {}); }
+  GlobalAdjustment() { join_loop(laps.map, TwoLaps::loop()); }
 
   [[nodiscard]] LocalMappingJob job() const {
     LocalMappingJob made = make_global_job(laps.map);

@@ -80,7 +80,7 @@ class MapMerging : public ::testing::Test {
 };
 
 TEST_F(MapMerging, TheLaterMapGoesToItsPlaceInTheFrameOfTheEarlierOne) {
-  const auto merged = merge_maps(maps->earlier, maps->later, {});
+  const auto merged = merge_maps(maps->earlier, maps->later);
   ASSERT_TRUE(merged) << merged.error();
   const MapJoint& joint = merged->joint;
   EXPECT_EQ(joint.searched, maps->later.map.keyframes().size());
@@ -106,7 +106,7 @@ TEST_F(MapMerging, TheLaterMapGoesToItsPlaceInTheFrameOfTheEarlierOne) {
 TEST_F(MapMerging, NeitherMapIsChangedAndTheEarlierKeyframesStay) {
   const auto before = keyframe_poses(maps->earlier.map);
   const auto of_later = keyframe_poses(maps->later.map);
-  const auto merged = merge_maps(maps->earlier, maps->later, {});
+  const auto merged = merge_maps(maps->earlier, maps->later);
   ASSERT_TRUE(merged) << merged.error();
   const auto poses = keyframe_poses(merged->saved.map);
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -120,8 +120,8 @@ TEST_F(MapMerging, NeitherMapIsChangedAndTheEarlierKeyframesStay) {
 }
 
 TEST_F(MapMerging, TheSameMapsGiveTheSameBytesAndAreTrackedInFromEitherEnd) {
-  const auto once = merge_maps(maps->earlier, maps->later, {});
-  const auto again = merge_maps(maps->earlier, maps->later, {});
+  const auto once = merge_maps(maps->earlier, maps->later);
+  const auto again = merge_maps(maps->earlier, maps->later);
   ASSERT_TRUE(once && again);
   const auto extraction = small_config().extraction;
   EXPECT_EQ(to_bytes(once->saved.map, once->saved.camera, extraction),
@@ -159,20 +159,20 @@ TEST_F(MapMerging, ALaterMapThatHasDriftedIsJoinedAllTheWay) {
   const Pose map_from_wall = way.at(0).inverse();
   ASSERT_GT(worst_error_m(later.map, way, map_from_wall, 0, kNoId), 0.12);
 
-  const auto merged = merge_maps(earlier, later, {});
+  const auto merged = merge_maps(earlier, later);
   ASSERT_TRUE(merged) << merged.error();
   EXPECT_LT(worst_error_m(merged->saved.map, way, map_from_wall, merged->first_of_later, kNoId), 0.04);
   EXPECT_GE(merged->joint.agreeing, merged->joint.found * 9 / 10);
 }
 
 TEST_F(MapMerging, MapsWithoutACommonPlaceAreRefused) {
-  const auto merged = merge_maps(maps->earlier, map_of({0, 0.4, 2.6}), {});
+  const auto merged = merge_maps(maps->earlier, map_of({0, 0.4, 2.6}));
   ASSERT_FALSE(merged);
   EXPECT_THAT(merged.error(), HasSubstr("keyframes were found, expected 3 that agree"));
 }
 
 TEST_F(MapMerging, WhatLiesInOnePlaneJoinsNothing) {
-  const auto merged = merge_maps(map_of({0, 0.4, 0, 0}), map_of({0.2, 0.6, 0, 0}), {});
+  const auto merged = merge_maps(map_of({0, 0.4, 0, 0}), map_of({0.2, 0.6, 0, 0}));
   ASSERT_FALSE(merged);
   EXPECT_THAT(merged.error(), HasSubstr("0 of its"));
 }
@@ -180,7 +180,7 @@ TEST_F(MapMerging, WhatLiesInOnePlaneJoinsNothing) {
 TEST_F(MapMerging, MapsOfCamerasThatDoNotFitAreRefused) {
   geometry::CameraModel tele = small_camera();
   tele.fx = tele.fy = 400;
-  const auto merged = merge_maps(maps->earlier, map_of({0, 0.2, 0, kReliefM, tele}), {});
+  const auto merged = merge_maps(maps->earlier, map_of({0, 0.2, 0, kReliefM, tele}));
   ASSERT_FALSE(merged);
   EXPECT_THAT(merged.error(), HasSubstr("focal length of 400.0 px, expected 320x240 and 300.0"));
 }

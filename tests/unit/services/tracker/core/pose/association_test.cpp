@@ -43,7 +43,7 @@ class FramePose : public testing::Test {
     for (std::size_t i = kStanding; i < kPoints; ++i) seen[i].x() += kMoved_m;
     TrackedFrame frame = frame_of(seen);
     frame.movable_in_view = movable_in_view;
-    const ObservationModel model(frame.features->camera(), DepthConfig{});
+    const ObservationModel model(frame.features->camera());
     optimize_frame(map, model, pyramid, frame);
     return frame.camera_from_map.translation().norm();
   }

@@ -55,7 +55,7 @@ class PointFollowing : public ::testing::Test {
     return {map,
             all,
             {picture, images, camera.inverse(), {}},
-            ObservationModel(picture.camera, DepthConfig{}),
+            ObservationModel(picture.camera),
             pyramid,
             wanted};
   }

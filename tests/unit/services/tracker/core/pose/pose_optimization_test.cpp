@@ -2,7 +2,6 @@
 #include "services/tracker/core/pose/pose_optimization.hpp"
 
 #include <random>
-#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +11,7 @@
 namespace rds::tracker {
 namespace {
 
-const ObservationModel kModel(test::small_camera(), DepthConfig{});
+const ObservationModel kModel(test::small_camera());
 const ScalePyramid kPyramid(8, 1.2);
 
 struct Problem {
@@ -35,22 +34,6 @@ Problem make_problem(double outlier_share, double noise_px) {
     problem.observations.push_back({p, kModel.measurement(feature, kPyramid)});
   }
   return problem;
-}
-
-TEST(ObservationModel, ADepthCountsAsTheCameraMeasures) {
-  geometry::CameraModel camera = test::small_camera();
-  camera.fx = 525;
-  const auto weight = [&](std::string_view name, float depth_m) {
-    DepthConfig depth;
-    depth.noise = geometry::depth_noise(name).value();
-    Feature feature;
-    feature.depth_m = depth_m;
-    return ObservationModel(camera, depth).measurement(feature, kPyramid).disparity_weight;
-  };
-  for (const geometry::DepthNoise& noise : geometry::kDepthNoises)
-    EXPECT_NEAR(1 / weight(noise.name, 2), 0.6, 1e-6) << "corners are worse than the sensor";
-  EXPECT_NEAR(1 / weight("kinect_v1", 0.2F), 525 * 0.0775 * 0.0012 / 0.04, 1e-5) << "the sensor is worse";
-  EXPECT_EQ(weight("kinect_v1", 0), 0);
 }
 
 TEST(PoseOptimization, RecoversPoseWithThirtyPercentOutliers) {

@@ -44,7 +44,8 @@ tl::expected<RgbdFrame, std::string> Recording::load(const FrameRef& frame) cons
   tl::expected<DepthImage, std::string> depth = empty_depth({camera_.width, camera_.height});
   if (frame.depth) depth = load_depth(*frame.depth);
   if (!depth) return tl::unexpected(depth.error());
-  return RgbdFrame{frame.stamp_ns, std::move(*color), std::move(*depth), camera_};
+  return RgbdFrame{frame.stamp_ns, std::move(*color), std::move(*depth), camera_,
+                   frame.depth_stamp_ns - frame.stamp_ns};
 }
 
 }  // namespace rds::image

@@ -44,8 +44,7 @@ tl::expected<RgbdFrame, std::string> Recording::load(const FrameRef& frame) cons
   tl::expected<DepthImage, std::string> depth = empty_depth({camera_.width, camera_.height});
   if (frame.depth) depth = load_depth(*frame.depth);
   if (!depth) return tl::unexpected(depth.error());
-  return RgbdFrame{frame.stamp_ns, std::move(*color), std::move(*depth), camera_,
-                   frame.depth_stamp_ns - frame.stamp_ns};
+  return RgbdFrame{frame.stamp_ns, std::move(*color), std::move(*depth), camera_};
 }
 
 }  // namespace rds::image

@@ -45,7 +45,6 @@ struct RgbdFrame {
   ColorImage color;
   DepthImage depth;
   geometry::CameraModel camera;
-  std::int64_t depth_offset_ns = 0;  // from the stamp to that of the depth picture
 };
 
 }  // namespace rds::image

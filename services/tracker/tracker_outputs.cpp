@@ -169,7 +169,7 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.map_from_camera(messages::to_pose_message(keyframe.map_from_camera));
   images.camera_info(messages::to_camera_info(report.frame.camera, images.header()));
   images.color(messages::to_image_message(report.frame.color, images.header()));
-  images.depth(messages::to_image_message(report.result.depth, images.header()));
+  images.depth(messages::to_image_message(report.frame.depth, images.header()));
   images.movable(movable_cells(report.result.movable, images.header()));
   keyframe_images_.write(images);
   sharing_.share(std::move(images));

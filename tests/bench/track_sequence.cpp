@@ -37,10 +37,9 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
   const auto& map = sequence.tracker().map();
   fmt::print(
       "frames {} with pose {} keyframes made {} kept {} points {} readout {:.1f} ms focal length x {:.4f} "
-      "depth delay {:.1f} ms states",
+      "states",
       times.total.size(), sequence.live().size(), sequence.keyframes_made(), map.keyframes().size(), map.points().size(),
-      1e3 * sequence.tracker().calibration().readout_s(), sequence.tracker().calibration().focal_scale(),
-      1e3 * sequence.tracker().depth_timing().delay_s());
+      1e3 * sequence.tracker().calibration().readout_s(), sequence.tracker().calibration().focal_scale());
   for (const auto& [state, count] : sequence.frames_by_state()) fmt::print(" {}:{}", state, count);
   fmt::print(
       "\nprocessor ms: total median {:.1f} p95 {:.1f} p99 {:.1f} max {:.1f}; wall of extraction median "

@@ -47,7 +47,6 @@ Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
     : config_(config),
       ports_(std::move(ports)),
       calibration_(config.self_calibration),
-      depth_timing_(config.self_calibration.depth_delay),
       removal_(config.removal, config.depth),
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
@@ -71,7 +70,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   const std::int64_t started_us = ports_.now_us();
   TrackingContext context{
       mapper_.map(), localizer_.settings(), picture, ObservationModel(picture.camera), {}, {}};
-  prepare(given, regions, picture.depth, context);
+  prepare(given, regions, context);
   PoseEstimate estimate = localizer_.localize(context, state_, keyframes_);
   TrackedFrame& frame = estimate.frame;
   if (estimate.state == State::kLost && is_submap_due(frame.time_ns))
@@ -107,18 +106,16 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
         mapper_.map().pose_of(result.reference_keyframe_id).inverse() * result.map_from_camera;
   }
   result.movable = context.movable;
-  result.depth = picture.depth;
   result.up = estimate.up;
-  learn_depth_timing(given, context, frame);
   finish(context, std::move(frame));
   result.times = {estimate.extract_us, ports_.now_us() - started_us - estimate.extract_us};
   return result;
 }
 
-/// Fills in what is known before the pose is looked for: time, motion, a guess of the pose, depth at the
-/// time of colour, the local map, what is movable, and the points that were found beside.
+/// Fills in what is known before the pose is looked for: time, motion, a guess of the pose, the local map,
+/// what is movable, and the points that were found beside.
 void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegion> regions,
-                      image::DepthImage& depth, TrackingContext& context) {
+                      TrackingContext& context) {
   const auto [time_ns, went_back] = time_.go_to(given.stamp_ns);
   if (went_back) {  // the camera may be anywhere, and what moved before moves no more
     removal_.forget();
@@ -138,10 +135,10 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
       context.guess = map_from_camera->inverse();
   run_both(
       ports_.executor, [&] { localizer_.guess(context, state_); },
-      [&] { localizer_.select_local_map(context); });
-  if (const auto velocity = context.guess ? context.motion.velocity_to(*context.guess) : std::nullopt)
-    depth = depth_timing_.at_color_time(given, *velocity, ports_.executor);
-  removal_.set_picture({.stamp_ns = given.stamp_ns, .color = given.color, .depth = depth, .camera = given.camera});
+      [&] {
+        removal_.set_picture(given);
+        localizer_.select_local_map(context);
+      });
   std::atomic<bool> is_cut = false;
   const auto cut = [&] {
     std::vector<Eigen::Vector3f> stable;
@@ -174,13 +171,6 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
     keyframes_.note_not_in_map(keyframe, frame.time_ns);
   }
   localizer_.begin_interval();
-}
-
-void Tracker::learn_depth_timing(const image::RgbdFrame& given, const TrackingContext& context,
-                                 const TrackedFrame& frame) {
-  if (state_ != State::kTracking || !frame.images) return;
-  if (const auto velocity = context.motion.velocity_to(frame.camera_from_map))
-    depth_timing_.observe(given, *frame.images, *velocity);
 }
 
 /// What the frame tells those that come.

@@ -13,7 +13,6 @@
 
 #include "common/image/rgbd_frame.hpp"
 #include "common/time/continuous_time.hpp"
-#include "services/tracker/core/calibration/depth_timing.hpp"
 #include "services/tracker/core/localizer.hpp"
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
@@ -131,7 +130,6 @@ class Tracker {
   [[nodiscard]] std::size_t known_places() const { return localizer_.relocalizer().places(); }
   /// What is known of the camera beyond what it was given with.
   [[nodiscard]] const SelfCalibration& calibration() const { return calibration_; }
-  [[nodiscard]] const DepthTiming& depth_timing() const { return depth_timing_; }
   /// Where the camera is given or the motion model expects it; its last pose before there is a motion,
   /// identity before there is a pose.
   [[nodiscard]] Pose expected_camera_from_map(std::int64_t stamp_ns) const;
@@ -146,9 +144,7 @@ class Tracker {
 
  private:
   void prepare(const image::RgbdFrame& given, std::span<const MovableRegion> regions,
-               image::DepthImage& depth, TrackingContext& context);
-  void learn_depth_timing(const image::RgbdFrame& given, const TrackingContext& context,
-                          const TrackedFrame& frame);
+               TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);
   void expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context);
@@ -172,7 +168,6 @@ class Tracker {
   TrackerConfig config_;
   TrackerPorts ports_;
   SelfCalibration calibration_;
-  DepthTiming depth_timing_;
   MovableSegmenter removal_;
   MotionModel motion_;
   OdometryPrior odometry_;

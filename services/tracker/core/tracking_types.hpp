@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "common/image/rgbd_frame.hpp"
 #include "services/tracker/core/level/up_direction.hpp"
 #include "services/tracker/core/map/submaps.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
@@ -61,7 +60,6 @@ struct FrameResult {
   bool begins_submap = false;             // it is the first frame of that
   std::optional<UpDirection> up;          // of the first frame of a map, if its surfaces were asked
   MovableMask movable;                    // whose features were dropped
-  image::DepthImage depth;                // as it was when the colour picture was taken
   std::optional<KeyframeData> keyframe;   // if the frame became one
   std::vector<KeypointVerdict> verdicts;  // one per feature
 };

@@ -100,8 +100,7 @@ void FramePairer::make_frame(Color color, std::optional<Depth> depth, Frames& fr
   if (!depth) ++without_depth_;
   last_has_depth_ = depth.has_value();
   frames.push_back({color.stamp_ns, std::move(color.picture),
-                    depth ? std::move(depth->picture) : image::empty_depth(size), *camera_,
-                    depth ? depth->stamp_ns - color.stamp_ns : 0});
+                    depth ? std::move(depth->picture) : image::empty_depth(size), *camera_});
 }
 
 template <class Picture>

@@ -25,7 +25,6 @@ void read(config::ConfigReader& r, SelfCalibrationConfig& c) {
   r.value("readout", c.readout);
   r.value("readout_s", c.readout_s, -0.05, 0.05, "s");
   r.value("focal_length", c.focal_length);
-  r.value("depth_delay", c.depth_delay);
 }
 
 void read(config::ConfigReader& r, FollowingConfig& c) {

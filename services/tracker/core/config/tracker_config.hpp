@@ -41,7 +41,6 @@ struct SelfCalibrationConfig {
   bool readout = true;       // how long reading a picture takes; false: readout_s is true
   double readout_s = 0;      // from the first row to the last (rolling shutter), to start with
   bool focal_length = true;  // false: the given one is true
-  bool depth_delay = true;   // how much later than its stamp says depth is taken; false: not at all
 
   bool operator==(const SelfCalibrationConfig&) const = default;
 };

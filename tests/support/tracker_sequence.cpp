@@ -189,10 +189,11 @@ std::vector<StampedPose> TrackerSequence::optimized() const {
   std::vector<StampedPose> poses;
   const auto keyframes = tracker_.keyframe_poses();
   for (const auto& [i, reference, reference_from_camera] : tracked_) {
-    if (reference >= keyframes.size()) continue;  // in a submap
+    const auto keyframe = std::ranges::lower_bound(keyframes, reference, {}, &tracker::KeyframePose::id);
+    if (keyframe == keyframes.end() || keyframe->id != reference) continue;  // in a submap
     const auto& frame = dataset_.frames()[i];
     poses.push_back(
-        {frame.stamp_ns, keyframes[reference].map_from_camera * reference_from_camera, frame.stamp_text});
+        {frame.stamp_ns, keyframe->map_from_camera * reference_from_camera, frame.stamp_text});
   }
   return poses;
 }

@@ -17,7 +17,7 @@ constexpr double kMaxPosition = 1e6;  // [m]
 // Candidates.
 constexpr std::size_t kMinGap = 10;        // keyframes; nearer ones are neighbours, which local mapping joins
 constexpr double kMinScore = 0.02;         // of the place index; another room reaches .02
-constexpr std::size_t kMaxCandidates = 2;  // verified per keyframe
+constexpr std::size_t kMaxCandidates = 5;  // verified per keyframe
 constexpr std::size_t kMinSeparation = 5;  // keyframes between two candidates: different views
 
 constexpr std::size_t kPatience = 20;  // keyframes until a tracker has followed a loop, if it does
@@ -149,21 +149,19 @@ bool LoopCloser::is_believable(const LoopDetection& detection) const {
 
 std::vector<LoopMatch> LoopCloser::close_loop(std::size_t query, const KeyframeFeatures& features) {
   if (unconfirmed_since_) return {};  // the tracker is about to move everything
+  std::vector<LoopDetection> detections;
   for (const std::size_t candidate : candidates_for(query, features)) {
     const auto detection = detect(query, candidate);
-    if (!detection || !is_believable(*detection)) continue;
-    std::vector<PoseGraphEdge> loops;
-    std::vector<LoopMatch> matches;
-    for (const LoopDetection& agreeing : history_.add(*detection)) {
-      loops.push_back({agreeing.candidate, agreeing.query, agreeing.candidate_from_query, EdgeKind::kLoop});
-      matches.push_back(
-          {graph_.id(agreeing.query), graph_.id(agreeing.candidate), agreeing.candidate_from_query});
-    }
-    if (loops.empty() || !graph_.close(loops)) continue;
-    history_.clear();
-    return matches;
+    if (detection && is_believable(*detection)) detections.push_back(*detection);
   }
-  return {};
+  std::vector<PoseGraphEdge> loops;
+  std::vector<LoopMatch> matches;
+  for (const LoopDetection& d : most_that_agree(detections)) {
+    loops.push_back({d.candidate, d.query, d.candidate_from_query, EdgeKind::kLoop});
+    matches.push_back({graph_.id(d.query), graph_.id(d.candidate), d.candidate_from_query});
+  }
+  if (loops.empty() || !graph_.close(loops)) return {};
+  return matches;
 }
 
 }  // namespace rds::loop_closer

@@ -14,7 +14,7 @@
 #include "common/vision/place_index.hpp"
 #include "services/loop_closer/core/keyframe_graph.hpp"
 #include "services/loop_closer/core/loop_closer_config.hpp"
-#include "services/loop_closer/core/loop_history.hpp"
+#include "services/loop_closer/core/loop_agreement.hpp"
 #include "services/loop_closer/core/loop_types.hpp"
 #include "services/loop_closer/core/loop_verification.hpp"
 
@@ -82,7 +82,6 @@ class LoopCloser {
   std::optional<std::uint64_t> map_epoch_;
   vision::PlaceIndex index_;
   KeyframeGraph graph_;
-  LoopHistory history_;
   std::vector<KeyframeView> views_;  // as in graph_
   std::uint64_t revision_ = 0;
   std::optional<std::size_t> unconfirmed_since_;  // keyframe whose loop the tracker has not followed yet

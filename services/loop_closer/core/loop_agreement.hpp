@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <span>
 #include <vector>
 
 #include "common/geometry/pose.hpp"
@@ -22,18 +22,8 @@ struct LoopDetection {
 /// True if both corrections move the keyframes between them to the same place.
 [[nodiscard]] bool is_consistent(const LoopDetection& a, const LoopDetection& b);
 
-/// Detections at the newest keyframes. One picture can deceive; several in a row that ask for the same
-/// correction do not. Source: Mur-Artal & Tardós 2017 (consecutive detections). Deviation: the corrections
-/// agree, not the places.
-class LoopHistory {
- public:
-  /// Adds a detection; returns those, this one last, that agree with it if they are of three different
-  /// keyframes among the newest six, or nothing while they are too few.
-  std::vector<LoopDetection> add(const LoopDetection& detection);
-  void clear() { detections_.clear(); }
-
- private:
-  std::deque<LoopDetection> detections_;
-};
+/// The most detections that agree with one of them on where the keyframe stands; of as many, those of the
+/// first. A view that was laid on the wrong one of two that look alike stands against the others.
+[[nodiscard]] std::vector<LoopDetection> most_that_agree(std::span<const LoopDetection> detections);
 
 }  // namespace rds::loop_closer

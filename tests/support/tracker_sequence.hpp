@@ -51,7 +51,7 @@ class TrackerSequence {
                   const tracker::TrackerConfig& config);
 
   /// Tracks frame i of the recording. @throws std::runtime_error if it cannot be read.
-  void step(std::size_t i);
+  tracker::FrameResult step(std::size_t i);
 
   /// Poses as estimated live.
   [[nodiscard]] const std::vector<geometry::StampedPose>& live() const { return live_; }

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <utility>
 
+#include "services/tracker/core/pose/pose_optimization.hpp"
+
 namespace rds::tracker {
 namespace {
 
@@ -95,6 +97,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
       need = KeyframeNeed::kNone;
   }
   describe(frame, result);
+  result.map_covariance = drift_.under(mapper_.map(), frame.points, frame.camera_from_map.inverse());
   if (need != KeyframeNeed::kNone)
     make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
   if (has_pose(result.state)) {
@@ -162,6 +165,8 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
   if (need == KeyframeNeed::kMap) {
     result.keyframe =
         mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
+    if (!frame.information.isZero())  // else its pose is given, or what the map begins with
+      drift_.add(result.keyframe->id, result.map_covariance + pose_covariance(frame.information));
     localizer_.features().set_newest_keyframe(result.keyframe->id);
     localizer_.relocalizer().add(result.keyframe->id);
     keyframes_.note_in_map(result.keyframe->id, frame.time_ns);

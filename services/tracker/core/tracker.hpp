@@ -15,6 +15,7 @@
 #include "common/time/continuous_time.hpp"
 #include "services/tracker/core/localizer.hpp"
 #include "services/tracker/core/map/map_bytes.hpp"
+#include "services/tracker/core/map/map_drift.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
@@ -175,6 +176,7 @@ class Tracker {
   Localizer localizer_;
   KeyframeSelector keyframes_;
   LocalMapper mapper_;
+  MapDrift drift_;
   SubmapSightings sightings_;
   SubmapId submap_ = Submaps::kMap;  // that the camera is in
   KeyframeId searched_ = kNoId;      // newest keyframe that was looked for in other submaps

@@ -106,7 +106,10 @@ void TrackerService::take(const image::RgbdFrame& frame) {
   const time::StampVerdict verdict = input_.stamps().take(frame.stamp_ns);
   if (verdict == time::StampVerdict::kBreak) begin_after_break();
   if (verdict == time::StampVerdict::kGap) ++context_.diagnostics.counter("time gaps");
-  if (paused_) return;
+  if (paused_) {
+    ++context_.diagnostics.counter("frames while paused");
+    return;
+  }
   if (verdict != time::StampVerdict::kDoubt && verdict != time::StampVerdict::kLate) return process(frame);
   ++context_.diagnostics.counter("frames out of time");
   acknowledge(frame);

@@ -59,7 +59,7 @@ TrackerSequence::TrackerSequence(const TrackerSequenceOptions& options, const im
     : options_(options),
       dataset_(dataset),
       config_(config),
-      tracker_(config, {.now_us = now_us}),
+      tracker_(config, {.now_us = now_us, .gyroscope = options.gyroscope}),
       objects_({}) {
   if (!options.detections.empty()) detections_ = read_detections(options.detections);
   if (options.truth_boxes || options.late_boxes) boxes_ = read_truth_boxes(dataset.folder());

@@ -25,6 +25,7 @@ struct TrackerSequenceOptions {
   bool late_boxes = false;          // people.json's boxes are taken back from keyframes
   bool no_mapping = false;
   bool verbose = false;  // one line per frame on stdout
+  tracker::Gyroscope gyroscope{};
 };
 
 /// Processor times [ms] of one thread: other programs on the machine do not show in them.

@@ -51,6 +51,7 @@ Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth),
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
+      gyroscope_(ports_.given_poses ? Gyroscope() : ports_.gyroscope),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
       keyframes_(config.keyframe, config.localize_only),
       mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
@@ -127,6 +128,7 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     if (state_ != State::kNotInitialized) state_ = State::kLost;
   }
   context.motion = motion_.predict(last_map_from_camera(), time_ns);
+  expect_by_gyroscope(given.stamp_ns, context);
   expect_by_odometry(given.stamp_ns, context);
   TrackedFrame& frame = context.frame;
   frame.stamp_ns = given.stamp_ns;
@@ -190,6 +192,11 @@ void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
   removal_.set_pose(map_from_camera, !frame.by_depth_only);
   localizer_.depth_aligner().set_previous(context.depth, map_from_camera);
   motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
+  if (state_ == State::kTracking && !frame.by_depth_only)
+    gyroscope_.observe(Eigen::Quaterniond(context.motion.last_map_from_camera().linear().transpose() *
+                                          map_from_camera.linear()));
+  else
+    gyroscope_.begin_window();
   if (frame.by_depth_only) return;  // later frames are still matched with the one before
   motion_.start_from(frame.time_ns);
   compare_with_odometry(map_from_camera);

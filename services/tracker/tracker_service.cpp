@@ -167,8 +167,10 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   }
   if (result.keyframe) move_pictures(result.keyframe->id);
   start_mapping();
-  context_.diagnostics.counter("turns by the gyroscope") = tracker_.gyroscope().told();
-  context_.diagnostics.counter("gyroscope windows refused") = tracker_.gyroscope().refused();
+  if (!config_.inputs.imu.empty()) {
+    context_.diagnostics.counter("turns by the gyroscope") = tracker_.gyroscope().told();
+    context_.diagnostics.counter("gyroscope windows refused") = tracker_.gyroscope().refused();
+  }
   context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();

@@ -13,6 +13,7 @@
 
 #include "common/image/color_encoding.hpp"
 #include "common/image/picture_file.hpp"
+#include "common/image/rvl.hpp"
 #include "common/messages/image_conversions.hpp"
 
 namespace rds::messages {
@@ -27,6 +28,7 @@ constexpr float kMetre = 1.0F;
 
 /// More has no camera, and a few bytes could claim it.
 constexpr std::int64_t kMostPixels = 50'000'000;
+constexpr std::uint32_t kLongestSide = 65'535;
 
 /// Decodes a picture that a message carries. @return empty if it is none, torn or too large.
 cv::Mat unpack(std::span<const std::uint8_t> bytes, int flags) {
@@ -39,6 +41,18 @@ cv::Mat unpack(std::span<const std::uint8_t> bytes, int flags) {
   } catch (const cv::Exception&) {
     return {};
   }
+}
+
+/// Decodes depth as compressed_depth_image_transport sends it: columns and rows, then RVL. @return as
+/// unpack().
+cv::Mat unpack_rvl(std::span<const std::uint8_t> bytes) {
+  std::array<std::uint32_t, 2> sides{};
+  if (bytes.size() < sizeof sides) return {};
+  std::memcpy(sides.data(), bytes.data(), sizeof sides);
+  const auto [columns, rows] = sides;
+  if (columns > kLongestSide || rows > kLongestSide || std::int64_t{columns} * rows > kMostPixels) return {};
+  return image::decompress_rvl(bytes.subspan(sizeof sides),
+                               {static_cast<int>(columns), static_cast<int>(rows)});
 }
 
 /// depth = A / (value − B), with A and B from the header; 0 is no measurement.
@@ -102,9 +116,12 @@ Expected<image::DepthImage> camera_depth(const CompressedImage& message) {
   std::span<const std::uint8_t> bytes = message.data();
   const bool has_header = format.find("compressedDepth") != std::string::npos;
   const auto header = bytes.first(std::min(bytes.size(), has_header ? kDepthHeaderBytes : 0));
-  const cv::Mat values = unpack(bytes.subspan(header.size()), cv::IMREAD_UNCHANGED);
+  const bool is_rvl = has_header && format.find("rvl") != std::string::npos;
+  const auto packed = bytes.subspan(header.size());
+  const cv::Mat values = is_rvl ? unpack_rvl(packed) : unpack(packed, cv::IMREAD_UNCHANGED);
   if (values.type() != CV_16UC1)
-    return tl::make_unexpected("compressed depth ('" + format + "') that is no whole PNG of 16 bits");
+    return tl::make_unexpected("compressed depth ('" + format + "') that is no whole " +
+                               (is_rvl ? "RVL of the size it declares" : "PNG of 16 bits"));
   if (!format.starts_with("32FC1")) return image::DepthImage{values, kMillimetre, nullptr};
   if (!has_header)
     return tl::make_unexpected("compressed depth ('" + format +

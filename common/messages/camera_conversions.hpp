@@ -22,9 +22,9 @@ Expected<image::DepthImage> camera_depth(std::shared_ptr<const sensor_msgs::msg:
 /// The picture of compressed_image_transport: JPEG or PNG, whatever its format says.
 /// @return or what is wrong: torn, or neither of the two.
 Expected<image::ColorImage> camera_color(const sensor_msgs::msg::CompressedImage& message);
-/// The depth of compressed_depth_image_transport ("16UC1; compressedDepth png": 12 bytes, then a PNG; of
-/// "32FC1; compressedDepth png" the PNG has inverse depth), or of compressed_image_transport (a PNG of 16
-/// bits).
+/// The depth of compressed_depth_image_transport ("16UC1; compressedDepth png": 12 bytes, then a PNG;
+/// "16UC1; compressedDepth rvl": 12 bytes, columns, rows, then RVL; of "32FC1; …" it is inverse depth), or of
+/// compressed_image_transport (a PNG of 16 bits).
 /// @return or what is wrong.
 Expected<image::DepthImage> camera_depth(const sensor_msgs::msg::CompressedImage& message);
 

@@ -3,8 +3,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "lifecycle_msgs/srv/GetState_Request.h"
-#include "lifecycle_msgs/srv/GetState_Response.h"
 #include "std_srvs/srv/SetBool_Request.h"
 #include "std_srvs/srv/SetBool_Response.h"
 #include "std_srvs/srv/Trigger_Request.h"
@@ -14,12 +12,6 @@ namespace rds::service {
 namespace {
 
 using namespace std_srvs::srv;
-using lifecycle_msgs::srv::GetState_Request;
-using lifecycle_msgs::srv::GetState_Response;
-
-// lifecycle_msgs/msg/State
-constexpr std::uint8_t kInactive = 2;
-constexpr std::uint8_t kActive = 3;
 
 template <class Response>
 std::function<void(const CommandOutcome&)> as_response(bus::Answer<Response> answer) {
@@ -33,22 +25,14 @@ std::function<void(const CommandOutcome&)> as_response(bus::Answer<Response> ans
 
 }  // namespace
 
-CommandServices::CommandServices(ServiceContext& context, const Presence& presence, ServiceSlot& service)
+CommandServices::CommandServices(ServiceContext& context, ServiceSlot& service)
     : service_(service),
       reset_(bus::serve_later<Trigger_Request, Trigger_Response>(
           context.bus, "~/reset",
           [this](const auto& /*request*/, auto answer) { post("reset", as_response(std::move(answer))); })),
-      pause_(bus::serve_later<SetBool_Request, SetBool_Response>(context.bus, "~/pause",
-                                                                 [this](const auto& request, auto answer) {
-                                                                   post(request->data() ? "pause" : "resume",
-                                                                        as_response(std::move(answer)));
-                                                                 })),
-      state_(bus::serve<GetState_Request, GetState_Response>(
-          context.bus, "~/get_state", [&presence](const GetState_Request& /*request*/) {
-            GetState_Response response;
-            response.current_state().id(presence.is_active() ? kActive : kInactive);
-            response.current_state().label(presence.is_active() ? "active" : "inactive");
-            return response;
+      pause_(bus::serve_later<SetBool_Request, SetBool_Response>(
+          context.bus, "~/pause", [this](const auto& request, auto answer) {
+            post(request->data() ? "pause" : "resume", as_response(std::move(answer)));
           })) {}
 
 void CommandServices::post(const std::string& verb, std::function<void(const CommandOutcome&)> respond) {

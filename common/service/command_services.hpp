@@ -4,18 +4,16 @@
 #include <string>
 
 #include "common/bus/service_server.hpp"
-#include "common/service/presence.hpp"
 #include "common/service/service_slot.hpp"
 
 namespace rds::service {
 
 /// What a node of ROS 2 may ask of one service, beside rds/command: `~/reset` (std_srvs/srv/Trigger),
-/// `~/pause` (SetBool: true pauses, false resumes), carried out and answered by the worker, and `~/get_state`
-/// (lifecycle_msgs): active, or inactive while it waits as stand-by.
+/// `~/pause` (SetBool: true pauses, false resumes), carried out and answered by the worker.
 class CommandServices {
  public:
   /// @throws bus::BusError
-  CommandServices(ServiceContext& context, const Presence& presence, ServiceSlot& service);
+  CommandServices(ServiceContext& context, ServiceSlot& service);
 
  private:
   /// @param respond  is told the outcome, once, on any thread.
@@ -24,7 +22,6 @@ class CommandServices {
   ServiceSlot& service_;
   bus::ServiceServer reset_;
   bus::ServiceServer pause_;
-  bus::ServiceServer state_;
 };
 
 /// Whether services of ROS 2 are offered: not in a secured domain, whose permissions name

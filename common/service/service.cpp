@@ -31,6 +31,8 @@ void Service::handle_commands() {
     try {
       if (begin(*command)) continue;
       outcome = execute(command->verb, command->argument);
+      if (outcome.success && (command->verb == "pause" || command->verb == "resume"))
+        tell_paused_(command->verb == "pause");
     } catch (const std::exception& e) {
       ++context_.diagnostics.counter("commands failed");
       outcome = {false, printable(e.what())};

@@ -68,6 +68,9 @@ class Service {
   /// Queues a command for the worker (any thread). @return false if too many wait: the service is busy.
   bool post(PendingCommand command) { return commands_.try_push(std::move(command)); }
 
+  /// @param tell  is told, on the worker, whenever a command has paused or resumed it. Before run().
+  void when_paused(std::function<void(bool paused)> tell) { tell_paused_ = std::move(tell); }
+
   /// Since the worker last said that it is alive (any thread).
   [[nodiscard]] std::chrono::steady_clock::duration silent_for() const;
 
@@ -133,6 +136,7 @@ class Service {
  private:
   static constexpr std::chrono::milliseconds kBeatInterval{500};
   InstanceOwners owners_;
+  std::function<void(bool)> tell_paused_ = [](bool) {};
   std::atomic<std::chrono::steady_clock::rep> last_beat_;
 };
 

@@ -93,7 +93,18 @@ void ServiceProcess::activate() {
   Service& service = *made;
   service_.put(std::move(made));
   presence_.set_active(true);
-  if (offers_services(context_.participant)) command_services_.emplace(context_, presence_, service_);
+  if (offers_services(context_.participant)) {
+    command_services_.emplace(context_, service_);
+    const auto post = [this](const std::string& verb, std::function<void(bool)> respond) {
+      return service_.post({.verb = verb,
+                            .argument = "",
+                            .answer = [respond = std::move(respond)](const auto& outcome) {
+                              respond(outcome.success);
+                            }}) == Posted::kQueued;
+    };
+    lifecycle_services_.emplace(context_.bus, post, [] { kill(getpid(), SIGTERM); });
+    service.when_paused(lifecycle_services_->when_paused());
+  }
   worker_ = std::jthread([this, &service](const std::stop_token& stop) { work(stop, service); });
 }
 
@@ -113,7 +124,8 @@ void ServiceProcess::stand_by() {
   worker_.request_stop();
   if (worker_.joinable()) worker_.join();
   const auto ended = service_.put(nullptr);
-  command_services_.reset();  // a node of the same name may be active now
+  lifecycle_services_.reset();  // a node of the same name may be active now
+  command_services_.reset();
   context_.diagnostics.forget_gauges();
   if (presence_.is_active()) presence_.set_active(false);
 }

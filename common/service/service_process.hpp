@@ -11,6 +11,7 @@
 #include "common/service/presence.hpp"
 #include "common/service/process/deafness_watch.hpp"
 #include "common/service/process/hang_watch.hpp"
+#include "common/service/ros/lifecycle_services.hpp"
 #include "common/service/service_slot.hpp"
 
 namespace rds::service {
@@ -50,8 +51,9 @@ class ServiceProcess {
   ServiceSlot service_;
   bool failed_ = false;
   Presence presence_;
-  std::optional<CommandServer> commands_;            // once there is a worker that can execute them
-  std::optional<CommandServices> command_services_;  // while it is the active one
+  std::optional<CommandServer> commands_;                // once there is a worker that can execute them
+  std::optional<CommandServices> command_services_;      // while it is the active one; …
+  std::optional<LifecycleServices> lifecycle_services_;  // … likewise
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;
   DeafnessWatch deafness_watch_;

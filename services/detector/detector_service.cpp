@@ -76,10 +76,9 @@ void DetectorService::receive(Keyframe keyframe) {
 }
 
 void DetectorService::take(const Arrival& arrival) {
-  if (!paused_)
-    look_at(arrival);
-  else if (lockstep_)  // the tracker waits
-    publish({}, arrival.keyframe);
+  if (!paused_) return look_at(arrival);
+  ++context_.diagnostics.counter("keyframes while paused");
+  if (lockstep_) publish({}, arrival.keyframe);  // the tracker waits
 }
 
 void DetectorService::look_at(const Arrival& arrival) {

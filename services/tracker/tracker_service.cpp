@@ -76,6 +76,10 @@ TrackerPorts TrackerService::ports() {
                      .now_us = time::now_us};
   if (!config_.inputs.odometry.empty())
     ports.odometry = [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); };
+  if (!config_.inputs.imu.empty())
+    ports.gyroscope = [this](std::int64_t from_ns, std::int64_t to_ns) {
+      return robot_.turn_of_camera(from_ns, to_ns);
+    };
   return ports;
 }
 
@@ -106,7 +110,10 @@ void TrackerService::take(const image::RgbdFrame& frame) {
   const time::StampVerdict verdict = input_.stamps().take(frame.stamp_ns);
   if (verdict == time::StampVerdict::kBreak) begin_after_break();
   if (verdict == time::StampVerdict::kGap) ++context_.diagnostics.counter("time gaps");
-  if (paused_) return;
+  if (paused_) {
+    ++context_.diagnostics.counter("frames while paused");
+    return;
+  }
   if (verdict != time::StampVerdict::kDoubt && verdict != time::StampVerdict::kLate) return process(frame);
   ++context_.diagnostics.counter("frames out of time");
   acknowledge(frame);
@@ -160,6 +167,10 @@ void TrackerService::process(const image::RgbdFrame& frame) {
   }
   if (result.keyframe) move_pictures(result.keyframe->id);
   start_mapping();
+  if (!config_.inputs.imu.empty()) {
+    context_.diagnostics.counter("turns by the gyroscope") = tracker_.gyroscope().told();
+    context_.diagnostics.counter("gyroscope windows refused") = tracker_.gyroscope().refused();
+  }
   context_.diagnostics.latency("frame").add_ms(time::microseconds_since(started_us) / 1e3);
   ++frame_index_;
   if (epoch_.is_over(frame, result)) reset();

@@ -78,7 +78,12 @@ void TransformerService::take(const Poses& message) {
 }
 
 void TransformerService::take_detections() {
-  while (auto detections = detections_inbox_.try_pop()) waiting_.push_back(std::move(*detections));
+  while (auto detections = detections_inbox_.try_pop()) {
+    if (paused_)
+      ++context_.diagnostics.counter("detections while paused");
+    else
+      waiting_.push_back(std::move(*detections));
+  }
   while (waiting_.size() > kMaxWaiting) {
     context_.diagnostics.reject(topics::kDetections.name, service::Rejection::kUnexpected,
                                 "the keyframe's pose or the camera never came");
@@ -120,6 +125,10 @@ service::CommandOutcome TransformerService::execute(const std::string& verb,
     poses_.clear();
     waiting_.clear();
     return {true, "forgot all keyframe poses"};
+  }
+  if (verb == "pause" || verb == "resume") {
+    paused_ = verb == "pause";
+    return {true, paused_ ? "paused" : "resumed"};
   }
   return unknown_command(verb);
 }

@@ -46,6 +46,7 @@ class TransformerService : public service::Service {
   std::optional<geometry::CameraModel> camera_;
   FirstPoses poses_;
   std::deque<Detections> waiting_;
+  bool paused_ = false;
   concurrency::Inbox<Detections> detections_inbox_;
   concurrency::Inbox<Poses> poses_inbox_;
   concurrency::Inbox<Info> camera_inbox_;

@@ -2,6 +2,7 @@
 // Runs the tracker core over a dataset in lockstep, without the bus, and writes the trajectories.
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 
 #include "common/config/config_reader.hpp"
 #include "tests/support/tracker_sequence.hpp"
+#include "tools/simulator/sensors/gyroscope.hpp"
 
 namespace {
 
@@ -18,6 +20,8 @@ struct Options {
   std::string config;
   std::size_t start = 0;
   std::size_t frames = 0;
+  std::size_t every = 1;
+  std::uint64_t gyroscope = 0;
   rds::test::TrackerSequenceOptions sequence;
 };
 
@@ -38,8 +42,9 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
   fmt::print(
       "frames {} with pose {} keyframes made {} kept {} points {} readout {:.1f} ms focal length x {:.4f} "
       "states",
-      times.total.size(), sequence.live().size(), sequence.keyframes_made(), map.keyframes().size(), map.points().size(),
-      1e3 * sequence.tracker().calibration().readout_s(), sequence.tracker().calibration().focal_scale());
+      times.total.size(), sequence.live().size(), sequence.keyframes_made(), map.keyframes().size(),
+      map.points().size(), 1e3 * sequence.tracker().calibration().readout_s(),
+      sequence.tracker().calibration().focal_scale());
   for (const auto& [state, count] : sequence.frames_by_state()) fmt::print(" {}:{}", state, count);
   fmt::print(
       "\nprocessor ms: total median {:.1f} p95 {:.1f} p99 {:.1f} max {:.1f}; wall of extraction median "
@@ -55,6 +60,31 @@ void print_figures(const rds::test::TrackerSequence& sequence) {
   if (!times.joining.empty())
     fmt::print("processor ms: looking for a submap's place median {:.1f} p95 {:.1f} max {:.1f}\n",
                percentile(times.joining, .5), percentile(times.joining, .95), percentile(times.joining, 1));
+}
+
+/// What a consumer's gyroscope tells of the recording's true path.
+rds::tracker::Gyroscope gyroscope_of(const rds::image::TumDataset& dataset, std::uint64_t seed) {
+  const auto truth = dataset.ground_truth();
+  if (!truth) throw std::runtime_error("no groundtruth.txt");
+  const auto buffer =
+      std::make_shared<std::vector<rds::simulator::TurnRate>>(rds::simulator::gyroscope(*truth, {}, seed));
+  return [buffer](std::int64_t from_ns, std::int64_t to_ns) -> std::optional<Eigen::Quaterniond> {
+    constexpr std::int64_t kMarginNs = 100'000'000;
+    const auto by_stamp = [](const rds::simulator::TurnRate& rate, std::int64_t ns) {
+      return rate.stamp_ns < ns;
+    };
+    rds::tracker::GyroscopeBuffer around;
+    for (auto rate = std::lower_bound(buffer->begin(), buffer->end(), from_ns - kMarginNs, by_stamp);
+         rate != buffer->end() && rate->stamp_ns < to_ns + kMarginNs; ++rate)
+      around.add(rate->stamp_ns, rate->rad_per_s);
+    return around.turn(from_ns, to_ns);
+  };
+}
+
+void print_gyroscope(const rds::tracker::GyroscopePrior& gyroscope) {
+  fmt::print("turns by the gyroscope {} windows refused {} bias {:.4f} {:.4f} {:.4f} rad/s\n",
+             gyroscope.told(), gyroscope.refused(), gyroscope.bias().x(), gyroscope.bias().y(),
+             gyroscope.bias().z());
 }
 
 void print_removal(const rds::test::RemovalFigures& removal) {
@@ -74,14 +104,17 @@ int run(const Options& options) {
     rds::tracker::read(reader, config);
     reader.finish();
   }
-  rds::test::TrackerSequence sequence(options.sequence, *dataset, config);
+  auto with_gyroscope = options.sequence;
+  if (options.gyroscope > 0) with_gyroscope.gyroscope = gyroscope_of(*dataset, options.gyroscope);
+  rds::test::TrackerSequence sequence(with_gyroscope, *dataset, config);
   const std::size_t all = dataset->frames().size();
   const std::size_t end = options.frames > 0 ? std::min(all, options.start + options.frames) : all;
-  for (std::size_t i = options.start; i < end; ++i) sequence.step(i);
+  for (std::size_t i = options.start; i < end; i += options.every) sequence.step(i);
   write(options.out, sequence.optimized());
   write(options.out + ".live", sequence.live());
   print_figures(sequence);
   print_removal(sequence.removal());
+  if (options.gyroscope > 0) print_gyroscope(sequence.tracker().gyroscope());
   return 0;
 }
 
@@ -99,6 +132,9 @@ int main(int argc, char** argv) {
   app.add_option("--box-latency", options.sequence.box_latency, "frames until late boxes are applied");
   app.add_option("--start", options.start, "first frame");
   app.add_option("--frames", options.frames, "number of frames, 0 for all");
+  app.add_option("--every", options.every, "only every n-th frame")->check(CLI::PositiveNumber);
+  app.add_option("--gyroscope", options.gyroscope,
+                 "a simulated gyroscope on the true path, with this seed; 0: none");
   app.add_flag("--truth-boxes", options.sequence.truth_boxes, "give people.json's boxes with every frame");
   app.add_option("--detections", options.sequence.detections,
                  "detections of every frame (detect_images); keyframes get theirs, late");

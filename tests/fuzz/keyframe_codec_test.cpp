@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/type_ops.hpp"
+#include "common/messages/camera_conversions.hpp"
 #include "tests/fuzz/feed.hpp"
+#include "tests/unit/common/image/rvl_encoder.hpp"
 #include "tests/unit/common/keyframe_codec/example_pictures.hpp"
 
 namespace rds::fuzz {
@@ -81,6 +83,18 @@ TEST(KeyframeCodec, DepthOfAnyone) {
         << "the checksum let another picture pass";
     return rows.has_value();
   });
+}
+
+TEST(CameraMessages, DepthOfAnyDriver) {
+  const auto seed = [](const cv::Mat1w& depth) { return image::test::compressed_depth_of(depth); };
+  const cv::Mat1w dark(kSize, std::uint16_t{0});
+  feed(12, {seed(example_depth(kSize)), seed(dark), seed(cv::Mat1w(kSize, std::uint16_t{900}))}, bound,
+       [](const Bytes& bytes) {
+         sensor_msgs::msg::CompressedImage message;
+         message.format("16UC1; compressedDepth rvl");
+         message.data(bytes);
+         return messages::camera_depth(message).has_value();
+       });
 }
 
 }  // namespace

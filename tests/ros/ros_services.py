@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_services.py TRACKER MAPPER [reset]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
+"""ros_services.py TRACKER MAPPER [reset | lifecycle | shutdown]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
 
-TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty.
+TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty. With `lifecycle`
+it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `shutdown` it ends it.
 """
 
 import json
 import sys
 
 import rclpy
-from lifecycle_msgs.srv import GetState
+from lifecycle_msgs.msg import Transition, TransitionEvent
+from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from nav_msgs.srv import GetMap
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, GetParameterTypes, ListParameters, SetParameters, SetParametersAtomically
@@ -52,6 +54,45 @@ class Asker:
         return dict(self.node.get_service_names_and_types_by_node(name, above or "/"))
 
 
+class Life:
+    """The lifecycle of a node, and what it tells of it."""
+
+    def __init__(self, asker, of):
+        self.asker, self.of, self.events = asker, of, []
+        asker.node.create_subscription(TransitionEvent, f"{of}/transition_event", self.take, 10)
+        while asker.node.count_publishers(f"{of}/transition_event") == 0:
+            rclpy.spin_once(asker.node, timeout_sec=0.1)
+
+    def take(self, event):
+        self.events.append([event.start_state.label, event.transition.label, event.goal_state.label])
+
+    def state(self):
+        return self.asker.ask(GetState, f"{self.of}/get_state").current_state.label
+
+    def transitions(self, service="get_available_transitions"):
+        return [t.transition.label for t in self.asker.ask(GetAvailableTransitions, f"{self.of}/{service}").available_transitions]
+
+    def change(self, **transition):
+        """As `ros2 lifecycle set` asks. @return whether it was done, and the state after it."""
+        return [self.asker.ask(ChangeState, f"{self.of}/change_state", transition=Transition(**transition)).success, self.state()]
+
+
+def lifecycle(asker, of):
+    life = Life(asker, of)
+    told = {"states": [s.label for s in asker.ask(GetAvailableStates, f"{of}/get_available_states").available_states],
+            "graph": life.transitions("get_transition_graph"), "at_first": [life.state(), life.transitions()],
+            "refused": [life.change(id=Transition.TRANSITION_ACTIVATE), life.change(id=Transition.TRANSITION_CLEANUP), life.change(id=77), life.change(label="fly")],
+            "done": [life.change(id=Transition.TRANSITION_DEACTIVATE)], "inactive": life.transitions()}
+    told["refused_inactive"] = life.change(id=Transition.TRANSITION_DEACTIVATE)
+    told["done"] += [life.change(label=label) for label in ("cleanup", "configure", "activate")]
+    told["by_pause"] = [[asker.ask(SetBool, f"{of}/pause", data=data).success, life.state()] for data in (True, False)]
+    for _ in range(50):
+        if len(life.events) >= 10:
+            break
+        rclpy.spin_once(asker.node, timeout_sec=0.1)
+    return {**told, "events": life.events}
+
+
 def reset(asker, mapper):
     return asker.ask(Trigger, f"{mapper}/reset").success
 
@@ -72,7 +113,9 @@ def main():
     rclpy.init()
     node = rclpy.create_node("asker")
     asker = Asker(node)
-    told = reset(asker, mapper) if sys.argv[3:] == ["reset"] else look(asker, tracker, mapper)
+    wanted = {"reset": lambda: reset(asker, mapper), "lifecycle": lambda: lifecycle(asker, tracker),
+              "shutdown": lambda: asker.ask(ChangeState, f"{tracker}/change_state", transition=Transition(id=Transition.TRANSITION_ACTIVE_SHUTDOWN)).success}
+    told = wanted[sys.argv[3]]() if sys.argv[3:] else look(asker, tracker, mapper)
     print(json.dumps(told), flush=True)
     node.destroy_node()
     rclpy.shutdown()

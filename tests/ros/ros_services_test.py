@@ -27,6 +27,9 @@ TRACKER, MAPPER = "/robot1/rds_tracker", "/robot1/rds_mapper"
 OF_EVERY_NODE = {"list_parameters": "ListParameters", "get_parameters": "GetParameters", "get_parameter_types": "GetParameterTypes",
                  "describe_parameters": "DescribeParameters", "set_parameters": "SetParameters", "set_parameters_atomically": "SetParametersAtomically"}
 
+LIFECYCLE = {"get_state": "GetState", "change_state": "ChangeState", "get_available_states": "GetAvailableStates",
+             "get_available_transitions": "GetAvailableTransitions", "get_transition_graph": "GetAvailableTransitions"}
+
 
 def python_of(distribution):
     return ROOT / f".venv-{distribution}" / "bin" / "python"
@@ -83,7 +86,8 @@ class RosServices(unittest.TestCase):
     def check_graph(self, told):
         for node in (TRACKER, MAPPER):
             services = {f"{node}/{name}": [f"rcl_interfaces/srv/{kind}"] for name, kind in OF_EVERY_NODE.items()}
-            services |= {f"{node}/get_state": ["lifecycle_msgs/srv/GetState"], f"{node}/pause": ["std_srvs/srv/SetBool"], f"{node}/reset": ["std_srvs/srv/Trigger"]}
+            services |= {f"{node}/{name}": [f"lifecycle_msgs/srv/{kind}"] for name, kind in LIFECYCLE.items()}
+            services |= {f"{node}/pause": ["std_srvs/srv/SetBool"], f"{node}/reset": ["std_srvs/srv/Trigger"]}
             if node == MAPPER:
                 services |= {f"{node}/map": ["nav_msgs/srv/GetMap"], "/robot1/octomap_binary": ["octomap_msgs/srv/GetOctomap"],
                              "/robot1/octomap_full": ["octomap_msgs/srv/GetOctomap"]}
@@ -95,9 +99,24 @@ class RosServices(unittest.TestCase):
         self.assertGreaterEqual(told["grid"]["width"] * told["grid"]["height"], told["grid"]["occupied"])
         self.assertEqual(told["commands"], ["paused", "resumed"])
 
+    def check_lifecycle(self, told):
+        self.assertEqual(told["states"], ["unknown", "unconfigured", "inactive", "active", "finalized", "configuring", "cleaningup", "shuttingdown", "activating",
+                                          "deactivating", "errorprocessing"])
+        self.assertEqual(told["graph"], ["configure", "cleanup", "activate", "deactivate", "shutdown", "shutdown", "shutdown"])
+        self.assertEqual(told["at_first"], ["active", ["deactivate", "shutdown"]])
+        self.assertEqual(told["refused"], 4 * [[False, "active"]])
+        self.assertEqual(told["inactive"], ["cleanup", "activate", "shutdown"])
+        self.assertEqual(told["refused_inactive"], [False, "inactive"])
+        self.assertEqual(told["done"], [[True, "inactive"], [True, "unconfigured"], [True, "inactive"], [True, "active"]])
+        self.assertEqual(told["by_pause"], [[True, "inactive"], [True, "active"]])
+        steps = [("active", "deactivate", "deactivating", "inactive"), ("inactive", "cleanup", "cleaningup", "unconfigured"),
+                 ("unconfigured", "configure", "configuring", "inactive"), ("inactive", "activate", "activating", "active")]
+        events = [event for start, label, during, goal in steps for event in ([start, label, during], [during, "transition_success", goal])]
+        self.assertEqual(told["events"], [*events, ["active", "deactivate", "inactive"], ["inactive", "activate", "active"]])
+
     def test_of_jazzy_and_kilted_at_once(self):
         own = ("--frame-prefix", "robot1/", "--ros-args")
-        self.start("rds-tracker", *own, "-p", "extraction.features:=800", "--")
+        tracker = self.start("rds-tracker", *own, "-p", "extraction.features:=800", "--")
         self.start("rds-mapper", *own, "-p", "expect_boxes:=false", "--")
         self.start("rds", "play", RECORDING)
         self.wait_for_a_map()
@@ -109,7 +128,12 @@ class RosServices(unittest.TestCase):
                 self.check_parameters(told)
                 self.check_graph(told)
                 self.check_map_and_commands(told)
+        for distribution in DISTRIBUTIONS:
+            with self.subTest(distribution):
+                self.check_lifecycle(json.loads(self.ask(distribution, "lifecycle").communicate()[0]))
         self.assertEqual(self.ask("kilted", "reset").communicate()[0], "true\n")
+        self.assertEqual(self.ask("jazzy", "shutdown").communicate()[0], "true\n")
+        self.assertEqual(tracker.process.wait(20), 0)
 
 
 if __name__ == "__main__":

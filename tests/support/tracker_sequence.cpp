@@ -59,29 +59,30 @@ TrackerSequence::TrackerSequence(const TrackerSequenceOptions& options, const im
     : options_(options),
       dataset_(dataset),
       config_(config),
-      tracker_(config, {.now_us = now_us}),
+      tracker_(config, {.now_us = now_us, .gyroscope = options.gyroscope}),
       objects_({}) {
   if (!options.detections.empty()) detections_ = read_detections(options.detections);
   if (options.truth_boxes || options.late_boxes) boxes_ = read_truth_boxes(dataset.folder());
 }
 
-void TrackerSequence::step(std::size_t i) {
+tracker::FrameResult TrackerSequence::step(std::size_t i) {
   const auto frame = dataset_.load(dataset_.frames()[i]);
   if (!frame) throw std::runtime_error(frame.error());
   apply_due(i);
   const auto start = processor_ms();
   const auto expected = regions(i, *frame);
-  const auto result = tracker_.track(*frame, expected);
+  tracker::FrameResult result = tracker_.track(*frame, expected);
   times_.total.push_back(processor_ms() - start);
   times_.extract_wall.push_back(static_cast<double>(result.times.extract_us) / 1000);
   record(i, result);
   if (!options_.pictures.empty() && i % 10 == 0) draw_removal(*frame, i, expected, result);
-  if (!result.keyframe) return;
+  if (!result.keyframe) return result;
   ++keyframes_;
   if (options_.late_boxes || !detections_.empty())
     due_boxes_.push_back(
         {i + options_.box_latency, i, result.keyframe->id, result.keyframe->map_from_camera, frame->camera});
   run_mapping(i);
+  return result;
 }
 
 std::vector<std::vector<TrackerSequence::Detected>> TrackerSequence::read_detections(
@@ -192,8 +193,7 @@ std::vector<StampedPose> TrackerSequence::optimized() const {
     const auto keyframe = std::ranges::lower_bound(keyframes, reference, {}, &tracker::KeyframePose::id);
     if (keyframe == keyframes.end() || keyframe->id != reference) continue;  // in a submap
     const auto& frame = dataset_.frames()[i];
-    poses.push_back(
-        {frame.stamp_ns, keyframe->map_from_camera * reference_from_camera, frame.stamp_text});
+    poses.push_back({frame.stamp_ns, keyframe->map_from_camera * reference_from_camera, frame.stamp_text});
   }
   return poses;
 }

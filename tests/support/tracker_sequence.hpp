@@ -25,6 +25,7 @@ struct TrackerSequenceOptions {
   bool late_boxes = false;          // people.json's boxes are taken back from keyframes
   bool no_mapping = false;
   bool verbose = false;  // one line per frame on stdout
+  tracker::Gyroscope gyroscope{};
 };
 
 /// Processor times [ms] of one thread: other programs on the machine do not show in them.
@@ -51,7 +52,7 @@ class TrackerSequence {
                   const tracker::TrackerConfig& config);
 
   /// Tracks frame i of the recording. @throws std::runtime_error if it cannot be read.
-  void step(std::size_t i);
+  tracker::FrameResult step(std::size_t i);
 
   /// Poses as estimated live.
   [[nodiscard]] const std::vector<geometry::StampedPose>& live() const { return live_; }

@@ -18,7 +18,8 @@ namespace rds::recording {
 enum class Packing {
   kRaw,              // sensor_msgs/msg/Image
   kCompressed,       // sensor_msgs/msg/CompressedImage: JPEG or PNG
-  kCompressedDepth,  // the same with 12 bytes before the PNG, as compressed_depth_image_transport writes it
+  kCompressedDepth,  // the same, or RVL, with 12 bytes before it, as compressed_depth_image_transport writes
+                     // it
 };
 
 enum class Content { kColor, kDepth };

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <utility>
 
+#include "services/tracker/core/pose/pose_optimization.hpp"
+
 namespace rds::tracker {
 namespace {
 
@@ -49,6 +51,7 @@ Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
       calibration_(config.self_calibration),
       removal_(config.removal, config.depth),
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
+      gyroscope_(ports_.given_poses ? Gyroscope() : ports_.gyroscope),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
       keyframes_(config.keyframe, config.localize_only),
       mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
@@ -95,6 +98,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
       need = KeyframeNeed::kNone;
   }
   describe(frame, result);
+  result.map_covariance = drift_.under(mapper_.map(), frame.points, frame.camera_from_map.inverse());
   if (need != KeyframeNeed::kNone)
     make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
   if (has_pose(result.state)) {
@@ -124,6 +128,7 @@ void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegi
     if (state_ != State::kNotInitialized) state_ = State::kLost;
   }
   context.motion = motion_.predict(last_map_from_camera(), time_ns);
+  expect_by_gyroscope(given.stamp_ns, context);
   expect_by_odometry(given.stamp_ns, context);
   TrackedFrame& frame = context.frame;
   frame.stamp_ns = given.stamp_ns;
@@ -162,6 +167,8 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
   if (need == KeyframeNeed::kMap) {
     result.keyframe =
         mapper_.insert(frame, localizer_.follows_points() ? frame.images : nullptr, removal_.latest());
+    if (!frame.information.isZero())  // else its pose is given, or what the map begins with
+      drift_.add(result.keyframe->id, result.map_covariance + pose_covariance(frame.information));
     localizer_.features().set_newest_keyframe(result.keyframe->id);
     localizer_.relocalizer().add(result.keyframe->id);
     keyframes_.note_in_map(result.keyframe->id, frame.time_ns);
@@ -185,6 +192,11 @@ void Tracker::finish(const TrackingContext& context, TrackedFrame&& frame) {
   removal_.set_pose(map_from_camera, !frame.by_depth_only);
   localizer_.depth_aligner().set_previous(context.depth, map_from_camera);
   motion_.observe(context.motion, frame.camera_from_map, state_ != State::kRelocalised);
+  if (state_ == State::kTracking && !frame.by_depth_only)
+    gyroscope_.observe(Eigen::Quaterniond(context.motion.last_map_from_camera().linear().transpose() *
+                                          map_from_camera.linear()));
+  else
+    gyroscope_.begin_window();
   if (frame.by_depth_only) return;  // later frames are still matched with the one before
   motion_.start_from(frame.time_ns);
   compare_with_odometry(map_from_camera);

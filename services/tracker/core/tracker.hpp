@@ -15,8 +15,10 @@
 #include "common/time/continuous_time.hpp"
 #include "services/tracker/core/localizer.hpp"
 #include "services/tracker/core/map/map_bytes.hpp"
+#include "services/tracker/core/map/map_drift.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/motion/gyroscope_prior.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/removal/movable_segmenter.hpp"
 
@@ -33,6 +35,7 @@ struct TrackerPorts {
   Executor executor = execute_serially;  // runs what can be done at the same time
   Stopwatch now_us = [] { return std::int64_t{0}; };  // for the times in results, which are 0 without
   RobotOdometry odometry = {};                        // of the robot; if empty there is none
+  Gyroscope gyroscope = {};                           // likewise
 };
 
 /// A submap that is part of an older one from now on.
@@ -105,6 +108,8 @@ class Tracker {
   bool seek(const SoughtPlace& place);
   /// What is known of the robot's odometry.
   [[nodiscard]] const OdometryPrior& odometry() const { return odometry_; }
+  /// What is known of its gyroscope.
+  [[nodiscard]] const GyroscopePrior& gyroscope() const { return gyroscope_; }
 
   /// What may have changed since the last call, as rows of a checkpoint; all of it the first time, and after
   /// another map has begun. Best called after the frame's result was sent.
@@ -147,6 +152,7 @@ class Tracker {
                TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);
+  void expect_by_gyroscope(std::int64_t stamp_ns, TrackingContext& context);
   void expect_by_odometry(std::int64_t stamp_ns, TrackingContext& context);
   static void carry_on(const CarriedPose& carried, TrackedFrame& frame, FrameResult& result);
   void compare_with_odometry(const Pose& map_from_camera);
@@ -171,10 +177,12 @@ class Tracker {
   MovableSegmenter removal_;
   MotionModel motion_;
   OdometryPrior odometry_;
+  GyroscopePrior gyroscope_;
   PlacedPose sure_;  // that the odometry's window began with
   Localizer localizer_;
   KeyframeSelector keyframes_;
   LocalMapper mapper_;
+  MapDrift drift_;
   SubmapSightings sightings_;
   SubmapId submap_ = Submaps::kMap;  // that the camera is in
   KeyframeId searched_ = kNoId;      // newest keyframe that was looked for in other submaps

@@ -54,6 +54,7 @@ void Tracker::start_from(SavedMap&& saved) {
   if (saved.map.keyframes().size() == 0) return mapper_.start_from(std::move(saved.map), false);
   calibration_.begin_with(saved.camera);
   saved.map.keyframes().for_each([&](Keyframe& k) { k.time_ns = time_.go_to(k.stamp_ns).time_ns; });
+  drift_.forget();
   mapper_.start_from(std::move(saved.map), false);
   localizer_.relocalizer().index_all(mapper_.map());
   state_ = State::kLost;
@@ -84,6 +85,7 @@ tl::expected<void, std::string> Tracker::resume(const ReadRows& read) {
   auto map = map_from_rows(read, localizer_.settings().pyramid);
   if (!map) return tl::unexpected(map.error());
   reset();
+  drift_.forget();
   mapper_.start_from(std::move(*map), true);
   calibration_.begin_with(camera.given_fx, camera.belief);
   time_ = time::ContinuousTime(camera.clock);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of Tracker that uses the robot's odometry.
+// The part of Tracker that uses the robot's odometry and gyroscope.
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
@@ -8,7 +8,21 @@ namespace {
 // Of cameras of 10 Hz and more: what they accelerate from frame to frame is no more than odometry errs by.
 constexpr double kShortGapS = 0.15;
 
+constexpr double kLongestTurnS = 2;    // that a gyroscope is asked for: places do not stay longer
+constexpr double kSameTurnRad = 0.01;  // 5 px: where constant velocity is as near, it is left alone
+
 }  // namespace
+
+/// How the camera has turned since the last pose, if a gyroscope that is trusted says so.
+void Tracker::expect_by_gyroscope(std::int64_t stamp_ns, TrackingContext& context) {
+  const std::optional<LastFrame>& last = localizer_.features().last();
+  if (!last || context.motion.gap_s() > kLongestTurnS) return gyroscope_.begin_window();
+  const auto turn = gyroscope_.expect(last->frame.stamp_ns, stamp_ns);
+  if (!turn) return;
+  const Eigen::Quaterniond steady(context.motion.last_map_from_camera().linear().transpose() *
+                                  context.motion.camera_from_map().linear().transpose());
+  if (steady.angularDistance(*turn) > kSameTurnRad) context.motion.expect_turn(*turn);
+}
 
 /// Where odometry, if it is trusted, expects the camera after a gap. A lost one is expected where it has been
 /// carried on to.

@@ -48,6 +48,8 @@ struct FrameResult {
   Pose map_from_camera = Pose::Identity();  // identity unless has_pose(state)
   Eigen::Matrix<double, 6, 6> information =
       Eigen::Matrix<double, 6, 6>::Zero();  // OptimizedPose::information
+  Eigen::Matrix<double, 6, 6> map_covariance =
+      Eigen::Matrix<double, 6, 6>::Zero();  // of the map that the camera sees, against its origin (MapDrift)
   std::optional<Eigen::Matrix<double, 6, 6>>
       carried_covariance;  // of a pose that odometry has carried on, in place of its information
   std::uint64_t reference_keyframe_id = 0;

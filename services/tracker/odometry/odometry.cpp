@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/odometry/odometry.hpp"
 
-#include <Eigen/Cholesky>
+#include "services/tracker/core/pose/pose_optimization.hpp"
 
 namespace rds::tracker {
 namespace {
 
-// A pose without information is one by depth alone, which may be off by as much as the tracker lets pass.
-constexpr double kUnknownM = 0.1;
-constexpr double kUnknownRad = 0.1;
-constexpr std::int64_t kLongestGapNs = 1'000'000'000;  // that a speed is told over
-// Of a robot whose speed is not known yet.
-constexpr double kUnknownMPerS = 1;
-constexpr double kUnknownRadPerS = 1;
+// Of a frame's covariance, what is new in its error and not in that of the frame before: residuals have a
+// third of the standard deviations that poses are found with, which also stand for what the errors of points
+// have in common.
+constexpr double kNewShare = 0.1;
+constexpr double kCarriedM =
+    0.003;  // that odometry which carries a pose on errs by from frame to frame, and …
+constexpr double kCarriedRad = 0.003;
 
-Matrix6 diagonal(double translation, double rotation) {
+Matrix6 carried_noise() {
   Twist values;
-  values << Eigen::Vector3d::Constant(translation * translation),
-      Eigen::Vector3d::Constant(rotation * rotation);
+  values << Eigen::Vector3d::Constant(kCarriedM * kCarriedM),
+      Eigen::Vector3d::Constant(kCarriedRad * kCarriedRad);
   return values.asDiagonal();
 }
 
@@ -31,11 +31,6 @@ Matrix6 about_parent(const Matrix6& covariance, const geometry::Pose& parent_fro
 
 }  // namespace
 
-Matrix6 covariance_of(const Matrix6& information, const geometry::Pose& child_from_camera) {
-  const Matrix6 regular = information + Matrix6(diagonal(1 / kUnknownM, 1 / kUnknownRad));
-  return covariance_in_child(regular.ldlt().solve(Matrix6::Identity()), child_from_camera);
-}
-
 Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& child_from_camera) {
   const Matrix6 moved = adjoint(child_from_camera);
   const Matrix6 covariance = moved * in_camera * moved.transpose();
@@ -45,7 +40,7 @@ Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& chil
 OdometryStep Odometry::step(const TrackedPose& pose, const RobotFrames& frames) {
   if (!pose.is_continuous || joins_) {
     map_from_odom_ = pose.map_from_camera * odom_from_camera_.inverse();
-    past_.clear();
+    speed_.reset();
   }
   joins_ = false;
   odom_from_camera_ = map_from_odom_.inverse() * pose.map_from_camera;
@@ -58,28 +53,18 @@ OdometryStep Odometry::step(const TrackedPose& pose, const RobotFrames& frames) 
     step.odom_from_body = odom_from_camera_ * frames.body_from_camera.inverse();
   const geometry::Pose camera_from_child = frames.child_from_camera.inverse();
   step.parent_from_child = (step.is_in_map ? pose.map_from_camera : odom_from_camera_) * camera_from_child;
-  const Matrix6 covariance = pose.covariance ? covariance_in_child(*pose.covariance, frames.child_from_camera)
-                                             : covariance_of(pose.information, frames.child_from_camera);
+  const Matrix6 found = pose_covariance(pose.information);
+  const Matrix6 covariance =
+      covariance_in_child(pose.covariance.value_or(found + pose.map_covariance), frames.child_from_camera);
   step.pose_covariance = about_parent(covariance, step.parent_from_child);
-  if (frames.child != child_) past_.clear();
+  if (frames.child != child_) speed_.reset();
   child_ = frames.child;
-  tell_speed({pose.stamp_ns, odom_from_camera_ * camera_from_child, covariance}, step);
+  speed_.step(pose.stamp_ns, odom_from_camera_ * camera_from_child,
+              covariance_in_child(pose.covariance ? carried_noise() : Matrix6(kNewShare * found),
+                                  frames.child_from_camera));
+  step.twist = speed_.twist();
+  step.twist_covariance = speed_.covariance();
   return step;
-}
-
-void Odometry::tell_speed(const Past& now, OdometryStep& step) {
-  if (!past_.empty() &&
-      (past_.back().stamp_ns >= now.stamp_ns || past_.back().stamp_ns < now.stamp_ns - kLongestGapNs))
-    past_.clear();
-  while (past_.size() > 1 && past_[1].stamp_ns <= now.stamp_ns - kWindowNs) past_.pop_front();
-  step.twist_covariance = diagonal(kUnknownMPerS, kUnknownRadPerS);
-  if (!past_.empty()) {
-    const Past& then = past_.front();
-    const double s = static_cast<double>(now.stamp_ns - then.stamp_ns) * 1e-9;
-    step.twist = se3_log(then.odom_from_child.inverse() * now.odom_from_child) / s;
-    step.twist_covariance = (then.covariance + now.covariance) / (s * s);
-  }
-  past_.push_back(now);
 }
 
 }  // namespace rds::tracker

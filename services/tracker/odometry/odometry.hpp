@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "services/tracker/core/motion/se3.hpp"
 #include "services/tracker/odometry/robot_frames.hpp"
+#include "services/tracker/odometry/twist_filter.hpp"
 
 namespace rds::tracker {
 
@@ -14,10 +14,11 @@ namespace rds::tracker {
 struct TrackedPose {
   std::int64_t stamp_ns = 0;
   geometry::Pose map_from_camera = geometry::Pose::Identity();
-  Matrix6 information = Matrix6::Zero();   // of a motion in the camera's frame; zero: not known
-  bool is_continuous = true;               // false after a relocalisation: the pose may have jumped
-  bool is_placed = true;                   // false: it is in a submap, whose place in the map is not known
-  std::optional<Matrix6> covariance = {};  // of a pose that odometry carries on, in place of information
+  Matrix6 information = Matrix6::Zero();     // of a motion in the camera's frame; zero: not known
+  bool is_continuous = true;                 // false after a relocalisation: the pose may have jumped
+  bool is_placed = true;                     // false: it is in a submap, whose place in the map is not known
+  std::optional<Matrix6> covariance = {};    // of a pose that odometry carries on, in place of information
+  Matrix6 map_covariance = Matrix6::Zero();  // of the map that it is found in, likewise of a motion
 };
 
 /// What there is to tell of one frame.
@@ -33,12 +34,10 @@ struct OdometryStep {
 };
 
 /// Splits the camera's pose in the map into map → odom and odom → robot: odom → robot never jumps, map → odom
-/// takes the corrections of loops and the jumps of relocalisations (REP 105). The robot's speed is that over
-/// the last kWindowNs.
+/// takes the corrections of loops and the jumps of relocalisations (REP 105). The robot's speed is told by a
+/// filter on its poses.
 class Odometry {
  public:
-  static constexpr std::int64_t kWindowNs = 150'000'000;  // noise of 2 mm at both ends is .02 m/s
-
   OdometryStep step(const TrackedPose& pose, const RobotFrames& frames);
   /// The map moved under the camera: the next map → odom takes the jump.
   void move_map(const geometry::Pose& corrected_map_from_map) {
@@ -48,25 +47,15 @@ class Odometry {
   void begin_map() { joins_ = true; }
 
  private:
-  struct Past {
-    std::int64_t stamp_ns;
-    geometry::Pose odom_from_child;
-    Matrix6 covariance;  // in the child's frame
-  };
-  void tell_speed(const Past& now, OdometryStep& step);
-
   geometry::Pose map_from_odom_ = geometry::Pose::Identity();
   geometry::Pose odom_from_camera_ = geometry::Pose::Identity();  // of the last frame
   bool joins_ = false;
   std::string child_;
-  std::deque<Past> past_;
+  TwistFilter speed_;
 };
 
-/// Covariance of a motion in the frame of `child`, which is fixed to the camera, of the information about the
-/// same motion in the camera's frame. Directions without information have kUnknownM and kUnknownRad; nothing
-/// is ever certain.
-Matrix6 covariance_of(const Matrix6& information, const geometry::Pose& child_from_camera);
-/// The same of a motion in the camera's frame with this covariance.
+/// Covariance of a motion in the frame of `child`, which is fixed to the camera, of that of the same motion
+/// in the camera's frame.
 Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& child_from_camera);
 
 }  // namespace rds::tracker

@@ -81,10 +81,10 @@ void OdometryOutput::publish(std::int64_t stamp_ns, const FrameResult& result,
     return robot_frames(tree_, names_, without_slash(camera_frame), stamp_ns);
   }();
   const bool is_placed = result.submap == Submaps::kMap;
-  const OdometryStep step =
-      odometry_.step({stamp_ns, result.map_from_camera, result.information,
-                      result.state != State::kRelocalised, is_placed, result.carried_covariance},
-                     frames);
+  const OdometryStep step = odometry_.step(
+      {stamp_ns, result.map_from_camera, result.information, result.state != State::kRelocalised, is_placed,
+       result.carried_covariance, result.map_covariance},
+      frames);
   if (step.is_in_map && !is_placed) return;  // all that could be told
   nav_msgs::msg::Odometry odometry;
   odometry.header(messages::make_header(stamp_ns, step.is_in_map ? names_.map : names_.odom));

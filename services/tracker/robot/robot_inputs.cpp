@@ -24,6 +24,7 @@ constexpr std::chrono::milliseconds kBetweenBeats(500);
 constexpr double kLeastRadiusM = 1;
 constexpr double kLeastAngleRad = 0.8;
 constexpr double kSigmas = 3;
+constexpr double kNotMeasured = -1;  // first of a covariance, of what an Imu has no sensor for
 // In the rows of a covariance: x, y, z, then the angles about them.
 constexpr std::size_t kXX = 0;
 constexpr std::size_t kYY = 7;
@@ -66,9 +67,14 @@ void RobotInputs::read_odometry(const std::string& topic) {
   };
   subscriptions_.push_back(
       topics::subscribe(context_.bus, topics::kRobotOdometry.named(topic), topics::kTracker, take));
-  context_.diagnostics.warning("odometry", [this]() -> std::optional<std::string> {
+  warn("odometry", odometry_fault_);
+}
+
+/// @param fault  read under the lock.
+void RobotInputs::warn(const std::string& name, const std::string& fault) {
+  context_.diagnostics.warning(name, [this, &fault]() -> std::optional<std::string> {
     const std::lock_guard lock(mutex_);
-    return fault_.empty() ? std::nullopt : std::optional(fault_);
+    return fault.empty() ? std::nullopt : std::optional(fault);
   });
 }
 
@@ -78,8 +84,10 @@ void RobotInputs::read_imu(const std::string& topic) {
     const auto& w = m->angular_velocity();
     sensed_.push(
         {{messages::to_nanoseconds(m->header().stamp()), {a.x(), a.y(), a.z()}, {w.x(), w.y(), w.z()}},
+         m->angular_velocity_covariance()[0] != kNotMeasured,
          m->header().frame_id()});
   };
+  warn("imu", imu_fault_);
   subscriptions_.push_back(
       topics::subscribe(context_.bus, topics::kImu.named(topic), topics::kTracker, take));
 }
@@ -109,6 +117,7 @@ void RobotInputs::take_in() {
   }
   while (auto sensed = sensed_.try_pop()) {
     gravity_.add(sensed->measurement);
+    if (sensed->has_turn_rate) turn_rates_.add(sensed->measurement.stamp_ns, sensed->measurement.turn_rate);
     imu_frame_ = std::move(sensed->frame);
     ++context_.diagnostics.counter("imu messages");
   }
@@ -147,13 +156,15 @@ std::optional<OdometryPose> RobotInputs::odometry_at(std::int64_t stamp_ns) {
   const auto found = buffer_.at(stamp_ns);
   if (!found) {
     set_fault(
+        odometry_fault_,
         fmt::format("no odometry of the pictures' time comes on {}: is it published, with stamps of the "
                     "camera's clock?",
                     topics_.odometry));
     return std::nullopt;
   }
   const auto body_from_camera = look_up_(body_, camera_frame_, stamp_ns);
-  set_fault(body_from_camera
+  set_fault(odometry_fault_,
+            body_from_camera
                 ? ""
                 : fmt::format("{} tells of a frame that no tf joins with the camera's: publish on tf_static "
                               "how the camera is mounted",
@@ -170,9 +181,24 @@ std::optional<Eigen::Vector3d> RobotInputs::up_in_camera(std::int64_t stamp_ns) 
   return camera_from_imu->linear() * *up_in_imu;
 }
 
-void RobotInputs::set_fault(const std::string& fault) {
+std::optional<Eigen::Quaterniond> RobotInputs::turn_of_camera(std::int64_t from_ns, std::int64_t to_ns) {
+  const auto turn_of_imu = turn_rates_.turn(from_ns, to_ns);
+  if (!turn_of_imu) return std::nullopt;
+  const auto camera_from_imu = look_up_(camera_frame_, imu_frame_, to_ns);
+  set_fault(imu_fault_,
+            camera_from_imu
+                ? ""
+                : fmt::format("{} tells of a frame that no tf joins with the camera's: publish on tf_static "
+                              "how the unit is mounted",
+                              topics_.imu));
+  if (!camera_from_imu) return std::nullopt;
+  const Eigen::Quaterniond mounting(camera_from_imu->linear());
+  return mounting * *turn_of_imu * mounting.conjugate();
+}
+
+void RobotInputs::set_fault(std::string& of, const std::string& fault) {
   const std::lock_guard lock(mutex_);
-  fault_ = fault;
+  of = fault;
 }
 
 std::optional<SoughtPlace> RobotInputs::take_sought_place() {

@@ -11,6 +11,7 @@
 #include "common/concurrency/mailbox.hpp"
 #include "common/service/service.hpp"
 #include "services/tracker/core/level/gravity.hpp"
+#include "services/tracker/core/motion/gyroscope_buffer.hpp"
 #include "services/tracker/core/motion/odometry_buffer.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
@@ -45,6 +46,8 @@ class RobotInputs {
   [[nodiscard]] std::optional<OdometryPose> odometry_at(std::int64_t stamp_ns);
   /// Which way is up in the camera's frame, as long as the robot's IMU stands still.
   [[nodiscard]] std::optional<Eigen::Vector3d> up_in_camera(std::int64_t stamp_ns) const;
+  /// The camera's turn between two times, earlier_from_later, by the robot's gyroscope.
+  [[nodiscard]] std::optional<Eigen::Quaterniond> turn_of_camera(std::int64_t from_ns, std::int64_t to_ns);
   /// Where somebody has said since the last call that the camera is.
   std::optional<SoughtPlace> take_sought_place();
 
@@ -56,6 +59,7 @@ class RobotInputs {
   };
   struct Sensed {
     InertialMeasurement measurement;
+    bool has_turn_rate;
     std::string frame;
   };
   struct SaidPose {
@@ -69,7 +73,8 @@ class RobotInputs {
   void read_initial_poses(const std::string& topic);
   void take_in();
   [[nodiscard]] bool has_odometry_at(std::int64_t stamp_ns) const;
-  void set_fault(const std::string& fault);
+  void set_fault(std::string& of, const std::string& fault);
+  void warn(const std::string& name, const std::string& fault);
 
   service::ServiceContext& context_;
   concurrency::Mailbox& mailbox_;
@@ -82,13 +87,15 @@ class RobotInputs {
   concurrency::Inbox<Sensed> sensed_;
   OdometryBuffer buffer_;
   Gravity gravity_;
+  GyroscopeBuffer turn_rates_;  // in the unit's frame
   std::string imu_frame_;
   std::string body_;
   std::string camera_frame_;
   std::optional<std::int64_t> newest_in_vain_;  // what was there when it was last waited for in vain
   bool waited_in_vain_ = false;
-  mutable std::mutex mutex_;  // of the fault
-  std::string fault_;
+  mutable std::mutex mutex_;  // of the faults
+  std::string odometry_fault_;
+  std::string imu_fault_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };
 

@@ -4,6 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include "lifecycle_msgs/srv/ChangeState_Request.h"
+#include "lifecycle_msgs/srv/ChangeState_Response.h"
+#include "lifecycle_msgs/srv/GetAvailableTransitions_Request.h"
+#include "lifecycle_msgs/srv/GetAvailableTransitions_Response.h"
 #include "lifecycle_msgs/srv/GetState_Request.h"
 #include "lifecycle_msgs/srv/GetState_Response.h"
 #include "rcl_interfaces/srv/DescribeParameters_Request.h"
@@ -90,6 +94,33 @@ TEST_P(NodeServices, CarryOutCommands) {
   const auto reset = ask<Trigger_Request, Trigger_Response>("reset", {});
   ASSERT_TRUE(reset);
   EXPECT_TRUE(reset->success()) << reset->message();
+}
+
+TEST_P(NodeServices, GoThroughTheStatesOfALife) {
+  const auto change = [&](const std::string& label) {
+    ChangeState_Request request;
+    request.transition().label(label);
+    const auto changed = ask<ChangeState_Request, ChangeState_Response>("change_state", request);
+    return changed && changed->success();
+  };
+  const auto state = [&] {
+    const auto told = ask<GetState_Request, GetState_Response>("get_state", {});
+    return told ? told->current_state().label() : "";
+  };
+  EXPECT_EQ(state(), "active") << tracker.standard_error();
+  EXPECT_FALSE(change("activate")) << "it is";
+  EXPECT_TRUE(change("deactivate"));
+  EXPECT_EQ(state(), "inactive");
+  const auto available = ask<GetAvailableTransitions_Request, GetAvailableTransitions_Response>("get_available_transitions", {});
+  ASSERT_TRUE(available);
+  EXPECT_EQ(available->available_transitions().size(), 3U);
+  EXPECT_TRUE(change("cleanup"));
+  EXPECT_EQ(state(), "unconfigured");
+  EXPECT_TRUE(change("configure"));
+  EXPECT_TRUE(change("activate"));
+  EXPECT_EQ(state(), "active");
+  EXPECT_TRUE(change("shutdown"));
+  EXPECT_EQ(tracker.wait(std::chrono::seconds(20)), 0);
 }
 
 constexpr std::array kVendors{

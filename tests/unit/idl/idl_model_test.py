@@ -63,6 +63,7 @@ class TypeHash(unittest.TestCase):
     def test_of_services_equals_that_of_jazzy(self):
         # the .json files of Jazzy's packages
         for name, hash_of_service in (("lifecycle_msgs/srv/GetState", "800a0a5aae599782b02932de0caf563f6dc4e7e94b794eadde075ba2cbef9795"),
+                                      ("lifecycle_msgs/srv/ChangeState", "356fe34f0475a43acf54542013af4167b0e729f77ea22ffb045c6ad8e20668e5"),
                                       ("std_srvs/srv/SetBool", "abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a"), ("rcl_interfaces/srv/SetParameters", "56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0"),
                                       ("nav_msgs/srv/GetMap", "c8ae77c9995b3554b5ba80e4d4d443f970ac65143102a1d893ec24fc07b31147")):
             with self.subTest(name):

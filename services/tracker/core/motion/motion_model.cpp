@@ -29,6 +29,12 @@ MotionPrediction::MotionPrediction(const geometry::Pose& last_map_from_camera,
     camera_from_map_ = se3_exp(gap_s_ * *velocity_) * camera_from_map_;
 }
 
+void MotionPrediction::expect_turn(const Eigen::Quaterniond& turn) {
+  const Eigen::Vector3d place = camera_from_map_.inverse().translation();
+  camera_from_map_ =
+      geometry::make_pose(place, Eigen::Quaterniond(last_map_from_camera_.linear()) * turn).inverse();
+}
+
 Twist MotionPrediction::velocity() const {
   return velocity_ && gap_s_ <= kMaxPredictedGap ? *velocity_ : Twist::Zero();
 }

@@ -40,6 +40,9 @@ class MotionPrediction {
   [[nodiscard]] double innovation(const geometry::Pose& camera_from_map) const;
   /// Sensors say where the camera is: they know better than constant velocity.
   void expect(const geometry::Pose& camera_from_map) { camera_from_map_ = camera_from_map; }
+  /// The same of its turn since the last pose (last_from_now); its place stays where constant velocity has
+  /// it.
+  void expect_turn(const Eigen::Quaterniond& turn);
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();

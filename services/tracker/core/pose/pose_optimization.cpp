@@ -19,6 +19,7 @@ constexpr double kConvergedStep = 1e-7;  // m and rad
 constexpr double kFirstDamping = 1e-5;
 constexpr double kMaxDamping = 1e3;
 constexpr int kMinObservations = 3;
+constexpr double kUnknownSigma = 0.1;  // m and rad, of what there is no information about
 
 struct NormalEquations {
   Matrix6 hessian = Matrix6::Zero();
@@ -132,6 +133,12 @@ OptimizedPose optimize_pose(const ObservationModel& model, std::span<const Point
   result.camera_from_map = geometry::make_pose(result.camera_from_map.translation(),
                                                Eigen::Quaterniond(result.camera_from_map.linear()));
   return result;
+}
+
+Matrix6 pose_covariance(const Matrix6& information) {
+  const Matrix6 regular = information + Matrix6::Identity() / (kUnknownSigma * kUnknownSigma);
+  const Matrix6 covariance = regular.ldlt().solve(Matrix6::Identity());
+  return (covariance + covariance.transpose()) / 2;
 }
 
 OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,

@@ -34,6 +34,10 @@ struct OptimizedPose {
 OptimizedPose optimize_pose(const ObservationModel& model, std::span<const PointObservation> observations,
                             const geometry::Pose& camera_from_map);
 
+/// Covariance of a motion of the camera in its own frame, of OptimizedPose::information. A pose without
+/// information is one by depth alone, which may be off by as much as the tracker lets pass (.1 m, .1 rad).
+Eigen::Matrix<double, 6, 6> pose_covariance(const Eigen::Matrix<double, 6, 6>& information);
+
 /// Which observations agree with a pose (χ² bound); the pose stays.
 OptimizedPose check_pose(const ObservationModel& model, std::span<const PointObservation> observations,
                          const geometry::Pose& camera_from_map);

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/messages/camera_conversions.hpp"
+#include "tests/unit/common/image/rvl_encoder.hpp"
 
 /// Whatever a driver sends of one scene gives the picture that rgb8 gives, or as much of it as its encoding
 /// carries.
@@ -214,11 +215,55 @@ TEST(CompressedDepth, IsInMillimetresOrInverse) {
 TEST(CompressedDepth, SaysWhatItCannotRead) {
   EXPECT_FALSE(
       camera_depth(compressed(scene(), ".png", "16UC1; compressedDepth png", std::vector<std::uint8_t>(12))));
-  CompressedImage rvl;
-  rvl.format("16UC1; compressedDepth rvl");
-  rvl.data().assign(100, 7);
-  EXPECT_NE(camera_depth(rvl).error().find("compressedDepth rvl"), std::string::npos);
+  CompressedImage unknown;
+  unknown.format("16UC1; compressedDepth zstd");
+  unknown.data().assign(100, 7);
+  EXPECT_NE(camera_depth(unknown).error().find("compressedDepth zstd"), std::string::npos);
   EXPECT_FALSE(camera_depth(CompressedImage()));
+}
+
+CompressedImage rvl(const cv::Mat1w& depth, const std::string& format,
+                    const std::vector<std::uint8_t>& head) {
+  CompressedImage message;
+  message.format(format);
+  message.data(image::test::compressed_depth_of(depth, head));
+  return message;
+}
+
+TEST(CompressedDepth, OfRvlIsThatOfPng) {
+  cv::Mat1w depth(24, 32, std::uint16_t{1234});
+  depth(3, 4) = 0;
+  depth(5, 6) = 60000;
+  const std::vector<std::uint8_t> no_parameters(12, 0);
+  const auto read = camera_depth(rvl(depth, "16UC1; compressedDepth rvl", no_parameters));
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(cv::norm(read->values, depth, cv::NORM_INF), 0);
+  EXPECT_EQ(read->metres_per_unit, .001F);
+  const float parameters[] = {100 * 101, 1 - 100 * 101 / 10.F};
+  std::vector<std::uint8_t> head(12, 0);
+  std::memcpy(head.data() + 4, parameters, 8);
+  const auto of_png = camera_depth(compressed(depth, ".png", "32FC1; compressedDepth png", head));
+  const auto of_rvl = camera_depth(rvl(depth, "32FC1; compressedDepth rvl", head));
+  ASSERT_TRUE(of_rvl) << of_rvl.error();
+  EXPECT_EQ(cv::norm(of_rvl->values, of_png->values, cv::NORM_INF), 0);
+}
+
+TEST(CompressedDepth, OfRvlThatIsTornOrClaimsToBeHugeIsRefused) {
+  const CompressedImage good = rvl(cv::Mat1w(24, 32, std::uint16_t{1234}), "16UC1; compressedDepth rvl",
+                                   std::vector<std::uint8_t>(12, 0));
+  for (std::size_t length = 0; length + 4 <= good.data().size(); ++length) {
+    CompressedImage torn = good;
+    torn.data().resize(length);
+    EXPECT_FALSE(camera_depth(torn)) << length;
+  }
+  for (const std::size_t side : {12U, 16U})
+    for (const std::uint8_t high : std::array<std::uint8_t, 3>{0x01, 0x7F, 0xFF}) {
+      CompressedImage huge = good;
+      huge.data()[side + 3] = high;
+      const auto read = camera_depth(huge);
+      ASSERT_FALSE(read);
+      EXPECT_NE(read.error().find("RVL of the size it declares"), std::string::npos);
+    }
 }
 
 }  // namespace

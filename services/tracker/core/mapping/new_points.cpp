@@ -20,6 +20,8 @@ constexpr double kSigmas = 1.96;           // 95 % of a normal distribution
 constexpr double kMaxRatio = 0.8;          // of the nearest descriptor's distance to that of another corner
 constexpr double kSameCornerPx = 3;        // at level 0: features nearer to each other are of one corner
 constexpr double kMaxWindowPx = 10;        // at level 0; a position known worse leads to no third view
+constexpr double kAlikeCosine = 0.94;      // 20°: from more aside it may look otherwise, or be hidden
+constexpr double kAlikeDistance = 1.3;     // times nearer or farther, likewise
 constexpr double kMinInformation = 0.1;    // of what is needed: a pair with less leads to no third view
 constexpr PointId kTaken = 0;              // any but kNoId
 
@@ -125,8 +127,9 @@ class PointMaker {
       std::vector<Seen> seen{{centre_, f.index}, {n, *other}};
       const auto guess = triangulate(see(seen));
       if (!guess || !all_agree(seen, guess->position)) continue;
-      find_in_others(*guess, seen);
-      if (const auto point = confirmed(seen)) return keep(*point, seen);
+      const std::size_t expected = seen.size() + find_in_others(*guess, seen);
+      const auto point = confirmed(seen);
+      if (point && 2 * seen.size() > expected) return keep(*point, seen);
     }
   }
 
@@ -187,7 +190,9 @@ class PointMaker {
     return std::abs(pyramid_.predict(distance_a * pyramid_.scale(a.level), distance_b) - b.level) <= 1;
   }
 
-  void find_in_others(const TriangulatedPoint& point, std::vector<Seen>& seen) const {
+  /// @return views that should show the point, besides those two that it comes from.
+  std::size_t find_in_others(const TriangulatedPoint& point, std::vector<Seen>& seen) const {
+    std::size_t expected = 0;
     const Feature& feature = views_[centre_].feature(seen[0].feature);
     const double distance = (views_[centre_].camera_from_map * point.position).norm();
     const std::size_t first = seen[1].view;
@@ -201,10 +206,21 @@ class PointMaker {
       const int level = pyramid_.predict(distance * pyramid_.scale(feature.level), p.norm());
       const double radius = kSigmas * std::hypot(pyramid_.scale(level), pixel_sigma_px(point, view.camera_from_map, view.model));
       if (radius > kMaxWindowPx * pyramid_.scale(level)) continue;
+      if (shows_alike(point.position, view)) ++expected;
       const SearchWindow window{px.cast<float>(), static_cast<float>(radius), level - 1, level + 1, view.model.disparity(p.z())};
       const auto found = best_in_window(*view.keyframe.features, view.taken, view.model, feature.descriptor, window, kMaxDistanceAlone, 1);
       if (found) seen.push_back({k, *found});
     }
+    return expected;
+  }
+
+  /// From a similar distance and direction.
+  [[nodiscard]] bool shows_alike(const Eigen::Vector3d& position, const View& view) const {
+    const Eigen::Vector3d from_centre = position - views_[centre_].camera_in_map;
+    const Eigen::Vector3d from_there = position - view.camera_in_map;
+    const double ratio = from_there.norm() / from_centre.norm();
+    return from_centre.dot(from_there) > kAlikeCosine * from_centre.norm() * from_there.norm() &&
+           ratio < kAlikeDistance && ratio * kAlikeDistance > 1;
   }
 
   /// The point by all views that agree; nothing if they are too few, or it is not known well enough.

@@ -303,9 +303,9 @@ void TrackerService::apply(const BoxesMessage& boxes) {
 
 void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
   if (config_.dynamics)
-    answers_.ask_for_boxes(keyframe.stamp_ns,
-                           {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_, has_depth(keyframe)},
-                           frame_index_);
+    answers_.ask_for_boxes(
+        keyframe.stamp_ns,
+        {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_, has_depth(keyframe)}, frame_index_);
   const bool corrections_wanted = keyframe.in_map && tracker_.submap() == Submaps::kMap &&
                                   config_.poses_file.empty() &&
                                   (config_.loop_closer || !config_.lockstep.enabled);

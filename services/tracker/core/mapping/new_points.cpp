@@ -38,8 +38,7 @@ struct View {
   ObservationModel model;
   std::vector<PointId> taken;  // per feature: kNoId if it may see a new point
   std::vector<FreeFeature> free;
-
-  double readout_s;
+  double readout_s;  // of the camera, as far as known
   Eigen::Vector3d camera_in_map;
 
   [[nodiscard]] const Feature& feature(std::uint32_t i) const { return (*keyframe.features)[i]; }
@@ -76,7 +75,10 @@ std::vector<View> views_of(const MappingScene& scene, const LocalMappingResult& 
     const auto place = moved.find(keyframe.id);
     const Pose& map_from_camera = place == moved.end() ? keyframe.map_from_camera : place->second;
     const ObservationModel model(known_camera(keyframe, scene.job()));
-    View view{keyframe, map_from_camera.inverse(), model, scene.seen()[k], {}, scene.job().readout_s, map_from_camera.translation()};
+    View view{keyframe,        map_from_camera.inverse(),
+              model,           scene.seen()[k],
+              {},              scene.job().readout_s,
+              map_from_camera.translation()};
     for (std::uint32_t i = 0; i < view.taken.size(); ++i) {
       if (keyframe.movable[i] || !view.feature(i).matchable) view.taken[i] = kTaken;
       if (view.taken[i] == kNoId) view.free.push_back({i, view.ray(i)});
@@ -90,11 +92,9 @@ std::vector<View> views_of(const MappingScene& scene, const LocalMappingResult& 
 std::vector<std::size_t> neighbours_of(const MappingScene& scene, std::size_t centre) {
   std::vector<std::pair<int, std::size_t>> shared(scene.seen().size());
   for (std::size_t k = 0; k < shared.size(); ++k) shared[k].second = k;
-  for (const auto& point : scene.points()) {
-    if (!point.alive || !std::ranges::any_of(point.observations, [&](const auto& o) { return o.keyframe == centre; }))
-      continue;
-    for (const auto& o : point.observations) ++shared[o.keyframe].first;
-  }
+  for (std::size_t p = 0; p < scene.points().size(); ++p)
+    if (scene.points()[p].alive && scene.sees(centre, p))
+      for (const auto& o : scene.points()[p].observations) ++shared[o.keyframe].first;
   std::ranges::stable_sort(shared, std::ranges::greater{}, &std::pair<int, std::size_t>::first);
   std::vector<std::size_t> neighbours;
   for (const auto& [count, k] : shared)
@@ -162,15 +162,20 @@ class PointMaker {
       const Feature& candidate = into.feature(c.index);
       const double sigma = std::hypot(pyramid_.scale(feature.level), pyramid_.scale(candidate.level));
       if (into.model.distance_px(normal, c.ray) > kSigmas * sigma || into.taken[c.index] != kNoId) continue;
-      // z ray + t is along c.ray
-      const Eigen::Vector3d across = c.ray.cross(ray);
-      const double z = t.cross(c.ray).dot(across) / across.squaredNorm();
-      const Eigen::Vector3d point = z * ray + t;
-      if (!(z >= kMinDepth) || !(point.z() >= kMinDepth)) continue;
-      if (!fits_scale(feature, z * ray.norm(), candidate, point.norm())) continue;
+      if (!can_meet(feature, ray, t, candidate, c.ray)) continue;
       alike.emplace_back(descriptor_distance(feature.descriptor, candidate.descriptor), c.index);
     }
     return only_best(into, alike);
+  }
+
+  /// Before both cameras, at distances that the features' scales explain. @param t  where the ray begins.
+  [[nodiscard]] bool can_meet(const Feature& feature, const Eigen::Vector3d& ray, const Eigen::Vector3d& t,
+                              const Feature& candidate, const Eigen::Vector3d& candidate_ray) const {
+    const Eigen::Vector3d across = candidate_ray.cross(ray);  // z · ray + t is along candidate_ray
+    const double z = t.cross(candidate_ray).dot(across) / across.squaredNorm();
+    const Eigen::Vector3d point = z * ray + t;
+    return z >= kMinDepth && point.z() >= kMinDepth &&
+           fits_scale(feature, z * ray.norm(), candidate, point.norm());
   }
 
   [[nodiscard]] std::optional<std::uint32_t> only_best(
@@ -186,32 +191,45 @@ class PointMaker {
   }
 
   /// Features of one thing show at levels that its distances explain.
-  [[nodiscard]] bool fits_scale(const Feature& a, double distance_a, const Feature& b, double distance_b) const {
+  [[nodiscard]] bool fits_scale(const Feature& a, double distance_a, const Feature& b,
+                                double distance_b) const {
     return std::abs(pyramid_.predict(distance_a * pyramid_.scale(a.level), distance_b) - b.level) <= 1;
   }
 
   /// @return views that should show the point, besides those two that it comes from.
   std::size_t find_in_others(const TriangulatedPoint& point, std::vector<Seen>& seen) const {
-    std::size_t expected = 0;
     const Feature& feature = views_[centre_].feature(seen[0].feature);
-    const double distance = (views_[centre_].camera_from_map * point.position).norm();
     const std::size_t first = seen[1].view;
+    std::size_t expected = 0;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       if (k == centre_ || k == first) continue;
       const View& view = views_[k];
-      const Eigen::Vector3d p = view.camera_from_map * point.position;
-      if (p.z() < kMinDepth) continue;
-      const Eigen::Vector2d px = view.model.project(p);
-      if (!view.keyframe.features->sees(px)) continue;
-      const int level = pyramid_.predict(distance * pyramid_.scale(feature.level), p.norm());
-      const double radius = kSigmas * std::hypot(pyramid_.scale(level), pixel_sigma_px(point, view.camera_from_map, view.model));
-      if (radius > kMaxWindowPx * pyramid_.scale(level)) continue;
-      if (shows_alike(point.position, view)) ++expected;
-      const SearchWindow window{px.cast<float>(), static_cast<float>(radius), level - 1, level + 1, view.model.disparity(p.z())};
-      const auto found = best_in_window(*view.keyframe.features, view.taken, view.model, feature.descriptor, window, kMaxDistanceAlone, 1);
+      const auto window = window_of(point, feature, view);
+      if (!window) continue;
+      expected += shows_alike(point.position, view) ? 1U : 0U;
+      const auto found = best_in_window(*view.keyframe.features, view.taken, view.model, feature.descriptor,
+                                        *window, kMaxDistanceAlone, 1);
       if (found) seen.push_back({k, *found});
     }
     return expected;
+  }
+
+  /// Where a view should show the point that the centre's feature sees; nothing if it does not, or if that is
+  /// known too badly to look for it.
+  [[nodiscard]] std::optional<SearchWindow> window_of(const TriangulatedPoint& point, const Feature& feature,
+                                                      const View& view) const {
+    const Eigen::Vector3d p = view.camera_from_map * point.position;
+    if (p.z() < kMinDepth) return std::nullopt;
+    const Eigen::Vector2d px = view.model.project(p);
+    if (!view.keyframe.features->sees(px)) return std::nullopt;
+    const double distance = (views_[centre_].camera_from_map * point.position).norm();
+    const int level = pyramid_.predict(distance * pyramid_.scale(feature.level), p.norm());
+    const double scale = pyramid_.scale(level);
+    const double radius =
+        kSigmas * std::hypot(scale, pixel_sigma_px(point, view.camera_from_map, view.model));
+    if (radius > kMaxWindowPx * scale) return std::nullopt;
+    return SearchWindow{px.cast<float>(), static_cast<float>(radius), level - 1, level + 1,
+                        view.model.disparity(p.z())};
   }
 
   /// From a similar distance and direction.

@@ -11,12 +11,11 @@ inline constexpr std::size_t kMinTriangulatingViews = 3;
 /// Makes points of the centre's features that have no depth and see no point.
 ///
 /// A feature of a covisible keyframe that lies on the epipolar line and alone looks alike gives a first
-/// position; the other keyframes are searched around where that projects. A point enters the result if at
-/// least three views agree with it (χ² bound), its distance fits the features' scales, and the disparity that
-/// the centre should measure of it is known as well as a depth sensor would tell it:
-/// σ_d = f b σ_z / z² ≤ 0.6 px, with σ_z of the covariance that triangulate() gives. Features on what is
+/// position; the other keyframes are searched around where that projects. A point enters the result if three
+/// views and more, and most of those that should show it, agree with it (χ² bound), its distances fit the
+/// features' scales, and is_known_well(), by the covariance that triangulate() gives. Features on what is
 /// movable take no part.
-/// Source: Mur-Artal et al. 2015, §VI-D. Deviations: a third view, and the covariance decides, not an angle.
+/// Source: Mur-Artal et al. 2015, §VI-D. Deviations: a third view; the covariance decides, not an angle.
 void triangulate_points(const MappingScene& scene, LocalMappingResult& result);
 
 /// True for a point that was made without depth, and that no keyframe has seen with depth since.

@@ -25,6 +25,8 @@ constexpr double kAlikeDistance = 1.3;     // times nearer or farther, likewise
 constexpr double kMinInformation = 0.1;    // of what is needed: a pair with less leads to no third view
 constexpr PointId kTaken = 0;              // any but kNoId
 
+double square(double x) { return x * x; }
+
 /// A feature that sees no point yet.
 struct FreeFeature {
   std::uint32_t index;
@@ -41,6 +43,10 @@ struct View {
   double readout_s;  // of the camera, as far as known
   Eigen::Vector3d camera_in_map;
 
+  void list_free() {
+    for (std::uint32_t i = 0; i < taken.size(); ++i)
+      if (taken[i] == kNoId) free.push_back({i, ray(i)});
+  }
   [[nodiscard]] const Feature& feature(std::uint32_t i) const { return (*keyframe.features)[i]; }
   /// The camera's motion between the middle row and the feature's that the feature is not compensated for.
   [[nodiscard]] Twist moved(std::uint32_t i) const {
@@ -79,10 +85,8 @@ std::vector<View> views_of(const MappingScene& scene, const LocalMappingResult& 
               model,           scene.seen()[k],
               {},              scene.job().readout_s,
               map_from_camera.translation()};
-    for (std::uint32_t i = 0; i < view.taken.size(); ++i) {
+    for (std::uint32_t i = 0; i < view.taken.size(); ++i)
       if (keyframe.movable[i] || !view.feature(i).matchable) view.taken[i] = kTaken;
-      if (view.taken[i] == kNoId) view.free.push_back({i, view.ray(i)});
-    }
     views.push_back(std::move(view));
   }
   return views;
@@ -109,7 +113,10 @@ class PointMaker {
         result_(result),
         views_(views_of(scene, result)),
         centre_(centre),
-        neighbours_(neighbours_of(scene, centre)) {}
+        neighbours_(neighbours_of(scene, centre)) {
+    views_[centre].list_free();
+    for (const std::size_t n : neighbours_) views_[n].list_free();
+  }
 
   void make_points() {
     for (const FreeFeature& f : views_[centre_].free)
@@ -157,11 +164,14 @@ class PointMaker {
     const Eigen::Vector3d& t = into_from_from.translation();
     const Eigen::Vector3d ray = into_from_from.linear() * f.ray;
     const Eigen::Vector3d normal = t.cross(ray);
+    if (normal.isZero()) return std::nullopt;
+    const Eigen::Vector3d line =  // its product with a ray is the distance in pixels
+        normal * (into.model.distance_px(normal, normal) / normal.squaredNorm());
     std::vector<std::pair<int, std::uint32_t>> alike;
     for (const FreeFeature& c : into.free) {
       const Feature& candidate = into.feature(c.index);
-      const double sigma = std::hypot(pyramid_.scale(feature.level), pyramid_.scale(candidate.level));
-      if (into.model.distance_px(normal, c.ray) > kSigmas * sigma || into.taken[c.index] != kNoId) continue;
+      const double variance = square(pyramid_.scale(feature.level)) + square(pyramid_.scale(candidate.level));
+      if (square(line.dot(c.ray)) > kSigmas * kSigmas * variance || into.taken[c.index] != kNoId) continue;
       if (!can_meet(feature, ray, t, candidate, c.ray)) continue;
       alike.emplace_back(descriptor_distance(feature.descriptor, candidate.descriptor), c.index);
     }

@@ -28,6 +28,7 @@ struct KeyframeSnapshot {
   geometry::Pose camera_from_map;
   geometry::CameraModel camera;
   std::uint64_t place = 0;  // which of the frames of reference, counted, the pose is in
+  bool has_depth = true;    // without, no box says nothing: nobody could place one
 };
 
 /// What others answer to a keyframe: the transformer its boxes, the loop closer corrected poses, local

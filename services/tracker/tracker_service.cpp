@@ -28,6 +28,13 @@ Executor executor_with_helper() {
   };
 }
 
+/// Only the map takes keyframes without, and these have their features.
+bool has_depth(const KeyframeData& keyframe) {
+  return !keyframe.in_map || std::ranges::any_of(keyframe.features, [](const KeyframeFeature& f) {
+    return f.feature.depth_m > 0;
+  });
+}
+
 /// Which way the map that begins calls up.
 void tell(const UpDirection& up) {
   const double tilt_deg = std::acos(std::clamp(-up.up.y(), -1.0, 1.0)) * 180 / std::numbers::pi;
@@ -299,16 +306,17 @@ void TrackerService::apply(const BoxesMessage& boxes) {
   for (const auto& d : *detections) observations.push_back({d.box, d.label, d.score});
   const auto keyframe = answers_.take_snapshot(stamp);
   if (!keyframe) return objects_.observe(stamp, observations, std::nullopt);
-  const auto& [id, camera_from_map, camera, place] = *keyframe;
-  if (place == place_)
+  const auto& [id, camera_from_map, camera, place, has_depth] = *keyframe;
+  if (place == place_ && (has_depth || !observations.empty()))
     objects_.observe(stamp, observations, prediction::KeyframeView{camera_from_map.inverse(), camera});
   tracker_.retract_movable(id, objects_.regions_of(observations, camera_from_map, camera));
 }
 
 void TrackerService::ask_for_answers(const KeyframeData& keyframe, const geometry::CameraModel& camera) {
   if (config_.dynamics)
-    answers_.ask_for_boxes(keyframe.stamp_ns,
-                           {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_}, frame_index_);
+    answers_.ask_for_boxes(
+        keyframe.stamp_ns,
+        {keyframe.id, keyframe.map_from_camera.inverse(), camera, place_, has_depth(keyframe)}, frame_index_);
   const bool corrections_wanted = keyframe.in_map && tracker_.submap() == Submaps::kMap &&
                                   config_.poses_file.empty() &&
                                   (config_.loop_closer || !config_.lockstep.enabled);

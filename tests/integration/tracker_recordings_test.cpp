@@ -27,19 +27,28 @@ double ate_m(const image::TumDataset& dataset, const std::vector<geometry::Stamp
 }
 
 TrackerSequence tracked(const image::TumDataset& dataset, const TrackerSequenceOptions& options,
-                        std::size_t start, std::size_t frames) {
+                        std::size_t start, std::size_t frames, const tracker::TrackerConfig& config = {}) {
   cv::setNumThreads(1);
-  TrackerSequence sequence(options, dataset, tracker::TrackerConfig{});
+  TrackerSequence sequence(options, dataset, config);
   const std::size_t end = std::min(frames, dataset.frames().size() - start) + start;
   for (std::size_t i = start; i < end; ++i) sequence.step(i);
   return sequence;
 }
 
-Figures figures(const std::filesystem::path& folder, const TrackerSequenceOptions& options = {}) {
+Figures figures(const std::filesystem::path& folder, const TrackerSequenceOptions& options = {},
+                const tracker::TrackerConfig& config = {}) {
   const image::TumDataset dataset = open(folder);
-  const TrackerSequence sequence = tracked(dataset, options, 0, dataset.frames().size());
+  const TrackerSequence sequence = tracked(dataset, options, 0, dataset.frames().size(), config);
   return {static_cast<double>(sequence.live().size()) / static_cast<double>(dataset.frames().size()),
           ate_m(dataset, sequence.live()), ate_m(dataset, sequence.optimized())};
+}
+
+/// With a sensor that measures so far only.
+Figures figures_within(const std::filesystem::path& folder, double range_m, bool triangulate) {
+  tracker::TrackerConfig config;
+  config.depth.max_depth_m = range_m;
+  config.depth.triangulate = triangulate;
+  return figures(folder, {}, config);
 }
 
 /// Two runs over the same stretch, compared bit by bit.
@@ -82,6 +91,18 @@ TEST(TrackerRecordings, PeopleInARoomKnownWithEveryFrame) {
   EXPECT_GE(f.tracked, room.bound(0.93, 1));
   EXPECT_LE(f.ate_live_m, room.bound(0.09, 0.010));
   EXPECT_LE(f.ate_final_m, room.bound(0.08, 0.010));
+}
+
+/// Two thirds of the features have no depth.
+TEST(TrackerRecordings, MostOfARoomBeyondTheSensorsRange) {
+  RDS_REQUIRE_SHARED("data/7scenes_kitchen");
+  const auto room = shared() / "data/7scenes_kitchen";
+  const Figures with = figures_within(room, 1.5, true);
+  const Figures without = figures_within(room, 1.5, false);
+  EXPECT_EQ(with.tracked, 1);
+  EXPECT_GE(with.tracked, without.tracked);
+  EXPECT_LE(with.ate_live_m, 0.13);
+  EXPECT_LT(with.ate_live_m, without.ate_live_m);
 }
 
 TEST(TrackerRecordings, SameBytesTwice) {

@@ -19,6 +19,7 @@ void read(config::ConfigReader& r, ExtractionConfig& c) {
 void read(config::ConfigReader& r, DepthConfig& c) {
   r.value("max_depth_m", c.max_depth_m, 0.5, 100.0, "m");
   r.value("close_depth_m", c.close_depth_m, 0.3, 100.0, "m");
+  r.value("triangulate", c.triangulate);
 }
 
 void read(config::ConfigReader& r, SelfCalibrationConfig& c) {

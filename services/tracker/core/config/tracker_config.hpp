@@ -31,6 +31,7 @@ struct ExtractionConfig {
 struct DepthConfig {
   double max_depth_m = 8.0;    // beyond: as if not measured
   double close_depth_m = 3.2;  // points nearer than this are made into map points at once
+  bool triangulate = true;     // points of features without depth are made, where three keyframes see them
   geometry::DepthNoise noise = geometry::kDepthNoises.front();  // the service reads it
 
   bool operator==(const DepthConfig&) const = default;

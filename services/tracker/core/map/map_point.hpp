@@ -33,6 +33,7 @@ struct MapPoint {
   Descriptor descriptor{};                             // nearest to all others of its features
   std::vector<Observation> observations;               // by ascending keyframe, each keyframe once
   KeyframeId created_by = kNoId;
+  bool is_triangulated = false;    // it was made without depth; not of a map that was saved
   std::uint32_t visible = 1;       // frames that should have seen it
   std::uint32_t found = 1;         // frames that did
   std::int64_t last_found_ns = 0;  // time of the newest of these

@@ -113,6 +113,7 @@ void merge_points(SlamMap& map, PointId keep, PointId drop) {
   const auto observations = dropped->observations;
   kept->visible += dropped->visible;
   kept->found += dropped->found;
+  kept->is_triangulated = kept->is_triangulated && dropped->is_triangulated;
   kept->last_found_ns = std::max(kept->last_found_ns, dropped->last_found_ns);
   map.erase_point(drop);
   for (const Observation& o : observations) map.observe(keep, o.keyframe, o.feature);

@@ -87,20 +87,6 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
   Eigen::Vector3d shift_;
 };
 
-bool is_calibrated(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
-  return keyframe.given_fx > 0 && keyframe.given_fx == job.given_fx;
-}
-
-/// The camera of a keyframe with the focal length that is known by now; another camera stays as it is.
-geometry::CameraModel known_camera(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
-  geometry::CameraModel camera = keyframe.features->camera();
-  if (!is_calibrated(keyframe, job)) return camera;
-  const double correction = job.focal_scale * job.given_fx / camera.fx;
-  camera.fx *= correction;
-  camera.fy *= correction;
-  return camera;
-}
-
 /// Ends the solver when it is told to stop.
 class StopCallback final : public ceres::IterationCallback {
  public:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "services/tracker/core/mapping/mapping_scene.hpp"
+#include "services/tracker/core/mapping/new_points.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -113,6 +114,7 @@ void apply_global_adjustment(SlamMap& map, const LocalMappingResult& result) {
   map.points().for_each([&](MapPoint& p) {
     seen_otherwise.contains(p.id) ? update_from_observations(map, p) : update_view(map, p);
   });
+  for (const PointId id : seen_otherwise) erase_if_unknown(map, id);
 }
 
 }  // namespace rds::tracker

@@ -26,7 +26,8 @@ double view_change(const Pose& from_other_view, double median_depth_m) {
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config) {
   const bool scarce = facts.movable_or_changed && facts.inliers < kScarceInliers;
   const bool urgent = scarce && facts.inliers < kUrgentShare * kScarceInliers;
-  if (!facts.has_depth || (facts.since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
+  const bool gives_points = facts.has_depth || facts.triangulates;
+  if (!gives_points || (facts.since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
   const bool losing_reference = facts.seen < kReferenceRatio * facts.seen_by_reference;
   const bool close_points_wanted = facts.close_tracked < kMinCloseTracked && facts.close_new > kMinCloseNew;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
@@ -35,7 +36,8 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
   const bool is_soon_after_last = facts.frames_since_last < kMinMovableFrames;
   if (facts.since_last_s < longest - kJitter || is_soon_after_last) return KeyframeNeed::kNone;
-  return scarce ? KeyframeNeed::kMap : KeyframeNeed::kDetector;
+  if (scarce) return KeyframeNeed::kMap;
+  return facts.has_depth ? KeyframeNeed::kDetector : KeyframeNeed::kNone;
 }
 
 }  // namespace rds::tracker

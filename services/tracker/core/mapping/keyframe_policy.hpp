@@ -13,7 +13,8 @@ struct KeyframeFacts {
   int inliers = 0;                  // map points that support the frame's pose
   int seen = 0;                     // how much of the map shows: points, or cells of the picture with points
   int seen_by_reference = 0;        // the same of the view that it is compared with
-  bool has_depth = false;           // without, no map points can be made
+  bool has_depth = false;           // without, map points can be made by triangulation only
+  bool triangulates = false;        // and they are
   int close_tracked = 0;            // of the inliers, those at close depth
   int close_new = 0;                // close features without map point
   double view_change = 0;           // from the nearest keyframe around, as view_change() says
@@ -38,7 +39,8 @@ enum class KeyframeNeed : std::uint8_t {
 
 /// The map needs a frame whose view no keyframe has, or that sees less of the map than others there did; all
 /// it can get while movable objects hide nearly everything. The detector, which looks at keyframes only,
-/// needs one often while the picture changes, seldom in a static scene. Source: Mur-Artal & Tardós 2017,
+/// needs one often while the picture changes, seldom in a static scene; a picture without depth tells it
+/// nothing. Source: Mur-Artal & Tardós 2017,
 /// §III-E; the paper, §III-A (keyframes allocate the detector's time).
 KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& config);
 

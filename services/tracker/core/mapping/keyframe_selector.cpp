@@ -43,10 +43,15 @@ bool has_depth(const FeatureSet& features) {
   return std::ranges::any_of(features.all(), [](const Feature& f) { return f.depth_m > 0; });
 }
 
-double median_depth(const FeatureSet& features) {
+/// Of what the camera measures; where it measures nothing, of the map points that the frame sees.
+double median_depth(const SlamMap& map, const TrackedFrame& frame) {
   std::vector<float> depths;
-  for (const Feature& f : features.all())
+  for (const Feature& f : frame.features->all())
     if (f.depth_m > 0 && !f.movable) depths.push_back(f.depth_m);
+  if (depths.empty())
+    for (const PointId id : frame.points)
+      if (const MapPoint* point = map.point(id))
+        depths.push_back(static_cast<float>((frame.camera_from_map * point->position).z()));
   if (depths.empty()) return 2;
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
@@ -70,7 +75,7 @@ void add_facts_of_map(const KeyframeSelector::Candidate& candidate, KeyframeFact
 
 KeyframeSelector::NearestView KeyframeSelector::nearest_view(const SlamMap& map, const TrackedFrame& frame,
                                                              KeyframeId reference_id) const {
-  const double depth = median_depth(*frame.features);
+  const double depth = median_depth(map, frame);
   NearestView nearest;
   const auto compare = [&](KeyframeId id, const Pose& map_from_camera) {
     const double change = view_change(frame.camera_from_map * map_from_camera, depth);
@@ -100,6 +105,7 @@ KeyframeFacts KeyframeSelector::facts(const Candidate& candidate, double view_ch
   KeyframeFacts facts;
   facts.inliers = facts.seen = frame.matches();
   facts.has_depth = has_depth(*frame.features);
+  facts.triangulates = !localize_only_ && candidate.context.settings.depth.triangulate;
   if (!localize_only_) add_facts_of_map(candidate, facts);
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.time_ns - *last_ns_);

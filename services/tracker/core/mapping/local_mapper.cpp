@@ -98,6 +98,7 @@ LocalMappingJob LocalMapper::prepared(LocalMappingJob&& job, const SelfCalibrati
   job.focal_scale = calibration.focal_scale();
   job.given_fx = calibration.given_fx();
   job.pyramid = settings_.pyramid;
+  job.triangulates = settings_.depth.triangulate;
   return job;
 }
 
@@ -106,7 +107,9 @@ std::optional<std::vector<KeyframeId>> LocalMapper::apply(const LocalMappingResu
     if (job_centre_ == kNoId) job_centre_ = result.keyframe;  // once more, as the map is now
     return std::nullopt;
   }
+  const PointId first_new = map_.points().next_id();
   apply_mapping_result(map_, result);
+  for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
   return cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
 }
 

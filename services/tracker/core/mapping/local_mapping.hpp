@@ -33,6 +33,7 @@ struct LocalMappingJob {
   double focal_scale = 1;                  // the same, on the focal length it was given with
   double given_fx = 0;                     // px, of the camera that these two are about
   ScalePyramid pyramid{1, 1};
+  bool triangulates = false;  // points of features without depth are made
 };
 
 /// What local mapping found out.
@@ -54,6 +55,14 @@ struct LocalMappingResult {
     PointId keep;
     PointId drop;
   };
+  struct FeatureOfKeyframe {
+    KeyframeId keyframe;
+    std::uint32_t feature;
+  };
+  struct MadePoint {
+    Eigen::Vector3d position;
+    std::vector<FeatureOfKeyframe> seen;
+  };
 
   KeyframeId keyframe = kNoId;
   KeyframeId next_keyframe = kNoId;
@@ -65,12 +74,14 @@ struct LocalMappingResult {
   std::vector<PointInKeyframe> added;
   std::vector<Fusion> fused;
   std::vector<PointInKeyframe> removed;
+  std::vector<MadePoint> made;  // by triangulation
 };
 
 /// Iterations of each of the two passes of bundle adjustment. The map is adjusted again with every keyframe.
 inline constexpr int kBundleIterations = 4;
 
-/// Finds more observations of the points, fuses points that are one, and adjusts keyframes and points.
+/// Finds more observations of the points, fuses points that are one, adjusts keyframes and points, and makes
+/// points of features without depth where several keyframes see them.
 ///
 /// Pure, single-threaded, deterministic: a fixed number of iterations, never a time limit.
 /// Source: Mur-Artal et al. 2015, §VI; Mur-Artal & Tardós 2017, §III-C (local bundle adjustment).

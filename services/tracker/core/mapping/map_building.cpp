@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "services/tracker/core/map/covisibility.hpp"
+#include "services/tracker/core/mapping/new_points.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -45,6 +46,10 @@ void make_points(SlamMap& map, const DepthConfig& depth, const Keyframe& keyfram
   }
 }
 
+bool is_close(const Feature& f, const DepthConfig& depth) {
+  return f.depth_m > 0 && static_cast<double>(f.depth_m) <= depth.close_depth_m;
+}
+
 /// True if enough other keyframes see the point at the same or a finer scale.
 bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& keyframe, int level) {
   int others = 0;
@@ -60,9 +65,11 @@ bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& k
 bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth) {
   int close = 0;
   int redundant = 0;
+  const bool has_depth =
+      std::ranges::any_of(keyframe.features->all(), [](const Feature& f) { return f.depth_m > 0; });
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     const Feature& f = (*keyframe.features)[i];
-    if (f.depth_m <= 0 || static_cast<double>(f.depth_m) > depth.close_depth_m) continue;
+    if (has_depth && !is_close(f, depth)) continue;
     const MapPoint* point = map.point(keyframe.points[i]);
     if (point == nullptr) continue;
     ++close;
@@ -112,7 +119,9 @@ std::vector<KeyframeId> cull_redundant_keyframes(SlamMap& map, KeyframeId newest
     if (keyframe == nullptr || c.id == 0 || map.records().is_fixed(c.id) || c.id + kKeptNewest > newest)
       continue;
     if (!is_redundant(map, *keyframe, depth)) continue;
+    const std::vector<PointId> seen = keyframe->points;
     map.cull_keyframe(c.id);
+    for (const PointId id : seen) erase_if_unknown(map, id);
     culled.push_back(c.id);
   }
   return culled;
@@ -128,7 +137,7 @@ void retract_movable(SlamMap& map, KeyframeId id, const MovableMask& movable, co
     const MapPoint* point = map.point(keyframe->points[i]);
     if (point == nullptr) continue;
     const PointId point_id = point->id;
-    if (point->created_by == id)
+    if (point->created_by == id || rests_on_views(map, *point))
       map.erase_point(point_id);
     else
       map.forget(point_id, id);

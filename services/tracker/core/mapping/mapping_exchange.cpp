@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "services/tracker/core/map/covisibility.hpp"
+#include "services/tracker/core/mapping/new_points.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -42,6 +44,21 @@ std::set<KeyframeId> holders(const SlamMap& map, const std::vector<PointId>& poi
   std::set<KeyframeId> chosen;
   for (std::size_t i = 0; i < std::min(ranked.size(), kHolders); ++i) chosen.insert(ranked[i].first);
   return chosen;
+}
+
+/// Makes a point that no feature has taken, or moved with, meanwhile.
+void make_point(SlamMap& map, KeyframeId creator, const LocalMappingResult::MadePoint& made) {
+  const auto is_free = [&](const LocalMappingResult::FeatureOfKeyframe& f) {
+    const Keyframe* k = std::as_const(map).keyframe(f.keyframe);
+    return k != nullptr && k->points[f.feature] == kNoId && !k->movable[f.feature];
+  };
+  if (!std::ranges::all_of(made.seen, is_free)) return;
+  const auto& first = made.seen.front();
+  MapPoint& point = map.add_point(made.position, first.keyframe, first.feature);
+  point.created_by = creator;
+  point.is_triangulated = true;
+  for (const auto& f : made.seen) map.observe(point.id, f.keyframe, f.feature);
+  update_from_observations(map, point);
 }
 
 }  // namespace
@@ -101,6 +118,8 @@ void apply_mapping_result(SlamMap& map, const LocalMappingResult& result) {
     if (MapPoint* p = map.point(id)) update_from_observations(map, *p);
   for (const auto& moved : result.points)
     if (MapPoint* p = map.point(moved.id)) update_view(map, *p);
+  for (const PointId id : seen_otherwise) erase_if_unknown(map, id);
+  for (const auto& made : result.made) make_point(map, result.keyframe, made);
   update_covisibility(map, result.keyframe);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "services/tracker/core/mapping/new_points.hpp"
 #include "services/tracker/core/pose/association.hpp"
 
 namespace rds::tracker {
@@ -103,6 +104,19 @@ void search_and_fuse(MappingScene& scene, LocalMappingResult& result) {
   }
 }
 
+bool is_calibrated(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
+  return keyframe.given_fx > 0 && keyframe.given_fx == job.given_fx;
+}
+
+geometry::CameraModel known_camera(const MappingKeyframe& keyframe, const LocalMappingJob& job) {
+  geometry::CameraModel camera = keyframe.features->camera();
+  if (!is_calibrated(keyframe, job)) return camera;
+  const double correction = job.focal_scale * job.given_fx / camera.fx;
+  camera.fx *= correction;
+  camera.fy *= correction;
+  return camera;
+}
+
 LocalMappingResult run_local_mapping(const LocalMappingJob& job, int iterations) {
   LocalMappingResult result;
   result.keyframe = job.keyframe;
@@ -112,6 +126,7 @@ LocalMappingResult run_local_mapping(const LocalMappingJob& job, int iterations)
   MappingScene scene(job);
   search_and_fuse(scene, result);
   result.imaging = adjust_bundle(scene, {.iterations = iterations, .is_sparse = false, .stop = {}}, result);
+  if (job.triangulates) triangulate_points(scene, result);
   return result;
 }
 

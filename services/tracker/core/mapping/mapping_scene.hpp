@@ -32,6 +32,8 @@ class MappingScene {
   [[nodiscard]] std::optional<std::size_t> index_of(PointId id) const;
   [[nodiscard]] std::optional<std::size_t> keyframe_index(KeyframeId id) const;
   [[nodiscard]] bool sees(std::size_t keyframe, std::size_t point) const;
+  /// Per keyframe of the job and feature: the point it sees; kNoId.
+  [[nodiscard]] const std::vector<std::vector<PointId>>& seen() const { return features_; }
 
   /// Lets a feature see a point; if it sees another one the two are fused into the one observed more often.
   void connect(std::size_t point, std::size_t keyframe, std::uint32_t feature, LocalMappingResult& result);
@@ -43,6 +45,11 @@ class MappingScene {
   std::vector<ScenePoint> points_;              // as job.points
   std::vector<std::vector<PointId>> features_;  // per keyframe and feature: the point it sees
 };
+
+/// True for a keyframe of the camera whose focal length the job knows.
+bool is_calibrated(const MappingKeyframe& keyframe, const LocalMappingJob& job);
+/// The camera of a keyframe with the focal length that is known by now; another camera stays as it is.
+geometry::CameraModel known_camera(const MappingKeyframe& keyframe, const LocalMappingJob& job);
 
 /// Looks for the centre's points in the other keyframes and for theirs in the centre.
 /// Source: Mur-Artal et al. 2015, §VI-C.

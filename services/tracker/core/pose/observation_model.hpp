@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include "common/geometry/camera_model.hpp"
@@ -16,6 +18,10 @@ inline constexpr double kChi2Pixel = 5.991;
 inline constexpr double kChi2PixelAndDisparity = 7.815;
 /// Points nearer to a camera, or behind it, say nothing about its pose [m].
 inline constexpr double kMinDepth = 0.05;
+/// Standard deviation of a measured disparity [px]. Corners lie at rims, where depth is of either side, and it
+/// lies beside colour by about a pixel. The sensor's own part, f·b·σ_z / z², is less for every camera beyond
+/// .3 m (docs/decisions/depth-noise.md).
+inline constexpr double kDisparitySigmaPx = 0.6;
 
 /// What a feature says about the point it sees, in units of its standard deviation once weighted.
 struct Measurement {
@@ -33,6 +39,8 @@ struct Measurement {
 /// for a depth sensor measures much better than a matched stereo pair.
 class ObservationModel {
  public:
+  static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
+
   explicit ObservationModel(const geometry::CameraModel& camera)
       : fx_(camera.fx),
         fy_(camera.fy),
@@ -55,6 +63,16 @@ class ObservationModel {
 
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p) const {
     return {fx_ * p.x() / p.z() + cx_, fy_ * p.y() / p.z() + cy_};
+  }
+
+  /// Ray (x, y, 1) of an undistorted pixel.
+  [[nodiscard]] Eigen::Vector3d ray(const Eigen::Vector2d& px) const {
+    return {(px.x() - cx_) / fx_, (px.y() - cy_) / fy_, 1};
+  }
+
+  /// Distance [px] of a ray (x, y, 1) from the line in which a plane through the camera shows.
+  [[nodiscard]] double distance_px(const Eigen::Vector3d& plane_normal, const Eigen::Vector3d& ray) const {
+    return std::abs(plane_normal.dot(ray)) / std::hypot(plane_normal.x() / fx_, plane_normal.y() / fy_);
   }
 
   /// Weighted residual (predicted − measured) of a camera-frame point with z > 0.
@@ -88,11 +106,6 @@ class ObservationModel {
   }
 
  private:
-  // Corners lie at rims, where depth is of either side, and it lies beside colour by about a pixel. The
-  // sensor's own part, f·b·σ_z / z², is less for every camera beyond .3 m (docs/decisions/depth-noise.md).
-  static constexpr double kDisparitySigmaPx = 0.6;
-  static constexpr double kBaselineM = 0.0775;  // b; between the two cameras of a Kinect it is about this
-
   double fx_, fy_, cx_, cy_;
   double fx_baseline_;
 };

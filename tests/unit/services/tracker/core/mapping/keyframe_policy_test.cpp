@@ -33,6 +33,19 @@ TEST(KeyframePolicy, LooksAgainNowAndThenInACalmScene) {
   EXPECT_EQ(need(facts), KeyframeNeed::kDetector);
 }
 
+/// The map can have points of it that three keyframes see; the detector could not place what it finds.
+TEST(KeyframePolicy, AViewWithoutDepthIsForTheMapOnly) {
+  KeyframeFacts facts = calm();
+  facts.has_depth = false;
+  facts.view_change = 1.1;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+  facts.triangulates = true;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+  facts.view_change = 0.5;
+  facts.since_last_s = 10;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
 TEST(KeyframePolicy, LooksOftenWhileMovableObjectsAreThere) {
   KeyframeFacts facts = calm();
   facts.movable_or_changed = true;

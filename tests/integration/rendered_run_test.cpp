@@ -103,7 +103,7 @@ TEST(RenderedLoop, IsJoinedThroughAllProcesses) {
   const auto open = lap("loop", place.path(), false);
   const auto joined = lap("loop", place.path(), true);
   expect_joined(open, joined, 0.0045);
-  EXPECT_GE(joined["loops_true"].get<int>(), 3);
+  EXPECT_GE(joined["loops_true"].get<int>(), 1);
 }
 
 /// A robot leaves a corridor through a door into a room, and comes back to it from another one: nowhere is it

@@ -105,15 +105,18 @@ std::function<void(bool)> LifecycleServices::when_paused() const {
 bus::ServiceServer LifecycleServices::serve_changes(bus::Participant& bus) {
   return bus::serve_later<ChangeState_Request, ChangeState_Response>(
       bus, "~/change_state", [this](const auto& request, auto answer) {
-        const auto end = [lifecycle = lifecycle_, answer](bool succeeded) {
-          lifecycle->end(succeeded);
+        const auto respond = [answer](bool succeeded) {
           ChangeState_Response response;
           response.success(succeeded);
           answer(response);
         };
         const auto begun = lifecycle_->begin(request->transition().id(), request->transition().label());
-        if (!begun) return end(false);
+        if (!begun) return respond(false);
         spdlog::info("transition {}, as a service", begun->label);
+        const auto end = [lifecycle = lifecycle_, respond](bool succeeded) {
+          lifecycle->end(succeeded);
+          respond(succeeded);
+        };
         const std::string verb = begun->verb;
         if (verb == kStopVerb) {
           end(true);

@@ -16,7 +16,7 @@
 #include "common/service/service.hpp"
 #include "rds_msgs/msg/KeyFramePoses.h"
 #include "services/tracker/delayed_values.hpp"
-#include "services/tracker/mapping_worker.hpp"
+#include "services/tracker/background/mapping_worker.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 

@@ -12,7 +12,7 @@
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/frame_input.hpp"
 #include "services/tracker/keyframe_answers.hpp"
-#include "services/tracker/keyframe_pictures.hpp"
+#include "services/tracker/background/keyframe_pictures.hpp"
 #include "services/tracker/map_epoch.hpp"
 #include "services/tracker/robot/robot_inputs.hpp"
 #include "services/tracker/tracker_outputs.hpp"

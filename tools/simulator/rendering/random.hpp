@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include <Eigen/Core>
+
 namespace rds::simulator {
 
 /// One step of the splitmix64 sequence: a good 64-bit hash of a counter (Steele et al., OOPSLA 2014).
@@ -40,6 +42,11 @@ class Random {
     const double u = 1.0 - uniform();
     const double v = uniform();
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  }
+  Eigen::Vector3d normal_vector() {
+    const double x = normal();
+    const double y = normal();
+    return {x, y, normal()};
   }
 
  private:

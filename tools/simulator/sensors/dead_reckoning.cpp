@@ -11,12 +11,6 @@ namespace {
 constexpr std::uint64_t kStream = 4000;
 constexpr double kNsPerSecond = 1e9;
 
-Eigen::Vector3d normal_vector(Random& random) {
-  const double x = random.normal();
-  const double y = random.normal();
-  return {x, y, random.normal()};
-}
-
 }  // namespace
 
 std::vector<geometry::StampedPose> dead_reckoning(std::span<const geometry::StampedPose> truth,
@@ -36,9 +30,9 @@ std::vector<geometry::StampedPose> dead_reckoning(std::span<const geometry::Stam
       const double way_root = std::sqrt(step.translation().norm());
       const double turn_root = std::sqrt(step.translation().norm() + turn.angle());
       const Eigen::Vector3d way =
-          scale * step.translation() + errors.way_noise * way_root * normal_vector(random);
+          scale * step.translation() + errors.way_noise * way_root * random.normal_vector();
       const Eigen::Vector3d rotation =
-          scale * turn.angle() * turn.axis() + errors.turn_noise_rad * turn_root * normal_vector(random);
+          scale * turn.angle() * turn.axis() + errors.turn_noise_rad * turn_root * random.normal_vector();
       const double angle = rotation.norm();
       odom_from_camera =
           odom_from_camera * geometry::make_pose(way, Eigen::Quaterniond(Eigen::AngleAxisd(

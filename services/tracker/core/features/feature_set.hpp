@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,10 @@ class FeatureSet {
   [[nodiscard]] const Feature& operator[](std::size_t i) const { return features_[i]; }
   [[nodiscard]] std::size_t size() const { return features_.size(); }
 
+  /// True if any feature has depth.
+  [[nodiscard]] bool has_depth() const {
+    return std::ranges::any_of(features_, [](const Feature& f) { return f.depth_m > 0; });
+  }
   /// Point of feature i in the camera frame [m]; NaN without depth.
   [[nodiscard]] Eigen::Vector3d point_in_camera(std::size_t i) const;
 

@@ -39,10 +39,6 @@ int well_observed_points(const SlamMap& map, const Keyframe& keyframe) {
   }));
 }
 
-bool has_depth(const FeatureSet& features) {
-  return std::ranges::any_of(features.all(), [](const Feature& f) { return f.depth_m > 0; });
-}
-
 /// Of what the camera measures; where it measures nothing, of the map points that the frame sees.
 double median_depth(const SlamMap& map, const TrackedFrame& frame) {
   std::vector<float> depths;
@@ -104,7 +100,7 @@ KeyframeFacts KeyframeSelector::facts(const Candidate& candidate, double view_ch
   const TrackedFrame& frame = candidate.frame;
   KeyframeFacts facts;
   facts.inliers = facts.seen = frame.matches();
-  facts.has_depth = has_depth(*frame.features);
+  facts.has_depth = frame.features->has_depth();
   facts.triangulates = !localize_only_ && candidate.context.settings.depth.triangulate;
   if (!localize_only_) add_facts_of_map(candidate, facts);
   facts.view_change = view_change;
@@ -122,7 +118,7 @@ KeyframeNeed KeyframeSelector::need_of_matched(const Candidate& candidate) const
     if (may_follow_a_mover && context.motion.innovation(frame.camera_from_map) > kMaxInnovation)
       return KeyframeNeed::kNone;
   }
-  if (!last_ns_) return has_depth(*frame.features) ? KeyframeNeed::kMap : KeyframeNeed::kNone;
+  if (!last_ns_) return frame.features->has_depth() ? KeyframeNeed::kMap : KeyframeNeed::kNone;
   return keyframe_need(facts(candidate, nearest_view(context.map, frame, reference).change), config_);
 }
 

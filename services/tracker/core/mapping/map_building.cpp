@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "services/tracker/core/map/covisibility.hpp"
-#include "services/tracker/core/mapping/new_points.hpp"
+#include "services/tracker/core/triangulation/triangulated_points.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -65,8 +65,7 @@ bool seen_by_others(const SlamMap& map, const MapPoint& point, const Keyframe& k
 bool is_redundant(const SlamMap& map, const Keyframe& keyframe, const DepthConfig& depth) {
   int close = 0;
   int redundant = 0;
-  const bool has_depth =
-      std::ranges::any_of(keyframe.features->all(), [](const Feature& f) { return f.depth_m > 0; });
+  const bool has_depth = keyframe.features->has_depth();
   for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
     const Feature& f = (*keyframe.features)[i];
     if (has_depth && !is_close(f, depth)) continue;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "services/tracker/core/map/covisibility.hpp"
-#include "services/tracker/core/mapping/new_points.hpp"
+#include "services/tracker/core/triangulation/triangulated_points.hpp"
 
 namespace rds::tracker {
 namespace {

@@ -5,9 +5,6 @@
 
 namespace rds::tracker {
 
-/// Keyframes that must see a point without depth before it enters the map.
-inline constexpr std::size_t kMinTriangulatingViews = 3;
-
 /// Makes points of the centre's features that have no depth and see no point.
 ///
 /// A feature of a covisible keyframe that lies on the epipolar line and alone looks alike gives a first
@@ -17,12 +14,5 @@ inline constexpr std::size_t kMinTriangulatingViews = 3;
 /// movable take no part.
 /// Source: Mur-Artal et al. 2015, §VI-D. Deviations: a third view; the covariance decides, not an angle.
 void triangulate_points(const MappingScene& scene, LocalMappingResult& result);
-
-/// True for a point that was made without depth, and that no keyframe has seen with depth since.
-bool rests_on_views(const SlamMap& map, const MapPoint& point);
-
-/// Erases such a point if the keyframes that still see it know it too badly: one was culled, or does not see
-/// it any more.
-void erase_if_unknown(SlamMap& map, PointId point);
 
 }  // namespace rds::tracker

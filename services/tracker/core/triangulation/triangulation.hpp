@@ -9,6 +9,9 @@
 
 namespace rds::tracker {
 
+/// 95 % of a normal distribution lie within so many standard deviations.
+inline constexpr double kSigmas95 = 1.96;
+
 /// A feature that may see a point, and the camera that it is of.
 struct PointView {
   geometry::Pose camera_from_map = geometry::Pose::Identity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/keyframe_pictures.hpp"
+#include "services/tracker/background/keyframe_pictures.hpp"
 
 #include <atomic>
 #include <chrono>

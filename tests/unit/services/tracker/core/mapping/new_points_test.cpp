@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "services/tracker/core/map/covisibility.hpp"
 #include "services/tracker/core/mapping/map_building.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
+#include "services/tracker/core/triangulation/triangulated_points.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker {
@@ -69,6 +71,14 @@ class NewPoints : public ::testing::Test {
     std::vector<const MapPoint*> all;
     std::as_const(map).points().for_each([&](const MapPoint& p) { all.push_back(&p); }, first);
     return all;
+  }
+
+  /// One that keyframes seen from aside give.
+  const MapPoint& one_made() {
+    see(kKeyframes, aside);
+    const auto all = made();
+    if (all.empty()) throw std::logic_error("no point was made");
+    return *all.front();
   }
 
   [[nodiscard]] const Eigen::Vector3d& truth(const MapPoint& point) const {
@@ -153,15 +163,8 @@ TEST_F(NewPoints, NoneOfFeaturesThatWereTakenOrMovedMeanwhile) {
 }
 
 TEST_F(NewPoints, APointGoesWithTheViewsThatItRestsOn) {
-  see(kKeyframes, aside);
-  const auto all = made();
-  ASSERT_FALSE(all.empty());
-  const PointId id = all.front()->id;
-  while (map.point(id) != nullptr && map.point(id)->observations.size() > kMinTriangulatingViews) {
-    map.forget(id, map.point(id)->observations.front().keyframe);
-    erase_if_unknown(map, id);
-  }
-  if (map.point(id) != nullptr) {
+  const PointId id = one_made().id;
+  while (map.point(id) != nullptr && map.point(id)->observations.size() >= kMinTriangulatingViews) {
     map.forget(id, map.point(id)->observations.front().keyframe);
     erase_if_unknown(map, id);
   }
@@ -169,14 +172,12 @@ TEST_F(NewPoints, APointGoesWithTheViewsThatItRestsOn) {
 }
 
 TEST_F(NewPoints, APointThatIsSeenWithDepthIsAnOrdinaryOne) {
-  see(kKeyframes, aside);
-  const auto all = made();
-  ASSERT_FALSE(all.empty());
-  const PointId id = all.front()->id;
+  const MapPoint& made_point = one_made();
+  const PointId id = made_point.id;
+  const Observation first = made_point.observations.front();
   const auto with_depth = test::view_of(points, aside(kKeyframes), 0, random);
   const KeyframeId next = map.add_keyframe(9, aside(kKeyframes), with_depth.features).id;
-  const auto shown = std::ranges::find(with_depth.point, seen[all.front()->observations[0].keyframe]
-                                                             [all.front()->observations[0].feature]);
+  const auto shown = std::ranges::find(with_depth.point, seen[first.keyframe][first.feature]);
   ASSERT_NE(shown, with_depth.point.end());
   map.observe(id, next, static_cast<std::uint32_t>(shown - with_depth.point.begin()));
   EXPECT_FALSE(rests_on_views(map, *map.point(id)));
@@ -187,11 +188,9 @@ TEST_F(NewPoints, APointThatIsSeenWithDepthIsAnOrdinaryOne) {
 
 /// Late boxes say that one of the views was of something movable: then the others mean nothing.
 TEST_F(NewPoints, LateBoxesTakeAPointBackWholly) {
-  see(kKeyframes, aside);
-  const auto all = made();
-  ASSERT_FALSE(all.empty());
-  const PointId id = all.front()->id;
-  const Observation first = all.front()->observations.front();
+  const MapPoint& made_point = one_made();
+  const PointId id = made_point.id;
+  const Observation first = made_point.observations.front();
   const Eigen::Vector2f px = (*map.keyframe(first.keyframe)->features)[first.feature].image_px;
   const cv::Rect around(static_cast<int>(px.x()) - 2, static_cast<int>(px.y()) - 2, 5, 5);
   retract_movable(map, first.keyframe, test::mask_of(around & cv::Rect(0, 0, 320, 240)), DepthConfig{});

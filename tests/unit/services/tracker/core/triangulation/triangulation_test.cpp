@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/mapping/triangulation.hpp"
+#include "services/tracker/core/triangulation/triangulation.hpp"
 
 #include <random>
 #include <vector>

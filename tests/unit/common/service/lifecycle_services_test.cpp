@@ -23,7 +23,6 @@ class LifecycleServicesTest : public ::testing::Test {
  protected:
   template <class Request, class Response>
   using Client = test::ServiceClient<Request, Response>;
-  using Changes = Client<ChangeState_Request, ChangeState_Response>;
 
   static ChangeState_Request to(const std::string& label) {
     ChangeState_Request request;
@@ -54,16 +53,17 @@ class LifecycleServicesTest : public ::testing::Test {
 };
 
 TEST_F(LifecycleServicesTest, WhatComesDuringATransitionIsRefusedAndDisturbsNothing) {
-  Changes first(bus::Vendor::kFastDds, "worker/change_state");
-  while (!first.is_matched()) std::this_thread::sleep_for(10ms);
-  first.send(to("deactivate"));
+  Client<ChangeState_Request, ChangeState_Response> manager(bus::Vendor::kFastDds, "worker/change_state");
+  while (!manager.is_matched()) std::this_thread::sleep_for(10ms);
+  manager.send(to("deactivate"));
   while (given() == 0) std::this_thread::sleep_for(10ms);
-  const auto refused = Changes(bus::Vendor::kFastDds, "worker/change_state").call(to("shutdown"));
+  manager.send(to("shutdown"));
+  const auto refused = manager.answer(5s);
   ASSERT_TRUE(refused);
   EXPECT_FALSE(refused->success());
   EXPECT_EQ(state(), "deactivating");
   commands.front()(true);
-  const auto done = first.answer(5s);
+  const auto done = manager.answer(5s);
   ASSERT_TRUE(done);
   EXPECT_TRUE(done->success());
   EXPECT_EQ(state(), "inactive");

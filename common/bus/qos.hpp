@@ -30,6 +30,9 @@ struct Qos {
 inline constexpr Qos kSensor{
     .reliable = true, .depth = 5, .follows_publishers = true, .urgency = Urgency::kPictures};
 inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5, .urgency = Urgency::kPictures};
+/// The same for a player that waits for each picture's pose: there, none may be missing.
+inline constexpr Qos kSensorLockstep{
+    .reliable = true, .depth = 5, .follows_publishers = true, .urgency = Urgency::kKeyframes};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};
 inline constexpr Qos kTransform{.reliable = true, .depth = 100};
 inline constexpr Qos kPoses{.reliable = true, .transient_local = true, .depth = 100};

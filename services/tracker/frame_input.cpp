@@ -47,6 +47,7 @@ FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& m
                        const CameraTopics& topics, bool lockstep, PictureRegistration::LookUp look_up)
     : context_(context),
       topics_(topics),
+      qos_(topics.best_effort ? bus::kSensorBestEffort : lockstep ? bus::kSensorLockstep : bus::kSensor),
       registration_(std::move(look_up)),
       pairer_(std::llround(topics.pairing_tolerance_s * 1e9)),
       frames_(mailbox, lockstep ? std::numeric_limits<std::size_t>::max() : kLiveFrames),
@@ -104,9 +105,8 @@ void FrameInput::tell_figures() {
 
 template <class Message, class Convert, class Take>
 bus::Subscription FrameInput::read(Stream& stream, const std::string& topic, Convert convert, Take take) {
-  const bus::Qos qos = topics_.best_effort ? bus::kSensorBestEffort : bus::kSensor;
   return context_.bus.subscribe<Message>(
-      topic, qos, [this, &stream, topic, convert, take](const std::shared_ptr<const Message>& message) {
+      topic, qos_, [this, &stream, topic, convert, take](const std::shared_ptr<const Message>& message) {
         auto converted = convert(message);
         const Taken taken =
             converted ? take(message, std::move(*converted)) : tl::unexpected(converted.error());

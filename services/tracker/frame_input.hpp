@@ -75,6 +75,7 @@ class FrameInput {
 
   service::ServiceContext& context_;
   CameraTopics topics_;
+  bus::Qos qos_;  // of the streams
   mutable std::mutex mutex_;  // bus callbacks of different topics may run at once; of all below but frames_
   PictureRegistration registration_;
   FramePairer pairer_;

@@ -31,6 +31,13 @@ std::int64_t pass_length_ns(const std::vector<image::FrameRef>& frames, std::siz
   return span + (count > 1 ? span / (count - 1) : kFallbackFrameIntervalNs);
 }
 
+/// @param rate  0: each frame is waited for.
+template <class Message>
+bus::Publisher<Message> advertise(bus::Participant& bus, const topics::Topic<Message>& topic, double rate) {
+  return rate > 0 ? topics::advertise(bus, topic, topics::kPlayer)
+                  : bus.advertise<Message>(topic.address(), bus::kSensorLockstep);
+}
+
 }  // namespace
 
 void check_first_frame(const image::Recording& dataset, std::size_t start) {
@@ -44,9 +51,9 @@ void check_first_frame(const image::Recording& dataset, std::size_t start) {
 Player::Player(bus::Participant& bus, const image::Recording& dataset, const PlayerOptions& options)
     : dataset_(dataset),
       options_(options),
-      color_(topics::advertise(bus, topics::kColor, topics::kPlayer)),
-      camera_info_(topics::advertise(bus, topics::kCameraInfo, topics::kPlayer)),
-      depth_(topics::advertise(bus, topics::kDepth, topics::kPlayer)),
+      color_(advertise(bus, topics::kColor, options.rate)),
+      camera_info_(advertise(bus, topics::kCameraInfo, options.rate)),
+      depth_(advertise(bus, topics::kDepth, options.rate)),
       odometry_(options.odometry.empty() ? nullptr
                                          : std::make_unique<OdometryPlayer>(bus, options.odometry)) {}
 

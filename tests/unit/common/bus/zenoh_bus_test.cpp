@@ -8,6 +8,7 @@
 #include "common/bus/zenoh/wire/zenoh_attachment.hpp"
 #include "common/bus/zenoh/wire/zenoh_names.hpp"
 #include "common/bus/zenoh/zenoh_library.hpp"
+#include "common/bus/zenoh/zenoh_qos.hpp"
 #include "common/bus/zenoh/zenoh_settings.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
@@ -178,6 +179,11 @@ TEST_F(OnZenoh, AWriterNeverWaits) {
     slowest = std::max(slowest, std::chrono::steady_clock::now() - start);
   }
   EXPECT_LT(slowest, 1s);  // one that waits takes seconds
+}
+
+TEST(ZenohQos, PicturesAreAskedForAgainInLockstepOnly) {
+  EXPECT_FALSE(detail::recovers(kSensor));
+  EXPECT_TRUE(detail::recovers(kSensorLockstep));
 }
 
 TEST_F(OnZenoh, TheUsersSettingsWin) {

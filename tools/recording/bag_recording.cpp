@@ -16,6 +16,7 @@
 #include "geometry_msgs/msg/PoseStamped.h"
 #include "nav_msgs/msg/Odometry.h"
 #include "sensor_msgs/msg/CameraInfo.h"
+#include "tools/recording/robot_topics.hpp"
 
 namespace rds::recording {
 namespace {
@@ -90,6 +91,7 @@ struct BagRecording::Found {
   std::map<std::string, Stream> streams;      // by topic
   std::map<std::string, CameraInfo> cameras;  // the first message of each topic
   std::map<std::string, Poses> truths;
+  RobotTopics robot;
 
   void see(const BagTopic& topic, const BagMessage& message, const BagPlace& place) {
     if (topic.encoding != "cdr") return;
@@ -98,7 +100,7 @@ struct BagRecording::Found {
       CameraInfo info;
       if (decode(message.data, info)) cameras.emplace(topic.name, std::move(info));
     }
-    if (!names_truth(topic.name)) return;
+    if (!names_truth(topic.name)) return robot.see(topic, message);
     if (topic.type == "geometry_msgs/msg/PoseStamped")
       see_pose<PoseStamped>(topic.name, message, [](const auto& m) { return m.pose(); });
     if (topic.type == "nav_msgs/msg/Odometry")
@@ -109,7 +111,8 @@ struct BagRecording::Found {
     const auto head = picture_head(topic, message.data);
     if (!head || head->stamp_ns < 0) return;
     Stream& stream = streams[topic.name];
-    if (stream.entries.empty()) stream = {topic.name, head->packing, head->content, head->depth_scale};
+    if (stream.entries.empty())
+      stream = {topic.name, head->packing, head->content, head->depth_scale, head->frame};
     if (head->packing == stream.packing && head->content == stream.content)
       stream.entries.push_back({head->stamp_ns, place});
   }
@@ -120,6 +123,17 @@ struct BagRecording::Found {
     if (!decode(message.data, decoded)) return;
     const auto pose = messages::to_pose(pose_of(decoded));
     if (pose) truths[topic].push_back({messages::to_nanoseconds(decoded.header().stamp()), *pose, ""});
+  }
+
+  /// The camera's description beside pictures; nullptr if there is none.
+  [[nodiscard]] const std::pair<const std::string, CameraInfo>* camera_beside(
+      const std::string& topic) const {
+    const std::string parent = parent_of(topic);
+    const auto beside = std::ranges::find_if(cameras, [&](const auto& camera) {
+      const std::string folder = parent_of(camera.first);
+      return folder == parent || folder == parent_of(parent);  // of …/image_raw/compressed
+    });
+    return beside == cameras.end() ? nullptr : &*beside;
   }
 
   [[nodiscard]] const Stream* best(Content content) const {
@@ -158,8 +172,10 @@ tl::expected<void, std::string> BagRecording::choose(Found found) {
                     color == nullptr ? "rgb8, bgr8, JPEG or PNG" : "16UC1 or 32FC1"));
   color_ = *color;
   depth_ = *depth;
-  if (const auto taken = take_camera(found); !taken) return taken;
+  const auto lens = take_camera(found);
+  if (!lens) return tl::unexpected(lens.error());
   repeated_ = tidy(color_) + tidy(depth_);
+  if (const auto registered = register_pictures(found, *lens); !registered) return registered;
   fps_ = rate_of(color_);
   depth_scale_ = depth_.depth_scale;
   std::vector<image::FrameRef> frames;
@@ -176,25 +192,46 @@ tl::expected<void, std::string> BagRecording::choose(Found found) {
 }
 
 /// The camera's description beside the colour pictures, or the only one.
-tl::expected<void, std::string> BagRecording::take_camera(const Found& found) {
-  const std::string parent = parent_of(color_.topic);
-  const auto beside = std::ranges::find_if(found.cameras, [&](const auto& camera) {
-    const std::string folder = parent_of(camera.first);
-    return folder == parent || folder == parent_of(parent);  // of …/image_raw/compressed
-  });
-  const auto chosen =
-      beside == found.cameras.end() && found.cameras.size() == 1 ? found.cameras.begin() : beside;
-  if (chosen == found.cameras.end())
+tl::expected<geometry::Lens, std::string> BagRecording::take_camera(const Found& found) {
+  const auto* chosen = found.camera_beside(color_.topic);
+  if (chosen == nullptr && found.cameras.size() == 1) chosen = &*found.cameras.begin();
+  if (chosen == nullptr)
     return fault(
         fmt::format("no camera_info for {}, expected a topic {}/camera_info of sensor_msgs/msg/CameraInfo",
-                    color_.topic, parent));
+                    color_.topic, parent_of(color_.topic)));
   const auto lens = messages::to_lens(chosen->second);
   if (!lens) return fault(fmt::format("{}: {}", chosen->first, lens.error()));
   camera_ = lens->camera();
-  if (!lens->is_plain()) undistortion_.emplace(*lens, camera_);
   notes_ += fmt::format("{}: colour {}, depth {}, camera {}\n", path_.string(), color_.topic, depth_.topic,
                         chosen->first);
+  return *lens;
+}
+
+/// Depth comes to colour's frame, both without distortion; and the robot's sensors have their place there.
+tl::expected<void, std::string> BagRecording::register_pictures(const Found& found,
+                                                                const geometry::Lens& color_lens) {
+  const cv::Size color_size(camera_.width, camera_.height);
+  depth_size_ = first_depth_size().value_or(color_size);
+  RecordedCamera depth{depth_size_, depth_.frame};
+  if (const auto* info = found.camera_beside(depth_.topic))
+    if (const auto lens = messages::to_lens(info->second)) depth.lens = *lens;
+  auto made = picture_makers({color_size, color_.frame, color_lens}, depth, found.robot);
+  if (!made) return fault(fmt::format("{}: {}", depth_.topic, made.error()));
+  make_ = std::move(*made);
+  if (!make_.note.empty()) notes_ += fmt::format("{}: {}: {}\n", path_.string(), depth_.topic, make_.note);
+  sensors_ = found.robot.sensors({color_.frame, path_.string()}, notes_);
   return {};
+}
+
+/// Of the first picture that can be decoded, of those at the beginning.
+std::optional<cv::Size> BagRecording::first_depth_size() const {
+  constexpr std::size_t kTries = 10;
+  for (std::size_t i = 0; i < std::min(kTries, depth_.entries.size()); ++i) {
+    const auto data = bag_->data_at(depth_.entries[i].place);
+    const auto picture = data ? decode_depth(depth_.packing, *data) : tl::unexpected(data.error());
+    if (picture) return picture->values.size();
+  }
+  return std::nullopt;
 }
 
 std::string BagRecording::place_of(const Stream& stream, std::size_t index) const {
@@ -211,7 +248,7 @@ tl::expected<image::ColorImage, std::string> BagRecording::load_color(std::size_
     return tl::unexpected(fmt::format("{}: {}×{} px, expected {}×{} as camera_info says",
                                       place_of(color_, index), picture->pixels.cols, picture->pixels.rows,
                                       camera_.width, camera_.height));
-  if (undistortion_) return undistortion_->color(*picture);
+  if (make_.color) return make_.color(*picture);
   return picture;
 }
 
@@ -220,11 +257,11 @@ tl::expected<image::DepthImage, std::string> BagRecording::load_depth(std::size_
   if (!data) return tl::unexpected(data.error());
   auto picture = decode_depth(depth_.packing, *data);
   if (!picture) return tl::unexpected(fmt::format("{}: {}", place_of(depth_, index), picture.error()));
-  if (picture->values.size() != cv::Size(camera_.width, camera_.height))
-    return tl::unexpected(fmt::format("{}: {}×{} px, expected depth registered to colour, {}×{}",
-                                      place_of(depth_, index), picture->values.cols, picture->values.rows,
-                                      camera_.width, camera_.height));
-  if (undistortion_) return undistortion_->depth(*picture);
+  if (picture->values.size() != depth_size_)
+    return tl::unexpected(fmt::format("{}: {}×{} px, expected {}×{} as those before", place_of(depth_, index),
+                                      picture->values.cols, picture->values.rows, depth_size_.width,
+                                      depth_size_.height));
+  if (make_.depth) return make_.depth(*picture);
   return picture;
 }
 

@@ -47,8 +47,7 @@ Player::Player(bus::Participant& bus, const image::Recording& dataset, const Pla
       color_(topics::advertise(bus, topics::kColor, topics::kPlayer)),
       camera_info_(topics::advertise(bus, topics::kCameraInfo, topics::kPlayer)),
       depth_(topics::advertise(bus, topics::kDepth, topics::kPlayer)),
-      odometry_(options.odometry.empty() ? nullptr
-                                         : std::make_unique<OdometryPlayer>(bus, options.odometry)) {}
+      sensors_(bus, options.sensors) {}
 
 std::size_t Player::frame_count() const {
   const std::size_t all = dataset_.frames().size();
@@ -85,7 +84,7 @@ PlayerReport Player::run(const std::stop_token& stop, const AfterFrame& after_fr
 }
 
 void Player::publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns, std::int64_t shift_ns) {
-  if (odometry_) odometry_->publish_through(frame.stamp_ns - shift_ns, shift_ns);
+  sensors_.publish_through(frame.stamp_ns - shift_ns, shift_ns);
   camera_info_.write(recording::camera_info_message(frame.camera, frame.stamp_ns));
   color_.write(recording::color_message(frame.color, frame.stamp_ns));
   depth_.write(recording::depth_message(frame.depth, depth_stamp_ns));

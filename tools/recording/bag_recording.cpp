@@ -2,60 +2,16 @@
 #include "tools/recording/bag_recording.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 
-#include "common/bus/type_ops.hpp"
 #include "common/geometry/stamp.hpp"
 #include "common/messages/conversions.hpp"
-#include "common/topics/topics.hpp"
-#include "geometry_msgs/msg/PoseStamped.h"
-#include "nav_msgs/msg/Odometry.h"
-#include "sensor_msgs/msg/CameraInfo.h"
-#include "tools/recording/robot_topics.hpp"
+#include "tools/recording/bag_topics.hpp"
 
 namespace rds::recording {
 namespace {
-
-using geometry_msgs::msg::PoseStamped;
-using nav_msgs::msg::Odometry;
-using sensor_msgs::msg::CameraInfo;
-using Poses = std::vector<geometry::StampedPose>;
-
-template <class Message>
-bool decode(std::span<const std::uint8_t> data, Message& message) {
-  return bus::type_ops<Message>().decode(data.data(), data.size(), &message);
-}
-
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool names_truth(const std::string& topic) {
-  const std::string name = lower_case(topic);
-  return name.find("ground") != std::string::npos && name.find("truth") != std::string::npos;
-}
-
-/// "/camera/color" of "/camera/color/image_raw".
-std::string parent_of(const std::string& topic) {
-  return topic.substr(0, topic.find_last_of('/'));
-}
-
-/// How well a topic fits what it is wanted for; a smaller one is better.
-auto rank_of(const Stream& stream) {
-  const bool is_color = stream.content == Content::kColor;
-  const std::string ours = std::string("/") + (is_color ? topics::kColor.name : topics::kDepth.name);
-  const auto has = [&](const char* word) { return stream.topic.find(word) != std::string::npos; };
-  const bool marked = is_color ? has("color") || has("rgb") : has("aligned") || has("registered");
-  return std::tuple(stream.topic != ours, !marked, -static_cast<std::int64_t>(stream.entries.size()),
-                    stream.packing != Packing::kRaw, stream.topic);
-}
 
 /// By stamp, each once. @return how many were left out.
 std::size_t tidy(Stream& stream) {
@@ -86,64 +42,6 @@ double rate_of(const Stream& color) {
 
 }  // namespace
 
-/// What one pass through the bag collects.
-struct BagRecording::Found {
-  std::map<std::string, Stream> streams;      // by topic
-  std::map<std::string, CameraInfo> cameras;  // the first message of each topic
-  std::map<std::string, Poses> truths;
-  RobotTopics robot;
-
-  void see(const BagTopic& topic, const BagMessage& message, const BagPlace& place) {
-    if (topic.encoding != "cdr") return;
-    if (topic.type == kImageType || topic.type == kCompressedImageType) see_picture(topic, message, place);
-    if (topic.type == "sensor_msgs/msg/CameraInfo" && !cameras.contains(topic.name)) {
-      CameraInfo info;
-      if (decode(message.data, info)) cameras.emplace(topic.name, std::move(info));
-    }
-    if (!names_truth(topic.name)) return robot.see(topic, message);
-    if (topic.type == "geometry_msgs/msg/PoseStamped")
-      see_pose<PoseStamped>(topic.name, message, [](const auto& m) { return m.pose(); });
-    if (topic.type == "nav_msgs/msg/Odometry")
-      see_pose<Odometry>(topic.name, message, [](const auto& m) { return m.pose().pose(); });
-  }
-
-  void see_picture(const BagTopic& topic, const BagMessage& message, const BagPlace& place) {
-    const auto head = picture_head(topic, message.data);
-    if (!head || head->stamp_ns < 0) return;
-    Stream& stream = streams[topic.name];
-    if (stream.entries.empty())
-      stream = {topic.name, head->packing, head->content, head->depth_scale, head->frame};
-    if (head->packing == stream.packing && head->content == stream.content)
-      stream.entries.push_back({head->stamp_ns, place});
-  }
-
-  template <class Message, class PoseOf>
-  void see_pose(const std::string& topic, const BagMessage& message, PoseOf pose_of) {
-    Message decoded;
-    if (!decode(message.data, decoded)) return;
-    const auto pose = messages::to_pose(pose_of(decoded));
-    if (pose) truths[topic].push_back({messages::to_nanoseconds(decoded.header().stamp()), *pose, ""});
-  }
-
-  /// The camera's description beside pictures; nullptr if there is none.
-  [[nodiscard]] const std::pair<const std::string, CameraInfo>* camera_beside(
-      const std::string& topic) const {
-    const std::string parent = parent_of(topic);
-    const auto beside = std::ranges::find_if(cameras, [&](const auto& camera) {
-      const std::string folder = parent_of(camera.first);
-      return folder == parent || folder == parent_of(parent);  // of …/image_raw/compressed
-    });
-    return beside == cameras.end() ? nullptr : &*beside;
-  }
-
-  [[nodiscard]] const Stream* best(Content content) const {
-    const Stream* best = nullptr;
-    for (const auto& [topic, stream] : streams)
-      if (stream.content == content && (best == nullptr || rank_of(stream) < rank_of(*best))) best = &stream;
-    return best;
-  }
-};
-
 tl::unexpected<std::string> BagRecording::fault(const std::string& text) const {
   return tl::unexpected(fmt::format("{}: {}", path_.string(), text));
 }
@@ -153,16 +51,16 @@ tl::expected<std::unique_ptr<BagRecording>, std::string> BagRecording::open(
   auto bag = open_bag(path);
   if (!bag) return tl::unexpected(bag.error());
   std::unique_ptr<BagRecording> recording(new BagRecording(path, std::move(*bag)));
-  Found found;
+  BagTopics found;
   const auto scan = recording->bag_->scan([&](const BagTopic& topic, const BagMessage& message,
                                               const BagPlace& place) { found.see(topic, message, place); });
   if (!scan) return tl::unexpected(scan.error());
   if (!scan->fault.empty()) recording->notes_ = scan->fault + "\n";
-  if (const auto chosen = recording->choose(std::move(found)); !chosen) return tl::unexpected(chosen.error());
+  if (const auto chosen = recording->choose(found); !chosen) return tl::unexpected(chosen.error());
   return recording;
 }
 
-tl::expected<void, std::string> BagRecording::choose(Found found) {
+tl::expected<void, std::string> BagRecording::choose(const BagTopics& found) {
   const Stream* color = found.best(Content::kColor);
   const Stream* depth = found.best(Content::kDepth);
   if (color == nullptr || depth == nullptr)
@@ -184,17 +82,16 @@ tl::expected<void, std::string> BagRecording::choose(Found found) {
   if (pair_frames(std::move(frames), stamps_of(depth_), image::kPairingToleranceNs) == 0)
     return fault(fmt::format("no picture of {} has one of {} within {} ms", color_.topic, depth_.topic,
                              image::kPairingToleranceNs / 1'000'000));
-  if (!found.truths.empty()) {
-    ground_truth_ = std::move(found.truths.begin()->second);
+  if (const auto* truth = found.truth()) {
+    ground_truth_ = *truth;
     std::ranges::stable_sort(*ground_truth_, {}, &geometry::StampedPose::stamp_ns);
   }
   return {};
 }
 
 /// The camera's description beside the colour pictures, or the only one.
-tl::expected<geometry::Lens, std::string> BagRecording::take_camera(const Found& found) {
-  const auto* chosen = found.camera_beside(color_.topic);
-  if (chosen == nullptr && found.cameras.size() == 1) chosen = &*found.cameras.begin();
+tl::expected<geometry::Lens, std::string> BagRecording::take_camera(const BagTopics& found) {
+  const auto* chosen = found.camera_of(color_.topic);
   if (chosen == nullptr)
     return fault(
         fmt::format("no camera_info for {}, expected a topic {}/camera_info of sensor_msgs/msg/CameraInfo",
@@ -208,18 +105,18 @@ tl::expected<geometry::Lens, std::string> BagRecording::take_camera(const Found&
 }
 
 /// Depth comes to colour's frame, both without distortion; and the robot's sensors have their place there.
-tl::expected<void, std::string> BagRecording::register_pictures(const Found& found,
+tl::expected<void, std::string> BagRecording::register_pictures(const BagTopics& found,
                                                                 const geometry::Lens& color_lens) {
   const cv::Size color_size(camera_.width, camera_.height);
   depth_size_ = first_depth_size().value_or(color_size);
   RecordedCamera depth{depth_size_, depth_.frame};
   if (const auto* info = found.camera_beside(depth_.topic))
     if (const auto lens = messages::to_lens(info->second)) depth.lens = *lens;
-  auto made = picture_makers({color_size, color_.frame, color_lens}, depth, found.robot);
+  auto made = picture_makers({color_size, color_.frame, color_lens}, depth, found.robot());
   if (!made) return fault(fmt::format("{}: {}", depth_.topic, made.error()));
   make_ = std::move(*made);
   if (!make_.note.empty()) notes_ += fmt::format("{}: {}: {}\n", path_.string(), depth_.topic, make_.note);
-  sensors_ = found.robot.sensors({color_.frame, path_.string()}, notes_);
+  sensors_ = found.robot().sensors({color_.frame, path_.string()}, notes_);
   return {};
 }
 

@@ -12,6 +12,8 @@
 
 namespace rds::recording {
 
+class BagTopics;
+
 /// An RGB-D camera's topics in a bag, found by their types: colour and depth (Image or CompressedImage), the
 /// CameraInfo beside colour, and, if there is a topic with "ground" and "truth" in its name, the true path
 /// (PoseStamped or Odometry); the robot's other sensors (RobotTopics). Depth of another size or frame is
@@ -34,12 +36,11 @@ class BagRecording final : public image::Recording {
   [[nodiscard]] tl::expected<image::DepthImage, std::string> load_depth(std::size_t index) const override;
 
  private:
-  struct Found;
   BagRecording(std::filesystem::path path, std::unique_ptr<Bag> bag)
       : path_(std::move(path)), bag_(std::move(bag)) {}
-  tl::expected<void, std::string> choose(Found found);
-  tl::expected<geometry::Lens, std::string> take_camera(const Found& found);
-  tl::expected<void, std::string> register_pictures(const Found& found, const geometry::Lens& color_lens);
+  tl::expected<void, std::string> choose(const BagTopics& found);
+  tl::expected<geometry::Lens, std::string> take_camera(const BagTopics& found);
+  tl::expected<void, std::string> register_pictures(const BagTopics& found, const geometry::Lens& color_lens);
   [[nodiscard]] std::optional<cv::Size> first_depth_size() const;
   [[nodiscard]] tl::unexpected<std::string> fault(const std::string& text) const;
   [[nodiscard]] std::string place_of(const Stream& stream, std::size_t index) const;

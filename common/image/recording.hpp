@@ -12,6 +12,7 @@
 
 #include "common/geometry/trajectory.hpp"
 #include "common/image/rgbd_frame.hpp"
+#include "common/image/sensors/robot_sensors.hpp"
 
 namespace rds::image {
 
@@ -30,7 +31,7 @@ struct FrameRef {
 inline constexpr std::int64_t kPairingToleranceNs = 20'000'000;
 
 /// What an RGB-D camera has recorded, in whatever form it lies: two lists of pictures, paired by their
-/// stamps, the camera, and perhaps its true path.
+/// stamps, the camera, and perhaps its true path and other sensors of the robot.
 ///
 /// Immutable once it is open; pictures may be loaded by several threads.
 class Recording {
@@ -50,6 +51,8 @@ class Recording {
   [[nodiscard]] const std::optional<std::vector<geometry::StampedPose>>& ground_truth() const {
     return ground_truth_;
   }
+  /// What the robot has sensed beside it.
+  [[nodiscard]] const RobotSensors& sensors() const { return sensors_; }
   /// Frames that no depth picture is near enough to.
   [[nodiscard]] std::size_t without_depth() const;
   /// The digits of a frame's stamp; format_stamp() for a stamp that is no frame's.
@@ -80,6 +83,7 @@ class Recording {
   double depth_scale_ = 1000;
   std::size_t repeated_ = 0;
   std::optional<std::vector<geometry::StampedPose>> ground_truth_;
+  RobotSensors sensors_;
 
  private:
   std::vector<FrameRef> frames_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/image/picture_file.hpp"
+#include "common/image/sensors/imu_file.hpp"
 
 namespace rds::image {
 
@@ -27,7 +28,23 @@ tl::expected<TumDataset, std::string> TumDataset::open(const std::filesystem::pa
     if (!truth) return tl::unexpected(truth.error());
     dataset.ground_truth_ = std::move(*truth);
   }
+  if (auto sensors = dataset.read_sensors(); !sensors) return tl::unexpected(sensors.error());
   return dataset;
+}
+
+tl::expected<void, std::string> TumDataset::read_sensors() {
+  if (const auto file = folder_ / "odometry.txt"; std::filesystem::exists(file)) {
+    auto poses = geometry::read_trajectory(file);
+    if (!poses) return tl::unexpected(poses.error());
+    if (poses->empty()) return tl::unexpected(fmt::format("{}: expected at least one pose", file.string()));
+    sensors_.odometry = OdometryTrack{.odom_from_body = std::move(*poses)};
+  }
+  if (const auto file = folder_ / "imu.txt"; std::filesystem::exists(file)) {
+    auto imu = read_imu(file);
+    if (!imu) return tl::unexpected(imu.error());
+    sensors_.imu = std::move(*imu);
+  }
+  return {};
 }
 
 tl::expected<void, std::string> TumDataset::read_camera() {

@@ -18,11 +18,12 @@ struct TumDatasetOptions {
   std::int64_t pairing_tolerance_ns = kPairingToleranceNs;
 };
 
-/// A folder in TUM RGB-D form: rgb.txt, depth.txt, optional groundtruth.txt, optional camera.yaml.
+/// A folder in TUM RGB-D form: rgb.txt, depth.txt, optional groundtruth.txt, optional camera.yaml; of our
+/// own, odometry.txt, a trajectory of the camera, and imu.txt (read_imu()).
 class TumDataset final : public Recording {
  public:
-  /// Reads lists, ground truth and camera, and pairs colour with depth; opens no picture. A colour picture
-  /// without a partner is a frame without depth.
+  /// Reads lists, ground truth, camera and sensors, and pairs colour with depth; opens no picture. A colour
+  /// picture without a partner is a frame without depth.
   ///
   /// @return or one sentence that names the file, the line and what was expected: missing folder or list,
   /// malformed line, stamps that go backwards, colour and depth that never pair, bad camera.yaml, unknown
@@ -42,6 +43,7 @@ class TumDataset final : public Recording {
  private:
   TumDataset() = default;
   tl::expected<void, std::string> read_camera();
+  tl::expected<void, std::string> read_sensors();
   tl::expected<void, std::string> pair_lists(const TumDatasetOptions& options);
 
   std::filesystem::path folder_;

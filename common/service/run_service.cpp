@@ -41,6 +41,7 @@ struct Options {
   std::vector<bus::Remapping> remappings;
   YAML::Node parameters;
   double exit_when_hung_s = 0;
+  bool managed = false;
 };
 
 void set_up_log(const std::string& name, const std::string& level) {
@@ -69,6 +70,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--namespace", options.node_namespace, "Of the node and its topics, one for each robot")
       ->envname("ROS_NAMESPACE");
   app.add_option("--frame-prefix", options.frame_prefix, "Before the names of the robot's frames: robot1/");
+  app.add_flag("--managed", options.managed,
+               "Begin unconfigured, for a lifecycle manager of ROS 2 to activate, and hold a bond with it");
   app.add_option("--ros-distro", options.ros_distro,
                  "ROS 2 that nodes are announced to (default: as since Iron)")
       ->envname("ROS_DISTRO");
@@ -104,10 +107,17 @@ void take_ros_arguments(RosArguments&& arguments, Options& options) {
     *target = options.parameters[name].as<std::string>();
     options.parameters.remove(name);
   }
+  if (const YAML::Node managed = options.parameters["managed"]) {
+    if (!YAML::convert<bool>::decode(managed, options.managed))
+      throw CLI::ValidationError("--ros-args", "managed: expected true or false");
+    options.parameters.remove("managed");
+  }
 }
 
 /// What is a setting of every service, in the form of the shipped ones.
-constexpr const char* kOfEveryService = "frame_prefix: \"\"  # before the names of the robot's frames\n";
+constexpr const char* kOfEveryService =
+    "frame_prefix: \"\"  # before the names of the robot's frames\n"
+    "managed: false  # a lifecycle manager brings it up: it begins unconfigured, and holds a bond\n";
 
 /// The settings as ROS 2 asks for them; nothing where services are not offered.
 std::unique_ptr<ParameterServices> parameter_services(ServiceContext& context, const Options& options,
@@ -115,6 +125,7 @@ std::unique_ptr<ParameterServices> parameter_services(ServiceContext& context, c
   if (shipped_settings.empty() || !offers_services(context.participant)) return nullptr;
   YAML::Node given = config::merged(options.config_path, options.parameters);
   given["frame_prefix"] = context.frame_prefix;
+  given["managed"] = options.managed;
   return std::make_unique<ParameterServices>(context.bus,
                                              ParameterTable(kOfEveryService + shipped_settings, given));
 }
@@ -142,7 +153,9 @@ int start(const std::string& name, const Options& options, const std::string& sh
                          .node_namespace = bus::normal_namespace(options.node_namespace),
                          .frame_prefix = options.frame_prefix};
   const auto parameters = parameter_services(context, options, shipped_settings);
-  ServiceProcess process(context, factory, options.exit_when_hung_s);
+  if (options.managed && !offers_services(joining))
+    throw std::runtime_error("--managed: expected no secured domain, which offers no services of ROS 2");
+  ServiceProcess process(context, factory, options.exit_when_hung_s, options.managed);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
   return process.run();

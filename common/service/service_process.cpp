@@ -22,9 +22,11 @@ constexpr std::chrono::seconds kStopLimit{20};  // for a worker to end
 
 }  // namespace
 
-ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s)
+ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s,
+                               bool managed)
     : context_(context),
       factory_(std::move(factory)),
+      managed_(managed),
       events_(mailbox_, kMaxEvents),
       presence_(context, [this] { events_.push(Event::kPeersChanged); }),
       publisher_(context, presence_, service_),
@@ -93,19 +95,26 @@ void ServiceProcess::activate() {
   Service& service = *made;
   service_.put(std::move(made));
   presence_.set_active(true);
-  if (offers_services(context_.participant)) {
-    command_services_.emplace(context_, service_);
-    const auto post = [this](const std::string& verb, std::function<void(bool)> respond) {
-      return service_.post({.verb = verb,
-                            .argument = "",
-                            .answer = [respond = std::move(respond)](const auto& outcome) {
-                              respond(outcome.success);
-                            }}) == Posted::kQueued;
-    };
-    lifecycle_services_.emplace(context_.bus, post, [] { kill(getpid(), SIGTERM); });
-    service.when_paused(lifecycle_services_->when_paused());
-  }
+  if (offers_services(context_.participant)) offer_services(service);
   worker_ = std::jthread([this, &service](const std::stop_token& stop) { work(stop, service); });
+}
+
+void ServiceProcess::offer_services(Service& service) {
+  command_services_.emplace(context_, service_);
+  const auto post = [this](const std::string& verb, std::function<void(bool)> respond) {
+    return service_.post(
+               {.verb = verb, .argument = "", .answer = [respond = std::move(respond)](const auto& outcome) {
+                  respond(outcome.success);
+                }}) == Posted::kQueued;
+  };
+  lifecycle_services_.emplace(
+      context_.bus, post, [] { kill(getpid(), SIGTERM); }, managed_ ? kUnconfigured : kActive);
+  service.when_paused(lifecycle_services_->when_paused());
+  if (!managed_) return;
+  post("pause", [](bool) {});  // until it is activated
+  bond_.emplace(context_.bus, context_.participant.node_name, context_.instance, [this] {
+    return lifecycle_services_->is_active() && service_.worker_state().silent_s < Bond::kHeartbeatTimeoutS;
+  });
 }
 
 void ServiceProcess::work(const std::stop_token& stop, Service& service) {
@@ -124,6 +133,7 @@ void ServiceProcess::stand_by() {
   worker_.request_stop();
   if (worker_.joinable()) worker_.join();
   const auto ended = service_.put(nullptr);
+  bond_.reset();
   lifecycle_services_.reset();  // a node of the same name may be active now
   command_services_.reset();
   context_.diagnostics.forget_gauges();

@@ -11,6 +11,7 @@
 #include "common/service/presence.hpp"
 #include "common/service/process/deafness_watch.hpp"
 #include "common/service/process/hang_watch.hpp"
+#include "common/service/ros/bond.hpp"
 #include "common/service/ros/lifecycle_services.hpp"
 #include "common/service/service_slot.hpp"
 
@@ -24,7 +25,9 @@ class ServiceProcess {
   /// @param exit_when_hung_s  the process ends with status 1 when the worker, or what reports about it, was
   /// silent for longer [s]; 0: never. For supervisors that start again what has ended, but see nothing that
   /// hangs.
-  ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s = 0);
+  /// @param managed  a lifecycle manager of ROS 2 brings it up: it begins unconfigured, and holds a bond.
+  ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s = 0,
+                 bool managed = false);
 
   /// Runs until SIGINT or SIGTERM (both must be blocked in all threads) or until the worker fails. A second
   /// signal ends the process at once. @return 0 after a clean stop, 1 after a fault.
@@ -40,12 +43,14 @@ class ServiceProcess {
   void end_if_hung(double since_last_look_s);
   void end_if_deaf(double since_last_look_s);
   void activate();
+  void offer_services(Service& service);
   void stand_by();
   void change_role();
   void work(const std::stop_token& stop, Service& service);
 
   ServiceContext& context_;
   ServiceFactory factory_;
+  bool managed_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Event> events_;
   ServiceSlot service_;
@@ -54,6 +59,7 @@ class ServiceProcess {
   std::optional<CommandServer> commands_;                // once there is a worker that can execute them
   std::optional<CommandServices> command_services_;      // while it is the active one; …
   std::optional<LifecycleServices> lifecycle_services_;  // … likewise
+  std::optional<Bond> bond_;                             // … if it is managed
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;
   DeafnessWatch deafness_watch_;

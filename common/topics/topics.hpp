@@ -86,7 +86,7 @@ inline constexpr Topic<sensor_msgs::msg::CameraInfo> kDepthInfo{
 inline constexpr bus::Qos kMotion{.reliable = true, .depth = 500, .follows_publishers = true};
 inline constexpr Topic<nav_msgs::msg::Odometry> kRobotOdometry{
     "odom", {{kPlayer, kMotion}}, {{kTracker, kMotion}}};
-inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu", {}, {{kTracker, kMotion}}};
+inline constexpr Topic<sensor_msgs::msg::Imu> kImu{"imu", {{kPlayer, kMotion}}, {{kTracker, kMotion}}};
 inline constexpr Topic<geometry_msgs::msg::PoseWithCovarianceStamped> kInitialPose{
     "initialpose", {}, {{kTracker, bus::kStream}}};
 
@@ -95,7 +95,7 @@ inline constexpr Topic<nav_msgs::msg::Odometry> kOdometry{"rds/odometry", {{kTra
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kTransforms{
     "tf", {{kTracker, bus::kTransform}}, {{kTracker, bus::kTransform}}, true};
 inline constexpr Topic<tf2_msgs::msg::TFMessage> kStaticTransforms{
-    "tf_static", {}, {{kTracker, bus::kLatchedEvery}}, true};
+    "tf_static", {{kPlayer, bus::kLatched}}, {{kTracker, bus::kLatchedEvery}}, true};
 inline constexpr Topic<rds_msgs::msg::TrackingState> kTrackingState{
     "rds/tracking_state", {{kTracker, bus::kStream}}, {{kPlayer | kViewer, bus::kStream}}};
 inline constexpr Topic<rds_msgs::msg::PredictedBoxes> kPredictedBoxes{

@@ -44,7 +44,7 @@ std::string info_beside(const std::string& topic) {
 }  // namespace
 
 FrameInput::FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox,
-                       const CameraTopics& topics, bool lockstep, PictureRegistration::LookUp look_up)
+                       const CameraTopics& topics, bool lockstep, image::PictureRegistration::LookUp look_up)
     : context_(context),
       topics_(topics),
       qos_(topics.best_effort ? bus::kSensorBestEffort : lockstep ? bus::kSensorLockstep : bus::kSensor),

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "common/concurrency/mailbox.hpp"
+#include "common/image/registration/picture_registration.hpp"
 #include "common/service/service.hpp"
 #include "common/time/stamp_watch.hpp"
 #include "services/tracker/input/camera_faults.hpp"
 #include "services/tracker/input/frame_pairer.hpp"
-#include "services/tracker/input/picture_registration.hpp"
 #include "services/tracker/tracker_service_config.hpp"
 #include "std_msgs/msg/Header.h"
 
@@ -30,7 +30,7 @@ class FrameInput {
  public:
   /// @param lockstep  no frame is dropped, and time breaks at once. @param look_up  as tf says; any thread.
   FrameInput(service::ServiceContext& context, concurrency::Mailbox& mailbox, const CameraTopics& topics,
-             bool lockstep, PictureRegistration::LookUp look_up);
+             bool lockstep, image::PictureRegistration::LookUp look_up);
 
   [[nodiscard]] concurrency::Inbox<image::RgbdFrame>& frames() { return frames_; }
   [[nodiscard]] const concurrency::Inbox<image::RgbdFrame>& frames() const { return frames_; }
@@ -77,7 +77,7 @@ class FrameInput {
   CameraTopics topics_;
   bus::Qos qos_;  // of the streams
   mutable std::mutex mutex_;  // bus callbacks of different topics may run at once; of all below but frames_
-  PictureRegistration registration_;
+  image::PictureRegistration registration_;
   FramePairer pairer_;
   Clock::time_point framed_;  // when a colour and a depth picture last made a frame
   std::map<std::string, std::string> faults_;

@@ -74,7 +74,7 @@ TrackerPorts TrackerService::ports() {
   TrackerPorts ports{.given_poses = read_given_poses(config_.poses_file, config_.poses_max_gap_s),
                      .executor = executor_with_helper(),
                      .now_us = time::now_us};
-  if (!config_.inputs.odometry.empty())
+  if (config_.inputs.reads_odometry())
     ports.odometry = [this](std::int64_t stamp_ns) { return robot_.odometry_at(stamp_ns); };
   if (!config_.inputs.imu.empty())
     ports.gyroscope = [this](std::int64_t from_ns, std::int64_t to_ns) {

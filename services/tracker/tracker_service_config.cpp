@@ -25,6 +25,9 @@ void read(config::ConfigReader& reader, FramesConfig& config) {
 
 void read(config::ConfigReader& reader, InputsConfig& config) {
   reader.value("odometry", config.odometry);
+  reader.value("odometry_frame", config.odometry_frame);
+  if (!config.odometry.empty() && !config.odometry_frame.empty())
+    reader.violation("odometry_frame", config.odometry_frame, "expected no odometry beside it");
   reader.value("imu", config.imu);
   reader.value("initial_pose", config.initial_pose);
 }

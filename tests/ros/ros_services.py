@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_services.py TRACKER MAPPER [reset | lifecycle | shutdown]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
+"""ros_services.py TRACKER MAPPER [reset | lifecycle | managed | shutdown]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
 
 TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty. With `lifecycle`
-it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `shutdown` it ends it.
+it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `managed` it brings one up that begins
+unconfigured; with `shutdown` it ends it.
 """
 
 import json
@@ -93,6 +94,12 @@ def lifecycle(asker, of):
     return {**told, "events": life.events}
 
 
+def managed(asker, of):
+    """What Nav2's lifecycle manager does at the start."""
+    life = Life(asker, of)
+    return [life.state(), life.change(id=Transition.TRANSITION_CONFIGURE), life.change(id=Transition.TRANSITION_ACTIVATE)]
+
+
 def reset(asker, mapper):
     return asker.ask(Trigger, f"{mapper}/reset").success
 
@@ -113,7 +120,7 @@ def main():
     rclpy.init()
     node = rclpy.create_node("asker")
     asker = Asker(node)
-    wanted = {"reset": lambda: reset(asker, mapper), "lifecycle": lambda: lifecycle(asker, tracker),
+    wanted = {"reset": lambda: reset(asker, mapper), "lifecycle": lambda: lifecycle(asker, tracker), "managed": lambda: managed(asker, tracker),
               "shutdown": lambda: asker.ask(ChangeState, f"{tracker}/change_state", transition=Transition(id=Transition.TRANSITION_ACTIVE_SHUTDOWN)).success}
     told = wanted[sys.argv[3]]() if sys.argv[3:] else look(asker, tracker, mapper)
     print(json.dumps(told), flush=True)

@@ -135,6 +135,10 @@ class RosServices(unittest.TestCase):
         self.assertEqual(self.ask("jazzy", "shutdown").communicate()[0], "true\n")
         self.assertEqual(tracker.process.wait(20), 0)
 
+    def test_a_managed_node_is_brought_up(self):
+        self.start("rds-tracker", "--managed")
+        self.assertEqual(json.loads(self.ask("jazzy", "managed").communicate()[0]), ["unconfigured", [True, "inactive"], [True, "active"]])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,7 @@ struct SimulateOptions {
   std::vector<double> distortion;
   double depth_scale = simulator::DepthSensor::kUnitsPerMetre;
   std::optional<double> odometry;
+  bool imu = false;
   bool force = false;
   int threads = 0;
 };
@@ -128,6 +129,7 @@ simulator::SimulationOptions checked(const SimulateOptions& options) {
   if (options.odometry && !(*options.odometry >= 0.5 && *options.odometry <= 2))
     exit_with(kExitBadInput, fmt::format("--odometry {}: expected a scale of 0.5 … 2", *options.odometry));
   checked.odometry_scale = options.odometry;
+  checked.imu = options.imu;
   return checked;
 }
 
@@ -239,6 +241,8 @@ void add_simulate_command(CLI::App& rds) {
   simulate_app->add_option("--odometry", options->odometry,
                            "Also write odometry.txt, what dead reckoning tells of the camera: so many times "
                            "the true way, with noise and slip, e.g. 1.05");
+  simulate_app->add_flag("--imu", options->imu,
+                         "Also write imu.txt, what a gyroscope and an accelerometer on the camera tell");
   simulate_app->add_option("--seed", options->seed, "Chooses room, people and paths")->capture_default_str();
   simulate_app->add_option("--threads", options->threads, "0 = one per core; the result is the same")
       ->capture_default_str();

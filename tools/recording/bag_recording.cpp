@@ -2,59 +2,16 @@
 #include "tools/recording/bag_recording.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 
-#include "common/bus/type_ops.hpp"
 #include "common/geometry/stamp.hpp"
 #include "common/messages/conversions.hpp"
-#include "common/topics/topics.hpp"
-#include "geometry_msgs/msg/PoseStamped.h"
-#include "nav_msgs/msg/Odometry.h"
-#include "sensor_msgs/msg/CameraInfo.h"
+#include "tools/recording/bag_topics.hpp"
 
 namespace rds::recording {
 namespace {
-
-using geometry_msgs::msg::PoseStamped;
-using nav_msgs::msg::Odometry;
-using sensor_msgs::msg::CameraInfo;
-using Poses = std::vector<geometry::StampedPose>;
-
-template <class Message>
-bool decode(std::span<const std::uint8_t> data, Message& message) {
-  return bus::type_ops<Message>().decode(data.data(), data.size(), &message);
-}
-
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool names_truth(const std::string& topic) {
-  const std::string name = lower_case(topic);
-  return name.find("ground") != std::string::npos && name.find("truth") != std::string::npos;
-}
-
-/// "/camera/color" of "/camera/color/image_raw".
-std::string parent_of(const std::string& topic) {
-  return topic.substr(0, topic.find_last_of('/'));
-}
-
-/// How well a topic fits what it is wanted for; a smaller one is better.
-auto rank_of(const Stream& stream) {
-  const bool is_color = stream.content == Content::kColor;
-  const std::string ours = std::string("/") + (is_color ? topics::kColor.name : topics::kDepth.name);
-  const auto has = [&](const char* word) { return stream.topic.find(word) != std::string::npos; };
-  const bool marked = is_color ? has("color") || has("rgb") : has("aligned") || has("registered");
-  return std::tuple(stream.topic != ours, !marked, -static_cast<std::int64_t>(stream.entries.size()),
-                    stream.packing != Packing::kRaw, stream.topic);
-}
 
 /// By stamp, each once. @return how many were left out.
 std::size_t tidy(Stream& stream) {
@@ -85,51 +42,6 @@ double rate_of(const Stream& color) {
 
 }  // namespace
 
-/// What one pass through the bag collects.
-struct BagRecording::Found {
-  std::map<std::string, Stream> streams;      // by topic
-  std::map<std::string, CameraInfo> cameras;  // the first message of each topic
-  std::map<std::string, Poses> truths;
-
-  void see(const BagTopic& topic, const BagMessage& message, const BagPlace& place) {
-    if (topic.encoding != "cdr") return;
-    if (topic.type == kImageType || topic.type == kCompressedImageType) see_picture(topic, message, place);
-    if (topic.type == "sensor_msgs/msg/CameraInfo" && !cameras.contains(topic.name)) {
-      CameraInfo info;
-      if (decode(message.data, info)) cameras.emplace(topic.name, std::move(info));
-    }
-    if (!names_truth(topic.name)) return;
-    if (topic.type == "geometry_msgs/msg/PoseStamped")
-      see_pose<PoseStamped>(topic.name, message, [](const auto& m) { return m.pose(); });
-    if (topic.type == "nav_msgs/msg/Odometry")
-      see_pose<Odometry>(topic.name, message, [](const auto& m) { return m.pose().pose(); });
-  }
-
-  void see_picture(const BagTopic& topic, const BagMessage& message, const BagPlace& place) {
-    const auto head = picture_head(topic, message.data);
-    if (!head || head->stamp_ns < 0) return;
-    Stream& stream = streams[topic.name];
-    if (stream.entries.empty()) stream = {topic.name, head->packing, head->content, head->depth_scale};
-    if (head->packing == stream.packing && head->content == stream.content)
-      stream.entries.push_back({head->stamp_ns, place});
-  }
-
-  template <class Message, class PoseOf>
-  void see_pose(const std::string& topic, const BagMessage& message, PoseOf pose_of) {
-    Message decoded;
-    if (!decode(message.data, decoded)) return;
-    const auto pose = messages::to_pose(pose_of(decoded));
-    if (pose) truths[topic].push_back({messages::to_nanoseconds(decoded.header().stamp()), *pose, ""});
-  }
-
-  [[nodiscard]] const Stream* best(Content content) const {
-    const Stream* best = nullptr;
-    for (const auto& [topic, stream] : streams)
-      if (stream.content == content && (best == nullptr || rank_of(stream) < rank_of(*best))) best = &stream;
-    return best;
-  }
-};
-
 tl::unexpected<std::string> BagRecording::fault(const std::string& text) const {
   return tl::unexpected(fmt::format("{}: {}", path_.string(), text));
 }
@@ -139,16 +51,16 @@ tl::expected<std::unique_ptr<BagRecording>, std::string> BagRecording::open(
   auto bag = open_bag(path);
   if (!bag) return tl::unexpected(bag.error());
   std::unique_ptr<BagRecording> recording(new BagRecording(path, std::move(*bag)));
-  Found found;
+  BagTopics found;
   const auto scan = recording->bag_->scan([&](const BagTopic& topic, const BagMessage& message,
                                               const BagPlace& place) { found.see(topic, message, place); });
   if (!scan) return tl::unexpected(scan.error());
   if (!scan->fault.empty()) recording->notes_ = scan->fault + "\n";
-  if (const auto chosen = recording->choose(std::move(found)); !chosen) return tl::unexpected(chosen.error());
+  if (const auto chosen = recording->choose(found); !chosen) return tl::unexpected(chosen.error());
   return recording;
 }
 
-tl::expected<void, std::string> BagRecording::choose(Found found) {
+tl::expected<void, std::string> BagRecording::choose(const BagTopics& found) {
   const Stream* color = found.best(Content::kColor);
   const Stream* depth = found.best(Content::kDepth);
   if (color == nullptr || depth == nullptr)
@@ -158,8 +70,10 @@ tl::expected<void, std::string> BagRecording::choose(Found found) {
                     color == nullptr ? "rgb8, bgr8, JPEG or PNG" : "16UC1 or 32FC1"));
   color_ = *color;
   depth_ = *depth;
-  if (const auto taken = take_camera(found); !taken) return taken;
+  const auto lens = take_camera(found);
+  if (!lens) return tl::unexpected(lens.error());
   repeated_ = tidy(color_) + tidy(depth_);
+  if (const auto registered = register_pictures(found, *lens); !registered) return registered;
   fps_ = rate_of(color_);
   depth_scale_ = depth_.depth_scale;
   std::vector<image::FrameRef> frames;
@@ -168,33 +82,53 @@ tl::expected<void, std::string> BagRecording::choose(Found found) {
   if (pair_frames(std::move(frames), stamps_of(depth_), image::kPairingToleranceNs) == 0)
     return fault(fmt::format("no picture of {} has one of {} within {} ms", color_.topic, depth_.topic,
                              image::kPairingToleranceNs / 1'000'000));
-  if (!found.truths.empty()) {
-    ground_truth_ = std::move(found.truths.begin()->second);
+  if (const auto* truth = found.truth()) {
+    ground_truth_ = *truth;
     std::ranges::stable_sort(*ground_truth_, {}, &geometry::StampedPose::stamp_ns);
   }
   return {};
 }
 
 /// The camera's description beside the colour pictures, or the only one.
-tl::expected<void, std::string> BagRecording::take_camera(const Found& found) {
-  const std::string parent = parent_of(color_.topic);
-  const auto beside = std::ranges::find_if(found.cameras, [&](const auto& camera) {
-    const std::string folder = parent_of(camera.first);
-    return folder == parent || folder == parent_of(parent);  // of …/image_raw/compressed
-  });
-  const auto chosen =
-      beside == found.cameras.end() && found.cameras.size() == 1 ? found.cameras.begin() : beside;
-  if (chosen == found.cameras.end())
+tl::expected<geometry::Lens, std::string> BagRecording::take_camera(const BagTopics& found) {
+  const auto* chosen = found.camera_of(color_.topic);
+  if (chosen == nullptr)
     return fault(
         fmt::format("no camera_info for {}, expected a topic {}/camera_info of sensor_msgs/msg/CameraInfo",
-                    color_.topic, parent));
+                    color_.topic, parent_of(color_.topic)));
   const auto lens = messages::to_lens(chosen->second);
   if (!lens) return fault(fmt::format("{}: {}", chosen->first, lens.error()));
   camera_ = lens->camera();
-  if (!lens->is_plain()) undistortion_.emplace(*lens, camera_);
   notes_ += fmt::format("{}: colour {}, depth {}, camera {}\n", path_.string(), color_.topic, depth_.topic,
                         chosen->first);
+  return *lens;
+}
+
+/// Depth comes to colour's frame, both without distortion; and the robot's sensors have their place there.
+tl::expected<void, std::string> BagRecording::register_pictures(const BagTopics& found,
+                                                                const geometry::Lens& color_lens) {
+  const cv::Size color_size(camera_.width, camera_.height);
+  depth_size_ = first_depth_size().value_or(color_size);
+  RecordedCamera depth{depth_size_, depth_.frame};
+  if (const auto* info = found.camera_beside(depth_.topic))
+    if (const auto lens = messages::to_lens(info->second)) depth.lens = *lens;
+  auto made = picture_makers({color_size, color_.frame, color_lens}, depth, found.robot());
+  if (!made) return fault(fmt::format("{}: {}", depth_.topic, made.error()));
+  make_ = std::move(*made);
+  if (!make_.note.empty()) notes_ += fmt::format("{}: {}: {}\n", path_.string(), depth_.topic, make_.note);
+  sensors_ = found.robot().sensors({color_.frame, path_.string()}, notes_);
   return {};
+}
+
+/// Of the first picture that can be decoded, of those at the beginning.
+std::optional<cv::Size> BagRecording::first_depth_size() const {
+  constexpr std::size_t kTries = 10;
+  for (std::size_t i = 0; i < std::min(kTries, depth_.entries.size()); ++i) {
+    const auto data = bag_->data_at(depth_.entries[i].place);
+    const auto picture = data ? decode_depth(depth_.packing, *data) : tl::unexpected(data.error());
+    if (picture) return picture->values.size();
+  }
+  return std::nullopt;
 }
 
 std::string BagRecording::place_of(const Stream& stream, std::size_t index) const {
@@ -211,7 +145,7 @@ tl::expected<image::ColorImage, std::string> BagRecording::load_color(std::size_
     return tl::unexpected(fmt::format("{}: {}×{} px, expected {}×{} as camera_info says",
                                       place_of(color_, index), picture->pixels.cols, picture->pixels.rows,
                                       camera_.width, camera_.height));
-  if (undistortion_) return undistortion_->color(*picture);
+  if (make_.color) return make_.color(*picture);
   return picture;
 }
 
@@ -220,11 +154,11 @@ tl::expected<image::DepthImage, std::string> BagRecording::load_depth(std::size_
   if (!data) return tl::unexpected(data.error());
   auto picture = decode_depth(depth_.packing, *data);
   if (!picture) return tl::unexpected(fmt::format("{}: {}", place_of(depth_, index), picture.error()));
-  if (picture->values.size() != cv::Size(camera_.width, camera_.height))
-    return tl::unexpected(fmt::format("{}: {}×{} px, expected depth registered to colour, {}×{}",
-                                      place_of(depth_, index), picture->values.cols, picture->values.rows,
-                                      camera_.width, camera_.height));
-  if (undistortion_) return undistortion_->depth(*picture);
+  if (picture->values.size() != depth_size_)
+    return tl::unexpected(fmt::format("{}: {}×{} px, expected {}×{} as those before", place_of(depth_, index),
+                                      picture->values.cols, picture->values.rows, depth_size_.width,
+                                      depth_size_.height));
+  if (make_.depth) return make_.depth(*picture);
   return picture;
 }
 

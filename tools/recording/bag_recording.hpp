@@ -5,15 +5,19 @@
 #include <optional>
 #include <string>
 
-#include "common/image/lens_table.hpp"
+#include "common/geometry/lens.hpp"
 #include "common/image/recording.hpp"
+#include "tools/recording/picture_makers.hpp"
 #include "tools/recording/stream.hpp"
 
 namespace rds::recording {
 
+class BagTopics;
+
 /// An RGB-D camera's topics in a bag, found by their types: colour and depth (Image or CompressedImage), the
 /// CameraInfo beside colour, and, if there is a topic with "ground" and "truth" in its name, the true path
-/// (PoseStamped or Odometry).
+/// (PoseStamped or Odometry); the robot's other sensors (RobotTopics). Depth of another size or frame is
+/// registered to colour, by the CameraInfo beside depth and tf_static.
 ///
 /// Of several topics of one kind those of this project's names are taken, then those that a name marks as
 /// colour or as registered depth, then those with the most pictures.
@@ -32,11 +36,12 @@ class BagRecording final : public image::Recording {
   [[nodiscard]] tl::expected<image::DepthImage, std::string> load_depth(std::size_t index) const override;
 
  private:
-  struct Found;
   BagRecording(std::filesystem::path path, std::unique_ptr<Bag> bag)
       : path_(std::move(path)), bag_(std::move(bag)) {}
-  tl::expected<void, std::string> choose(Found found);
-  tl::expected<void, std::string> take_camera(const Found& found);
+  tl::expected<void, std::string> choose(const BagTopics& found);
+  tl::expected<geometry::Lens, std::string> take_camera(const BagTopics& found);
+  tl::expected<void, std::string> register_pictures(const BagTopics& found, const geometry::Lens& color_lens);
+  [[nodiscard]] std::optional<cv::Size> first_depth_size() const;
   [[nodiscard]] tl::unexpected<std::string> fault(const std::string& text) const;
   [[nodiscard]] std::string place_of(const Stream& stream, std::size_t index) const;
 
@@ -44,7 +49,8 @@ class BagRecording final : public image::Recording {
   std::unique_ptr<Bag> bag_;
   Stream color_;
   Stream depth_;
-  std::optional<image::LensTable> undistortion_;  // of pictures through a lens that CameraModel does not know
+  PictureMakers make_;
+  cv::Size depth_size_;  // as they are in the bag
   std::string notes_;
 };
 

@@ -8,9 +8,34 @@ namespace rds::recording {
 namespace {
 
 constexpr const char* kOpticalFrame = "camera_color_optical_frame";
+constexpr const char* kBaseFrame = "base_link";
+constexpr const char* kImuFrame = "imu_link";
+constexpr double kSamePlace = 1e-9;
 
 std_msgs::msg::Header header_at(std::int64_t stamp_ns) {
   return messages::make_header(stamp_ns, kOpticalFrame);
+}
+
+/// The frame's own name, unless it is the camera's.
+const char* frame_of(const geometry::Pose& to_camera, const char* name) {
+  return to_camera.isApprox(geometry::Pose::Identity(), kSamePlace) ? kOpticalFrame : name;
+}
+
+geometry_msgs::msg::Vector3 vector(const Eigen::Vector3d& v) {
+  geometry_msgs::msg::Vector3 message;
+  message.x(v.x());
+  message.y(v.y());
+  message.z(v.z());
+  return message;
+}
+
+geometry_msgs::msg::TransformStamped transform(const char* parent, const char* child,
+                                               const geometry::Pose& parent_from_child) {
+  geometry_msgs::msg::TransformStamped message;
+  message.header(messages::make_header(0, parent));
+  message.child_frame_id(child);
+  message.transform(messages::to_transform_message(parent_from_child));
+  return message;
 }
 
 }  // namespace
@@ -27,12 +52,37 @@ sensor_msgs::msg::CameraInfo camera_info_message(const geometry::CameraModel& ca
   return messages::to_camera_info(camera, header_at(stamp_ns));
 }
 
-nav_msgs::msg::Odometry odometry_message(const geometry::Pose& odom_from_camera, std::int64_t stamp_ns) {
+sensor_msgs::msg::Imu imu_message(const image::ImuTrack& of, const image::ImuMeasurement& measurement,
+                                  std::int64_t stamp_ns) {
+  constexpr double kNotMeasured = -1;  // first of a covariance
+  sensor_msgs::msg::Imu message;
+  message.header(messages::make_header(stamp_ns, frame_of(of.camera_from_imu, kImuFrame)));
+  message.orientation().w(1);
+  message.orientation_covariance()[0] = kNotMeasured;
+  message.linear_acceleration(vector(measurement.acceleration));
+  message.angular_velocity(vector(measurement.turn_rate));
+  if (!of.has_gyroscope) message.angular_velocity_covariance()[0] = kNotMeasured;
+  return message;
+}
+
+nav_msgs::msg::Odometry odometry_message(const image::OdometryTrack& of, const geometry::Pose& odom_from_body,
+                                         std::int64_t stamp_ns) {
   nav_msgs::msg::Odometry message;
   message.header(messages::make_header(stamp_ns, "odom"));
-  message.child_frame_id(kOpticalFrame);
-  message.pose().pose(messages::to_pose_message(odom_from_camera));
+  message.child_frame_id(frame_of(of.body_from_camera, kBaseFrame));
+  message.pose().pose(messages::to_pose_message(odom_from_body));
   return message;
+}
+
+std::optional<tf2_msgs::msg::TFMessage> mounting_message(const image::RobotSensors& sensors) {
+  tf2_msgs::msg::TFMessage tree;
+  const auto is_apart = [](const geometry::Pose& pose) { return frame_of(pose, "") != kOpticalFrame; };
+  if (sensors.odometry && is_apart(sensors.odometry->body_from_camera))
+    tree.transforms().push_back(transform(kBaseFrame, kOpticalFrame, sensors.odometry->body_from_camera));
+  if (sensors.imu && is_apart(sensors.imu->camera_from_imu))
+    tree.transforms().push_back(transform(kOpticalFrame, kImuFrame, sensors.imu->camera_from_imu));
+  if (tree.transforms().empty()) return std::nullopt;
+  return tree;
 }
 
 }  // namespace rds::recording

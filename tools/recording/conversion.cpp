@@ -34,10 +34,11 @@ class CameraBag {
  public:
   explicit CameraBag(BagWriter& bag) : bag_(bag) {}
 
-  Result add_topics(bool with_truth) {
-    for (const auto& [number, name, type] : topics(with_truth)) {
+  Result add_topics(const image::Recording& recording) {
+    for (const auto& [number, name, type] : topics(recording)) {
+      const bool is_latched = number == &mounting_;
       const auto added =
-          bag_.add_topic(topic_of(std::string("/") + name, *type, offered_qos_profile(true, false)));
+          bag_.add_topic(topic_of(std::string("/") + name, *type, offered_qos_profile(true, is_latched)));
       if (!added) return tl::unexpected(added.error());
       *number = *added;
     }
@@ -57,17 +58,36 @@ class CameraBag {
     message.pose(messages::to_pose_message(pose.map_from_camera));
     return write(truth_, message, pose.stamp_ns);
   }
+  Result write_odometry(const image::OdometryTrack& of, std::size_t index) {
+    const geometry::StampedPose& pose = of.odom_from_body[index];
+    return write(odometry_, odometry_message(of, pose.map_from_camera, pose.stamp_ns), pose.stamp_ns);
+  }
+  Result write_imu(const image::ImuTrack& of, std::size_t index) {
+    const image::ImuMeasurement& measurement = of.measurements[index];
+    return write(imu_, imu_message(of, measurement, measurement.stamp_ns), measurement.stamp_ns);
+  }
+  Result write_mounting(const image::RobotSensors& sensors, std::int64_t stamp_ns) {
+    const auto mounting = mounting_message(sensors);
+    return mounting ? write(mounting_, *mounting, stamp_ns) : Result();
+  }
   [[nodiscard]] std::uint64_t written() const { return written_; }
 
  private:
   using NewTopic = std::tuple<std::size_t*, const char*, const bus::TypeOps*>;
-  std::vector<NewTopic> topics(bool with_truth) {
+  std::vector<NewTopic> topics(const image::Recording& recording) {
     const auto& image = bus::type_ops<sensor_msgs::msg::Image>();
     std::vector<NewTopic> topics{
         {&color_, topics::kColor.name, &image},
         {&camera_info_, topics::kCameraInfo.name, &bus::type_ops<sensor_msgs::msg::CameraInfo>()},
         {&depth_, topics::kDepth.name, &image}};
-    if (with_truth) topics.emplace_back(&truth_, "groundtruth", &bus::type_ops<PoseStamped>());
+    if (recording.ground_truth()) topics.emplace_back(&truth_, "groundtruth", &bus::type_ops<PoseStamped>());
+    if (recording.sensors().odometry)
+      topics.emplace_back(&odometry_, topics::kRobotOdometry.name, &bus::type_ops<nav_msgs::msg::Odometry>());
+    if (recording.sensors().imu)
+      topics.emplace_back(&imu_, topics::kImu.name, &bus::type_ops<sensor_msgs::msg::Imu>());
+    if (mounting_message(recording.sensors()))
+      topics.emplace_back(&mounting_, topics::kStaticTransforms.name,
+                          &bus::type_ops<tf2_msgs::msg::TFMessage>());
     return topics;
   }
   template <class Message>
@@ -84,10 +104,13 @@ class CameraBag {
   std::size_t camera_info_ = 0;
   std::size_t depth_ = 0;
   std::size_t truth_ = 0;
+  std::size_t odometry_ = 0;
+  std::size_t imu_ = 0;
+  std::size_t mounting_ = 0;
   std::uint64_t written_ = 0;
 };
 
-enum class Kind { kTruth, kColor, kDepth };
+enum class Kind { kTruth, kOdometry, kImu, kColor, kDepth };
 
 /// Everything of a recording by stamp: (stamp, what, index).
 std::vector<std::tuple<std::int64_t, Kind, std::size_t>> in_order_of_time(const image::Recording& recording) {
@@ -95,9 +118,12 @@ std::vector<std::tuple<std::int64_t, Kind, std::size_t>> in_order_of_time(const 
   for (const auto& frame : recording.frames()) all.emplace_back(frame.stamp_ns, Kind::kColor, frame.index);
   for (std::size_t i = 0; i < recording.depth_stamps().size(); ++i)
     all.emplace_back(recording.depth_stamps()[i], Kind::kDepth, i);
-  if (recording.ground_truth())
-    for (std::size_t i = 0; i < recording.ground_truth()->size(); ++i)
-      all.emplace_back((*recording.ground_truth())[i].stamp_ns, Kind::kTruth, i);
+  const auto add = [&](Kind kind, const auto& samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) all.emplace_back(samples[i].stamp_ns, kind, i);
+  };
+  if (recording.ground_truth()) add(Kind::kTruth, *recording.ground_truth());
+  if (const auto& odometry = recording.sensors().odometry) add(Kind::kOdometry, odometry->odom_from_body);
+  if (const auto& imu = recording.sensors().imu) add(Kind::kImu, imu->measurements);
   std::ranges::sort(all);
   return all;
 }
@@ -141,6 +167,8 @@ tl::expected<Converted, std::string> write_bag(const image::Recording& recording
   };
   const auto write_one = [&](Kind kind, std::int64_t stamp_ns, std::size_t index) -> Result {
     if (kind == Kind::kTruth) return bag.write_truth((*recording.ground_truth())[index]);
+    if (kind == Kind::kOdometry) return bag.write_odometry(*recording.sensors().odometry, index);
+    if (kind == Kind::kImu) return bag.write_imu(*recording.sensors().imu, index);
     if (kind == Kind::kColor) {
       const auto color = recording.load_color(index);
       return color ? bag.write_color(*color, recording.camera(), stamp_ns) : note_unreadable(color.error());
@@ -148,8 +176,10 @@ tl::expected<Converted, std::string> write_bag(const image::Recording& recording
     const auto depth = recording.load_depth(index);
     return depth ? bag.write_depth(*depth, stamp_ns) : note_unreadable(depth.error());
   };
-  Result result = bag.add_topics(recording.ground_truth().has_value());
-  for (const auto& [stamp_ns, kind, index] : in_order_of_time(recording))
+  const auto in_order = in_order_of_time(recording);
+  Result result = bag.add_topics(recording);
+  if (result) result = bag.write_mounting(recording.sensors(), std::get<0>(in_order.front()));
+  for (const auto& [stamp_ns, kind, index] : in_order)
     if (result) result = write_one(kind, stamp_ns, index);
   if (result) result = to.finish();
   if (!result) return tl::unexpected(result.error());

@@ -26,11 +26,12 @@ BagTopic topic_of(const std::string& name, const bus::TypeOps& type, const std::
 /// Copies every message of a bag, byte for byte, with its topic's description.
 tl::expected<Converted, std::string> copy_bag(Bag& from, BagWriter& to);
 
-/// Writes what a camera would have published of a recording, and its true path as PoseStamped on
-/// /groundtruth; log times are the stamps.
+/// Writes what a robot would have published of a recording, the camera's pictures and its other sensors with
+/// their places in tf_static, and its true path as PoseStamped on /groundtruth; log times are the stamps.
 tl::expected<Converted, std::string> write_bag(const image::Recording& recording, BagWriter& to);
 
-/// Writes a folder in TUM form. Colour as PNG; depth of 16 bits as it is, of 32 bits in millimetres.
+/// Writes a folder in TUM form. Colour as PNG; depth of 16 bits as it is, of 32 bits in millimetres; odometry
+/// as that of the camera, an IMU in the camera's axes.
 /// @param folder  made if it is not there.
 tl::expected<Converted, std::string> write_tum_folder(const image::Recording& recording,
                                                       const std::filesystem::path& folder);

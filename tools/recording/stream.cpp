@@ -47,12 +47,13 @@ std::optional<PictureHead> picture_head(const BagTopic& topic, std::span<const s
     const auto content = message ? content_of(message->encoding()) : std::nullopt;
     if (!content) return std::nullopt;
     return PictureHead{Packing::kRaw, *content, message->encoding() == "32FC1" ? 1.0 : 1000.0,
-                       messages::to_nanoseconds(message->header().stamp())};
+                       messages::to_nanoseconds(message->header().stamp()), message->header().frame_id()};
   }
   const auto message = decode<CompressedImage>(data);
   if (!message) return std::nullopt;
   PictureHead head = compressed_head(message->format());
   head.stamp_ns = messages::to_nanoseconds(message->header().stamp());
+  head.frame = message->header().frame_id();
   return head;
 }
 

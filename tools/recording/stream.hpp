@@ -30,6 +30,7 @@ struct PictureHead {
   Content content = Content::kColor;
   double depth_scale = 1000;  // units per metre
   std::int64_t stamp_ns = 0;
+  std::string frame = {};  // header.frame_id
 };
 
 /// Looks at a message of one of the two picture types.
@@ -47,6 +48,7 @@ struct Stream {
   Packing packing = Packing::kRaw;
   Content content = Content::kColor;
   double depth_scale = 1000;
+  std::string frame = {};  // header.frame_id of the first
   std::vector<Entry> entries = {};
 };
 

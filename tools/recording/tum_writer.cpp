@@ -7,6 +7,7 @@
 
 #include "common/geometry/stamp.hpp"
 #include "common/geometry/trajectory.hpp"
+#include "common/image/sensors/imu_file.hpp"
 #include "tools/recording/conversion.hpp"
 
 namespace rds::recording {
@@ -69,6 +70,7 @@ class TumFolder {
       if (auto done = geometry::write_trajectory(folder_ / "groundtruth.txt", *recording_.ground_truth());
           !done)
         return done;
+    if (auto done = write_sensors(); !done) return done;
     for (const auto& [name, text] : {std::pair("camera.yaml", camera_yaml(recording_, depth_scale_)),
                                      std::pair("depth.txt", depth_list_), std::pair("rgb.txt", color_list_)})
       if (auto done = write_text(folder_ / name, text); !done) return done;
@@ -77,6 +79,15 @@ class TumFolder {
   [[nodiscard]] const Converted& converted() const { return converted_; }
 
  private:
+  Result write_sensors() const {
+    const auto& [imu, odometry] = recording_.sensors();
+    if (imu)
+      if (auto done = write_text(folder_ / "imu.txt", image::imu_lines(*imu)); !done) return done;
+    if (!odometry) return {};
+    auto of_camera = odometry->odom_from_body;
+    for (auto& pose : of_camera) pose.map_from_camera = pose.map_from_camera * odometry->body_from_camera;
+    return geometry::write_trajectory(folder_ / "odometry.txt", of_camera);
+  }
   Result write_color(const image::FrameRef& frame) {
     const auto color = recording_.load_color(frame.index);
     if (!color) return note_unreadable(color.error());

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/image/sensors/imu_file.hpp"
 #include "tools/simulator/sensors/dead_reckoning.hpp"
+#include "tools/simulator/sensors/inertial_unit.hpp"
 #include "tools/simulator/truth_map.hpp"
 
 namespace rds::simulator {
@@ -19,20 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kStart = 1.0;     // stamp of the first frame [s]
-constexpr int kPosesPerFrame = 4;  // groundtruth.txt has 120 lines a second
+constexpr double kStart = 1.0;       // stamp of the first frame [s]
+constexpr int kPosesPerFrame = 4;    // groundtruth.txt has 120 lines a second
+constexpr double kImuPathHz = 400;   // twice as often as the unit measures, so that it is exact
+constexpr double kImuLongerS = 0.1;  // than the pictures: the last of them waits for no measurement
 constexpr int kJpegQuality = 92;
-constexpr std::array kEntries{"rgb",
-                              "depth",
-                              "masks",
-                              "rgb.txt",
-                              "depth.txt",
-                              "groundtruth.txt",
-                              "odometry.txt",
-                              "camera.yaml",
-                              "people.json",
-                              "objects.json",
-                              "detections_truth.jsonl",
+constexpr std::array kEntries{"rgb",         "depth",           "masks",        "rgb.txt",
+                              "depth.txt",   "groundtruth.txt", "odometry.txt", "imu.txt",
+                              "camera.yaml", "people.json",     "objects.json", "detections_truth.jsonl",
                               "truth.ot"};
 
 /// As short as it is exact, with a point: 525.0, 347.8125.
@@ -137,6 +133,16 @@ std::string DatasetWriter::odometry() const {
          lines_of(dead_reckoning(path(), errors, simulation_.options().seed));
 }
 
+std::string DatasetWriter::imu() const {
+  std::vector<geometry::StampedPose> path;
+  const double seconds = simulation_.time_s(simulation_.frame_count() - 1) + kImuLongerS;
+  for (int i = 0; i <= seconds * kImuPathHz; ++i) {
+    const double t = i / kImuPathHz;
+    path.push_back({std::llround((kStart + t) * 1e9), simulation_.world_from_camera(t), ""});
+  }
+  return image::imu_lines(inertial_unit(path, {}, simulation_.options().seed));
+}
+
 std::string DatasetWriter::people() const {
   const auto& options = simulation_.options();
   const Json meta{{"made_by", "rds simulate"},  {"seed", options.seed},     {"walkers", options.people},
@@ -214,6 +220,7 @@ void DatasetWriter::finish() const {
   write_text("camera.yaml", camera());
   write_text("groundtruth.txt", groundtruth());
   if (simulation_.options().odometry_scale) write_text("odometry.txt", odometry());
+  if (simulation_.options().imu) write_text("imu.txt", imu());
   write_text("people.json", people());
   write_text("objects.json", objects());
   write_text("detections_truth.jsonl", detections());

@@ -18,8 +18,8 @@ void prepare_folder(const std::filesystem::path& folder, bool force);
 /// Writes a simulation as a TUM RGB-D folder with its truth.
 ///
 /// rgb/ depth/ masks/ rgb.txt depth.txt groundtruth.txt camera.yaml people.json objects.json
-/// detections_truth.jsonl; of a floor also truth.ot (write_truth_map()), and if asked for odometry.txt
-/// (dead_reckoning()). The lists come last, so that a folder that was not finished is not taken for a
+/// detections_truth.jsonl; of a floor also truth.ot (write_truth_map()), and if asked for odometry.txt and
+/// imu.txt (dead_reckoning()). The lists come last, so that a folder that was not finished is not taken for a
 /// recording.
 class DatasetWriter {
  public:
@@ -39,6 +39,7 @@ class DatasetWriter {
   [[nodiscard]] std::vector<geometry::StampedPose> path() const;
   [[nodiscard]] std::string groundtruth() const;
   [[nodiscard]] std::string odometry() const;
+  [[nodiscard]] std::string imu() const;
   [[nodiscard]] std::string people() const;
   [[nodiscard]] std::string objects() const;
   [[nodiscard]] std::string detections() const;

@@ -34,6 +34,7 @@ struct SimulationOptions {
   geometry::CameraModel camera = camera_of_size(640, 480);
   double depth_units_per_metre = DepthSensor::kUnitsPerMetre;
   std::optional<double> odometry_scale;  // odometry.txt is written, of this scale (DeadReckoningErrors)
+  bool imu = false;                      // imu.txt is written (InertialErrors)
 };
 
 /// Truth about one person in one picture; only people with visible pixels are listed.

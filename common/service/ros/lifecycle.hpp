@@ -46,12 +46,13 @@ struct LifecycleEvent {
   LifecycleState goal;
 };
 
-/// In which state of its life a service is. It begins as active: nobody has to configure it. One transition
-/// at a time. Safe to use from any thread.
+/// In which state of its life a service is. It begins as active, as nobody has to configure it, or where a
+/// manager is to bring it up as unconfigured. One transition at a time. Safe to use from any thread.
 class Lifecycle {
  public:
   /// @param tell  what happens, in order; under a lock.
-  explicit Lifecycle(std::function<void(const LifecycleEvent&)> tell) : tell_(std::move(tell)) {}
+  explicit Lifecycle(std::function<void(const LifecycleEvent&)> tell, const LifecycleState& begin = kActive)
+      : tell_(std::move(tell)), state_(begin) {}
 
   [[nodiscard]] LifecycleState state() const;
   [[nodiscard]] std::vector<LifecycleTransition> available() const;
@@ -66,7 +67,7 @@ class Lifecycle {
  private:
   mutable std::mutex mutex_;
   std::function<void(const LifecycleEvent&)> tell_;
-  LifecycleState state_ = kActive;
+  LifecycleState state_;
   std::optional<LifecycleTransition> current_;
 };
 

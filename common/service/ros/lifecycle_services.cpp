@@ -73,8 +73,9 @@ bus::ServiceServer serve_transitions(bus::Participant& bus, const std::string& n
 
 }  // namespace
 
-LifecycleServices::LifecycleServices(bus::Participant& bus, Post post, std::function<void()> stop)
-    : lifecycle_(std::make_shared<Lifecycle>(publish_events(bus))),
+LifecycleServices::LifecycleServices(bus::Participant& bus, Post post, std::function<void()> stop,
+                                     const LifecycleState& begin)
+    : lifecycle_(std::make_shared<Lifecycle>(publish_events(bus), begin)),
       post_(std::move(post)),
       stop_(std::move(stop)),
       change_(serve_changes(bus)),

@@ -20,8 +20,11 @@ class LifecycleServices {
   /// takes it.
   using Post = std::function<bool(const std::string& verb, std::function<void(bool succeeded)> respond)>;
 
-  /// @param stop  ends the process. @throws bus::BusError
-  LifecycleServices(bus::Participant& bus, Post post, std::function<void()> stop);
+  /// @param stop  ends the process. @param begin  the state at first. @throws bus::BusError
+  LifecycleServices(bus::Participant& bus, Post post, std::function<void()> stop,
+                    const LifecycleState& begin = kActive);
+
+  [[nodiscard]] bool is_active() const { return lifecycle_->state() == kActive; }
 
   /// To be told when the worker has paused or resumed; may outlive this.
   [[nodiscard]] std::function<void(bool paused)> when_paused() const;

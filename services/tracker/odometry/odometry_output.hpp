@@ -39,7 +39,7 @@ class OdometryOutput {
   bus::Publisher<nav_msgs::msg::Odometry> publisher_;
   bus::Publisher<tf2_msgs::msg::TFMessage> tf_;
   std::mutex mutex_;  // of the tree
-  TransformTree tree_;
+  geometry::TransformTree tree_;
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };
 

@@ -16,8 +16,8 @@ std::string child_below(const std::string& above, const std::vector<std::string>
 
 }  // namespace
 
-RobotFrames robot_frames(const TransformTree& tree, const FrameNames& names, const std::string& camera,
-                         std::int64_t stamp_ns) {
+RobotFrames robot_frames(const geometry::TransformTree& tree, const FrameNames& names,
+                         const std::string& camera, std::int64_t stamp_ns) {
   RobotFrames frames;
   const auto above_camera = tree.ancestry(camera, stamp_ns);
   const std::string& root = above_camera.back();

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "services/tracker/odometry/transform_tree.hpp"
+#include "common/geometry/transforms/transform_tree.hpp"
 
 namespace rds::tracker {
 
@@ -29,7 +29,7 @@ struct RobotFrames {
 };
 
 /// @param camera  frame_id of the pictures.
-RobotFrames robot_frames(const TransformTree& tree, const FrameNames& names, const std::string& camera,
-                         std::int64_t stamp_ns);
+RobotFrames robot_frames(const geometry::TransformTree& tree, const FrameNames& names,
+                         const std::string& camera, std::int64_t stamp_ns);
 
 }  // namespace rds::tracker

@@ -3,16 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include "common/messages/conversions.hpp"
-#include "common/topics/endpoints.hpp"
-#include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
-#include "nav_msgs/msg/Odometry.h"
-#include "sensor_msgs/msg/Imu.h"
 
 namespace rds::tracker {
 namespace {
@@ -24,19 +17,10 @@ constexpr std::chrono::milliseconds kBetweenBeats(500);
 constexpr double kLeastRadiusM = 1;
 constexpr double kLeastAngleRad = 0.8;
 constexpr double kSigmas = 3;
-constexpr double kNotMeasured = -1;  // first of a covariance, of what an Imu has no sensor for
-// In the rows of a covariance: x, y, z, then the angles about them.
-constexpr std::size_t kXX = 0;
-constexpr std::size_t kYY = 7;
-constexpr std::size_t kYawYaw = 35;
 
 /// Of a camera that looks ahead (REP 103), where no tf says how it is mounted.
 geometry::Pose body_from_optical() {
   return geometry::make_pose(Eigen::Vector3d::Zero(), Eigen::Quaterniond(-0.5, 0.5, -0.5, 0.5));
-}
-
-double sigma_of(double variance) {
-  return std::isfinite(variance) && variance > 0 ? std::sqrt(variance) : 0;
 }
 
 }  // namespace
@@ -53,79 +37,37 @@ RobotInputs::RobotInputs(service::ServiceContext& context, concurrency::Mailbox&
       said_(mailbox, kMostSaid),
       sensed_(mailbox, kMostTold) {
   if (!topics_.odometry.empty()) read_odometry(topics_.odometry);
+  if (!topics_.odometry_frame.empty()) read_transforms(context.frame(topics_.odometry_frame));
   if (!topics_.imu.empty()) read_imu(topics_.imu);
   if (!topics_.initial_pose.empty()) read_initial_poses(topics_.initial_pose);
-}
-
-void RobotInputs::read_odometry(const std::string& topic) {
-  const auto take = [this](const std::shared_ptr<const nav_msgs::msg::Odometry>& m) {
-    const auto pose = messages::to_pose(m->pose().pose());
-    if (!pose)
-      return context_.diagnostics.reject(topics::kRobotOdometry.name, service::Rejection::kInvalid,
-                                         pose.error());
-    told_.push({messages::to_nanoseconds(m->header().stamp()), *pose, m->child_frame_id()});
-  };
-  subscriptions_.push_back(
-      topics::subscribe(context_.bus, topics::kRobotOdometry.named(topic), topics::kTracker, take));
-  warn("odometry", odometry_fault_);
-}
-
-/// @param fault  read under the lock.
-void RobotInputs::warn(const std::string& name, const std::string& fault) {
-  context_.diagnostics.warning(name, [this, &fault]() -> std::optional<std::string> {
-    const std::lock_guard lock(mutex_);
-    return fault.empty() ? std::nullopt : std::optional(fault);
-  });
-}
-
-void RobotInputs::read_imu(const std::string& topic) {
-  const auto take = [this](const std::shared_ptr<const sensor_msgs::msg::Imu>& m) {
-    const auto& a = m->linear_acceleration();
-    const auto& w = m->angular_velocity();
-    sensed_.push(
-        {{messages::to_nanoseconds(m->header().stamp()), {a.x(), a.y(), a.z()}, {w.x(), w.y(), w.z()}},
-         m->angular_velocity_covariance()[0] != kNotMeasured,
-         m->header().frame_id()});
-  };
-  warn("imu", imu_fault_);
-  subscriptions_.push_back(
-      topics::subscribe(context_.bus, topics::kImu.named(topic), topics::kTracker, take));
-}
-
-void RobotInputs::read_initial_poses(const std::string& topic) {
-  using Message = geometry_msgs::msg::PoseWithCovarianceStamped;
-  const auto take = [this, map = context_.frame("map")](const std::shared_ptr<const Message>& m) {
-    const auto refuse = [&](const std::string& why) {
-      context_.diagnostics.reject(topics::kInitialPose.name, service::Rejection::kInvalid, why);
-    };
-    const auto pose = messages::to_pose(m->pose().pose());
-    if (!pose) return refuse(pose.error());
-    if (m->header().frame_id() != map) return refuse(fmt::format("expected a pose in {}", map));
-    const auto& covariance = m->pose().covariance();
-    said_.push({messages::to_nanoseconds(m->header().stamp()), *pose,
-                sigma_of(std::max(covariance[kXX], covariance[kYY])), sigma_of(covariance[kYawYaw])});
-  };
-  subscriptions_.push_back(
-      topics::subscribe(context_.bus, topics::kInitialPose.named(topic), topics::kTracker, take));
 }
 
 void RobotInputs::take_in() {
   while (auto told = told_.try_pop()) {
     buffer_.add(told->stamp_ns, told->odom_from_body);
     body_ = std::move(told->body);
+    odometry_wait_.take(*buffer_.newest_ns());
     ++context_.diagnostics.counter("odometry messages");
   }
   while (auto sensed = sensed_.try_pop()) {
     gravity_.add(sensed->measurement);
     if (sensed->has_turn_rate) turn_rates_.add(sensed->measurement.stamp_ns, sensed->measurement.turn_rate);
     imu_frame_ = std::move(sensed->frame);
+    imu_wait_.take(sensed->measurement.stamp_ns);
     ++context_.diagnostics.counter("imu messages");
   }
 }
 
-bool RobotInputs::has_odometry_at(std::int64_t stamp_ns) const {
-  const auto newest = buffer_.newest_ns();
-  return newest && *newest >= stamp_ns;
+bool RobotInputs::lacks_odometry(std::int64_t stamp_ns) const {
+  return topics_.reads_odometry() && odometry_wait_.is_due(stamp_ns, [&] {
+    return look_up_(body_, camera_frame_, stamp_ns).has_value();
+  });
+}
+
+bool RobotInputs::lacks_imu(std::int64_t stamp_ns) const {
+  return !topics_.imu.empty() && imu_wait_.is_due(stamp_ns, [&] {
+    return look_up_(camera_frame_, imu_frame_, stamp_ns).has_value();
+  });
 }
 
 void RobotInputs::go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
@@ -133,22 +75,33 @@ void RobotInputs::go_to(std::int64_t stamp_ns, const std::string& camera_frame, 
   using Clock = std::chrono::steady_clock;
   camera_frame_ = camera_frame;
   take_in();
-  if (!waits_s_ || topics_.odometry.empty()) return;
-  if (waited_in_vain_ && buffer_.newest_ns() == newest_in_vain_) return;
-  waited_in_vain_ = false;
+  if (!waits_s_) return;
   const auto deadline = Clock::now() + std::chrono::duration<double>(*waits_s_);
-  while (!has_odometry_at(stamp_ns) && !stop.stop_requested()) {
+  while ((lacks_odometry(stamp_ns) || lacks_imu(stamp_ns)) && !stop.stop_requested()) {
     beat();
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) {
-      waited_in_vain_ = true;
-      newest_in_vain_ = buffer_.newest_ns();
-      ++context_.diagnostics.counter("lockstep timeouts");
-      return spdlog::warn("no odometry of the frame's time has come on {} within {} s", topics_.odometry,
-                          *waits_s_);
-    }
-    mailbox_.wait_for(stop, std::min(left, kBetweenBeats), [this] { return !told_.locked_empty(); });
+    if (left.count() <= 0) return give_up(stamp_ns);
+    mailbox_.wait_for(stop, std::min(left, kBetweenBeats),
+                      [this] { return !told_.locked_empty() || !sensed_.locked_empty(); });
     take_in();
+  }
+}
+
+void RobotInputs::give_up(std::int64_t stamp_ns) {
+  ++context_.diagnostics.counter("lockstep timeouts");
+  const auto say = [&](const std::string& what, const std::string& source) {
+    spdlog::warn(
+        "no {} of the frame's time, in a frame that tf joins with the camera's, has come on {} within "
+        "{} s",
+        what, source, *waits_s_);
+  };
+  if (lacks_odometry(stamp_ns)) {
+    odometry_wait_.give_up(stamp_ns);
+    say("odometry", topics_.odometry_source());
+  }
+  if (lacks_imu(stamp_ns)) {
+    imu_wait_.give_up(stamp_ns);
+    say("measurement", topics_.imu);
   }
 }
 
@@ -159,7 +112,7 @@ std::optional<OdometryPose> RobotInputs::odometry_at(std::int64_t stamp_ns) {
         odometry_fault_,
         fmt::format("no odometry of the pictures' time comes on {}: is it published, with stamps of the "
                     "camera's clock?",
-                    topics_.odometry));
+                    topics_.odometry_source()));
     return std::nullopt;
   }
   const auto body_from_camera = look_up_(body_, camera_frame_, stamp_ns);
@@ -168,7 +121,7 @@ std::optional<OdometryPose> RobotInputs::odometry_at(std::int64_t stamp_ns) {
                 ? ""
                 : fmt::format("{} tells of a frame that no tf joins with the camera's: publish on tf_static "
                               "how the camera is mounted",
-                              topics_.odometry));
+                              topics_.odometry_source()));
   if (!body_from_camera) return std::nullopt;
   return OdometryPose{found->odom_from_body, *body_from_camera, found->segment};
 }

@@ -16,6 +16,7 @@
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/relocalization/relocalizer.hpp"
 #include "services/tracker/robot/inputs_config.hpp"
+#include "services/tracker/robot/sensor_wait.hpp"
 
 namespace rds::tracker {
 
@@ -30,15 +31,15 @@ class RobotInputs {
   struct Options {
     InputsConfig topics;
     std::string base;               // frame of the robot
-    std::optional<double> waits_s;  // for odometry, in lockstep; nullopt: never
+    std::optional<double> waits_s;  // for odometry and IMU, in lockstep; nullopt: never
   };
 
   RobotInputs(service::ServiceContext& context, concurrency::Mailbox& mailbox, const Options& options,
               LookUp look_up);
 
   /// A picture of this stamp and frame is to be tracked: takes in what has come. In lockstep it waits until
-  /// odometry has come up to the stamp, waits_s at most; where it has waited in vain, not again
-  /// before more has come.
+  /// odometry and IMU have come up to the stamp, and how they stand to the camera, waits_s at most
+  /// (SensorWait).
   /// @param beat  called now and then meanwhile.
   void go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
              const std::function<void()>& beat);
@@ -69,10 +70,13 @@ class RobotInputs {
     double sigma_rad;
   };
   void read_odometry(const std::string& topic);
+  void read_transforms(const std::string& frame);
   void read_imu(const std::string& topic);
   void read_initial_poses(const std::string& topic);
   void take_in();
-  [[nodiscard]] bool has_odometry_at(std::int64_t stamp_ns) const;
+  [[nodiscard]] bool lacks_odometry(std::int64_t stamp_ns) const;
+  [[nodiscard]] bool lacks_imu(std::int64_t stamp_ns) const;
+  void give_up(std::int64_t stamp_ns);
   void set_fault(std::string& of, const std::string& fault);
   void warn(const std::string& name, const std::string& fault);
 
@@ -91,8 +95,8 @@ class RobotInputs {
   std::string imu_frame_;
   std::string body_;
   std::string camera_frame_;
-  std::optional<std::int64_t> newest_in_vain_;  // what was there when it was last waited for in vain
-  bool waited_in_vain_ = false;
+  SensorWait odometry_wait_;
+  SensorWait imu_wait_;
   mutable std::mutex mutex_;  // of the faults
   std::string odometry_fault_;
   std::string imu_fault_;

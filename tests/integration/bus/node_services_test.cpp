@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "bond/msg/Status.h"
 #include "lifecycle_msgs/srv/ChangeState_Request.h"
 #include "lifecycle_msgs/srv/ChangeState_Response.h"
 #include "lifecycle_msgs/srv/GetAvailableTransitions_Request.h"
@@ -36,14 +37,26 @@ using ::testing::HasSubstr;
 
 class NodeServices : public ::testing::TestWithParam<bus::Vendor> {
  protected:
+  explicit NodeServices(const std::string& managed = "false")
+      : tracker({std::string(RDS_BIN_DIR) + "/rds-tracker", "--bus", name_of(GetParam()), "--domain",
+                 std::to_string(test_domain()), "--loopback", "--ros-args", "-r", "__ns:=/robot1", "-p",
+                 "extraction.features:=800", "-p", "managed:=" + managed}) {}
   template <class Request, class Response>
   std::optional<Response> ask(const std::string& service, const Request& request) {
     return ServiceClient<Request, Response>(GetParam(), "robot1/rds_tracker/" + service).call(request);
   }
+  bool change(const std::string& label) {
+    ChangeState_Request request;
+    request.transition().label(label);
+    const auto changed = ask<ChangeState_Request, ChangeState_Response>("change_state", request);
+    return changed && changed->success();
+  }
+  std::string state() {
+    const auto told = ask<GetState_Request, GetState_Response>("get_state", {});
+    return told ? told->current_state().label() : "";
+  }
 
-  Process tracker{{std::string(RDS_BIN_DIR) + "/rds-tracker", "--bus", name_of(GetParam()), "--domain",
-                   std::to_string(test_domain()), "--loopback", "--ros-args", "-r", "__ns:=/robot1", "-p",
-                   "extraction.features:=800"}};
+  Process tracker;
 };
 
 TEST_P(NodeServices, TellSettingsAsParameters) {
@@ -97,21 +110,12 @@ TEST_P(NodeServices, CarryOutCommands) {
 }
 
 TEST_P(NodeServices, GoThroughTheStatesOfALife) {
-  const auto change = [&](const std::string& label) {
-    ChangeState_Request request;
-    request.transition().label(label);
-    const auto changed = ask<ChangeState_Request, ChangeState_Response>("change_state", request);
-    return changed && changed->success();
-  };
-  const auto state = [&] {
-    const auto told = ask<GetState_Request, GetState_Response>("get_state", {});
-    return told ? told->current_state().label() : "";
-  };
   EXPECT_EQ(state(), "active") << tracker.standard_error();
   EXPECT_FALSE(change("activate")) << "it is";
   EXPECT_TRUE(change("deactivate"));
   EXPECT_EQ(state(), "inactive");
-  const auto available = ask<GetAvailableTransitions_Request, GetAvailableTransitions_Response>("get_available_transitions", {});
+  const auto available =
+      ask<GetAvailableTransitions_Request, GetAvailableTransitions_Response>("get_available_transitions", {});
   ASSERT_TRUE(available);
   EXPECT_EQ(available->available_transitions().size(), 3U);
   EXPECT_TRUE(change("cleanup"));
@@ -123,6 +127,81 @@ TEST_P(NodeServices, GoThroughTheStatesOfALife) {
   EXPECT_EQ(tracker.wait(std::chrono::seconds(20)), 0);
 }
 
+/// The end of a bond that Nav2's lifecycle manager holds: it tells ten times a second that it lives.
+class ManagersBond {
+ public:
+  ManagersBond(bus::Vendor vendor, const std::string& id)
+      : bus_(bus::Participant::create(
+            {.vendor = vendor, .domain = test_domain(), .node_name = "manager", .loopback_only = true})),
+        publisher_(bus_->advertise<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 5})),
+        subscription_(bus_->subscribe<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 100},
+                                                         [this, id](const auto& m) {
+                                                           const std::lock_guard lock(mutex_);
+                                                           if (m->id() == id && m->instance_id() != kInstance)
+                                                             heard_ = *m;
+                                                         })) {
+    status_.id(id);
+    status_.instance_id(kInstance);
+  }
+  /// @return the newest answer to heartbeats of half a second; nullopt if there is none.
+  std::optional<bond::msg::Status> tell(bool active) {
+    status_.active(active);
+    {
+      const std::lock_guard lock(mutex_);
+      heard_.reset();
+    }
+    for (int i = 0; i < 5; ++i) {
+      publisher_.write(status_);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+  /// Nav2 waits two seconds for a bond to form; a busy machine may take longer.
+  bool forms() {
+    for (int i = 0; i < 20; ++i)
+      if (const auto heard = tell(true); heard && heard->active()) return true;
+    return false;
+  }
+
+ private:
+  static constexpr const char* kInstance = "0d7a9d3c-manager";
+  std::unique_ptr<bus::Participant> bus_;
+  bond::msg::Status status_;
+  std::mutex mutex_;
+  std::optional<bond::msg::Status> heard_;
+  bus::Publisher<bond::msg::Status> publisher_;
+  bus::Subscription subscription_;
+};
+
+class ManagedNode : public NodeServices {
+ protected:
+  ManagedNode() : NodeServices("true") {}
+};
+
+TEST_P(ManagedNode, IsBroughtUpByAManagerWithABond) {
+  EXPECT_EQ(state(), "unconfigured") << tracker.standard_error();
+  EXPECT_FALSE(change("activate")) << "before it is configured";
+  EXPECT_TRUE(change("configure"));
+  ManagersBond bond(GetParam(), "rds_tracker");
+  EXPECT_FALSE(bond.tell(true)) << "before it is active";
+  EXPECT_TRUE(change("activate"));
+  EXPECT_EQ(state(), "active");
+  ASSERT_TRUE(bond.forms());
+  ManagersBond of_another(GetParam(), "rds_mapper");
+  EXPECT_FALSE(of_another.tell(true));
+  EXPECT_TRUE(change("deactivate"));
+  const auto parting = bond.tell(true);
+  ASSERT_TRUE(parting) << "it says that it lives no more";
+  EXPECT_FALSE(parting->active());
+  EXPECT_FALSE(bond.tell(true)) << "once";
+  EXPECT_TRUE(change("activate"));
+  ASSERT_TRUE(bond.forms());
+  const auto end = bond.tell(false);
+  ASSERT_TRUE(end) << "the manager ends it";
+  EXPECT_FALSE(end->active());
+}
+
 constexpr std::array kVendors{
     bus::Vendor::kFastDds,
     bus::Vendor::kCycloneDds,
@@ -131,6 +210,8 @@ constexpr std::array kVendors{
 #endif
 };
 INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices, ::testing::ValuesIn(kVendors),
+                         [](const auto& tested) { return name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Vendors, ManagedNode, ::testing::ValuesIn(kVendors),
                          [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace

@@ -117,6 +117,21 @@ cv::Mat millimetres(const image::DepthImage& depth) {
   return values;
 }
 
+std::vector<std::string> command(bus::Vendor vendor, int domain, const TemporaryFolder& place,
+                                 const std::string& settings) {
+  write_text(place / "tracker.yaml", settings);
+  return {std::string(RDS_BIN_DIR) + "/rds-tracker",
+          "--bus",
+          name_of(vendor),
+          "--domain",
+          std::to_string(domain),
+          "--loopback",
+          "--config",
+          (place / "tracker.yaml").string()};
+}
+
+}  // namespace
+
 geometry::CameraModel half_of(geometry::CameraModel camera) {
   camera.width /= 2, camera.height /= 2, camera.fx /= 2, camera.fy /= 2;
   camera.cx /= 2, camera.cy /= 2;  // every other pixel, from the first on
@@ -128,7 +143,6 @@ geometry::Pose color_from_depth() {  // turned a little, as cameras are
                                                          0.01, Eigen::Vector3d(1, 2, 1).normalized())));
 }
 
-/// The depth picture that a camera elsewhere has of the same: every point falls on one of its pixels.
 image::DepthImage seen_from_depth(const image::RgbdFrame& frame, const geometry::CameraModel& camera) {
   const geometry::Pose depth_from_color = color_from_depth().inverse();
   cv::Mat1w values(camera.height, camera.width, std::uint16_t{0});
@@ -146,21 +160,6 @@ image::DepthImage seen_from_depth(const image::RgbdFrame& frame, const geometry:
     }
   return {values, 0.001F, nullptr};
 }
-
-std::vector<std::string> command(bus::Vendor vendor, int domain, const TemporaryFolder& place,
-                                 const std::string& settings) {
-  write_text(place / "tracker.yaml", settings);
-  return {std::string(RDS_BIN_DIR) + "/rds-tracker",
-          "--bus",
-          name_of(vendor),
-          "--domain",
-          std::to_string(domain),
-          "--loopback",
-          "--config",
-          (place / "tracker.yaml").string()};
-}
-
-}  // namespace
 
 const std::vector<image::RgbdFrame>& TrackerWithDriver::frames() {
   static const std::vector<image::RgbdFrame> kFramesOfTheRoom = [] {

@@ -40,6 +40,13 @@ struct DriverHabits {
   std::string distortion = "plumb_bob";  // that pictures are made with, and camera_info says
 };
 
+/// A camera with every other pixel of another one's, from the first on.
+geometry::CameraModel half_of(geometry::CameraModel camera);
+/// Where depth's camera stands, if it stands apart: 5 cm to the left of colour's.
+geometry::Pose color_from_depth();
+/// The depth picture that a camera there has of the same: every point falls on one of its pixels.
+image::DepthImage seen_from_depth(const image::RgbdFrame& frame, const geometry::CameraModel& camera);
+
 /// rds-tracker as a process, and this program as a camera driver beside it.
 class TrackerWithDriver {
  public:

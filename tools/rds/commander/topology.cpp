@@ -41,6 +41,7 @@ std::vector<Link> links() {
   for (const topics::Row& row : topics::table()) {
     if (row.name == topics::kServiceStatus.name) continue;        // said every second: nothing is lost
     if (row.name == topics::kTransforms.name) continue;           // said with every frame, for others
+    if (row.name == topics::kStaticTransforms.name) continue;     // kept for who comes late
     if (row.name.starts_with(topics::kTransferPrefix)) continue;  // for other machines
     Link& link = links.emplace_back(row.name);
     for (const auto& [process, name] : members()) {
@@ -113,8 +114,9 @@ std::vector<std::string> missing_links(const std::set<std::string>& running, con
                                              topics::kBoxes.name};
   static const std::set<std::string> kTransferred{topics::kKeyframeImages.name,
                                                   topics::kKeyframeFeatures.name};
+  static const std::set<std::string> kPerhapsPlayed{topics::kRobotOdometry.name, topics::kImu.name};
   for (Link& link : links()) {
-    if (link.topic == topics::kRobotOdometry.name && !is_used(link.topic)) continue;
+    if (kPerhapsPlayed.contains(link.topic) && !is_used(link.topic)) continue;
     if (localize_only && kMapped.contains(link.topic))
       std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
     if (kTransferred.contains(link.topic))

@@ -16,6 +16,7 @@
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/cli/recording_option.hpp"
 #include "tools/rds/play/player.hpp"
+#include "tools/rds/play/sensor_choice.hpp"
 #include "tools/recording/open_recording.hpp"
 
 namespace rds::play {
@@ -28,6 +29,7 @@ constexpr std::chrono::seconds kAcknowledgeLimit{120};  // in lockstep it may ad
 struct PlayOptions {
   std::filesystem::path dataset;
   PlayerOptions player;
+  std::filesystem::path odometry;  // empty: the recording's, if it has one
   BusOptions bus;
 };
 
@@ -76,8 +78,10 @@ int play(const PlayOptions& options) {
   const auto bus = bus::Participant::create(options.bus.participant("rds_play"));
   Acknowledgements acknowledgements(*bus);
   PlayerOptions what = options.player;
-  const auto odometry = options.dataset / kOdometryFile;
-  if (what.odometry.empty() && std::filesystem::is_regular_file(odometry)) what.odometry = odometry;
+  what.sensors = chosen_sensors(
+      recording, {.imu = recording.sensors().imu.has_value(),
+                  .odometry = !options.odometry.empty() || recording.sensors().odometry.has_value(),
+                  .odometry_file = options.odometry});
   Player player(*bus, recording, what);
   wait_for_reader(player, interrupt.token());
   bool acknowledged = true;
@@ -95,7 +99,7 @@ int play(const PlayOptions& options) {
 }  // namespace
 
 void add_play_command(CLI::App& rds) {
-  auto* command = rds.add_subcommand("play", "publish a recording as a camera would");
+  auto* command = rds.add_subcommand("play", "publish a recording as a robot would: camera, odometry, IMU");
   auto options = std::make_shared<PlayOptions>();
   options->bus.secure.identities = {"player", "operator"};
   add_recording_option(*command, options->dataset)->required();
@@ -103,9 +107,9 @@ void add_play_command(CLI::App& rds) {
   command->add_option("--start", options->player.start, "first frame");
   command->add_option("--frames", options->player.frames, "number of frames")->check(CLI::PositiveNumber);
   command->add_flag("--loop", options->player.loop, "over and over, time going on");
-  command->add_option("--odometry", options->player.odometry,
+  command->add_option("--odometry", options->odometry,
                       "TUM trajectory of the camera to publish as the robot's odometry, on odom (default: "
-                      "the recording's odometry.txt, if there is one)");
+                      "the recording's, if it has one; so is its IMU, on imu)");
   add_bus_options(*command, options->bus);
   command->callback([options] {
     int status = kBadUsage;

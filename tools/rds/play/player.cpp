@@ -54,8 +54,7 @@ Player::Player(bus::Participant& bus, const image::Recording& dataset, const Pla
       color_(advertise(bus, topics::kColor, options.rate)),
       camera_info_(advertise(bus, topics::kCameraInfo, options.rate)),
       depth_(advertise(bus, topics::kDepth, options.rate)),
-      odometry_(options.odometry.empty() ? nullptr
-                                         : std::make_unique<OdometryPlayer>(bus, options.odometry)) {}
+      sensors_(bus, options.sensors) {}
 
 std::size_t Player::frame_count() const {
   const std::size_t all = dataset_.frames().size();
@@ -92,7 +91,7 @@ PlayerReport Player::run(const std::stop_token& stop, const AfterFrame& after_fr
 }
 
 void Player::publish(const image::RgbdFrame& frame, std::int64_t depth_stamp_ns, std::int64_t shift_ns) {
-  if (odometry_) odometry_->publish_through(frame.stamp_ns - shift_ns, shift_ns);
+  sensors_.publish_through(frame.stamp_ns - shift_ns, shift_ns);
   camera_info_.write(recording::camera_info_message(frame.camera, frame.stamp_ns));
   color_.write(recording::color_message(frame.color, frame.stamp_ns));
   depth_.write(recording::depth_message(frame.depth, depth_stamp_ns));

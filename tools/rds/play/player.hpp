@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <stop_token>
 #include <string>
 
@@ -13,7 +11,7 @@
 #include "common/image/recording.hpp"
 #include "sensor_msgs/msg/CameraInfo.h"
 #include "sensor_msgs/msg/Image.h"
-#include "tools/rds/play/odometry_player.hpp"
+#include "tools/rds/play/sensor_player.hpp"
 
 namespace rds::play {
 
@@ -22,7 +20,7 @@ struct PlayerOptions {
   std::size_t start = 0;
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   bool loop = false;
-  std::filesystem::path odometry = {};  // TUM trajectory to play as the robot's odometry; empty: none
+  image::RobotSensors sensors = {};  // to play beside the pictures
 };
 
 struct PlayerReport {
@@ -38,14 +36,13 @@ void check_first_frame(const image::Recording& dataset, std::size_t start);
 /// Publishes a recording as a camera would: colour, camera_info, and depth registered to colour; an empty
 /// depth picture with the same stamp where the recording has none.
 ///
-/// Odometry, if there is one, goes out before the pictures of its time. Pictures are decoded ahead of time by
-/// a thread of its own. A frame that cannot be read is skipped and counted.
+/// What other sensors have told goes out before the pictures of its time. Pictures are decoded ahead of time
+/// by a thread of its own. A frame that cannot be read is skipped and counted.
 class Player {
  public:
   /// Called after each frame was sent. At rate 0 the player goes on when it returns. @return false to end.
   using AfterFrame = std::function<bool(const image::RgbdFrame& frame, std::size_t index)>;
 
-  /// @throws std::runtime_error with one sentence if options.odometry cannot be read.
   Player(bus::Participant& bus, const image::Recording& dataset, const PlayerOptions& options);
 
   /// Frames of one pass.
@@ -64,7 +61,7 @@ class Player {
   bus::Publisher<sensor_msgs::msg::Image> color_;
   bus::Publisher<sensor_msgs::msg::CameraInfo> camera_info_;
   bus::Publisher<sensor_msgs::msg::Image> depth_;
-  std::unique_ptr<OdometryPlayer> odometry_;  // or none
+  SensorPlayer sensors_;
 };
 
 }  // namespace rds::play

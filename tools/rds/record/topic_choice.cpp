@@ -25,7 +25,7 @@ bool is_internal(const std::string& topic) {
 
 TopicChoice TopicChoice::camera() {
   return named({topics::kColor.name, topics::kCameraInfo.name, topics::kDepth.name,
-                topics::kStaticTransforms.address()});
+                topics::kRobotOdometry.name, topics::kImu.name, topics::kStaticTransforms.address()});
 }
 
 TopicChoice TopicChoice::outputs() {

@@ -11,7 +11,7 @@ namespace rds::record {
 /// Which topics a recording is to have.
 class TopicChoice {
  public:
-  /// The camera's, and tf_static.
+  /// The camera's, odometry and IMU, and tf_static.
   static TopicChoice camera();
   /// What the services say to others: not what they only tell each other.
   static TopicChoice outputs();

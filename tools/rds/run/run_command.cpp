@@ -27,6 +27,7 @@ namespace {
 
 constexpr int kBadUsage = 2;
 constexpr const char* kViewPort = "8080";
+constexpr const char* kOdometryOfRecording = "odometry.txt";
 constexpr const char* kRecordBeside = "outputs.mcap";  // the results
 const std::set<std::string> kProcesses{kPlayer, kTracker, kDetector, kTransformer, kMapper, kLoopCloser};
 
@@ -70,7 +71,7 @@ void check_view(const RunOptions& options) {
 }
 
 void check_files(const RunOptions& options) {
-  for (const auto& file : {options.config, options.detections, options.poses, options.odometry})
+  for (const auto& file : {options.config, options.detections, options.poses, options.sensors.odometry_file})
     if (!file.empty() && !std::filesystem::is_regular_file(file))
       throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
 }
@@ -193,9 +194,12 @@ void add_run_command(CLI::App& rds) {
                       "boxes from a detections.jsonl or a truth file instead of the network");
   command->add_option("--poses", options->poses,
                       "poses from a TUM trajectory instead of estimated ones; no loops are closed");
-  command->add_flag(fmt::format("--odometry{{{}}}", play::kOdometryFile), *odometry,
-                    "let the tracker have a robot's odometry, the recording's odometry.txt or "
+  command->add_flag(fmt::format("--odometry{{{}}}", kOdometryOfRecording), *odometry,
+                    "let the tracker have the recording's odometry (odometry.txt, or a topic of a bag), or "
                     "--odometry=FILE, a TUM trajectory of the camera: it carries a lost camera on");
+  command->add_flag("--imu", options->sensors.imu,
+                    "let the tracker have the recording's IMU (imu.txt, or a topic of a bag): which way is "
+                    "up, and how the camera turns");
   command->add_option("--map", options->map,
                       "go on from a saved map: map.rds, the folder of a run, or an OctoMap tree (map.ot)");
   command->add_flag("--localize-only", options->localize_only,
@@ -228,8 +232,8 @@ void add_run_command(CLI::App& rds) {
   command->add_flag("--video", options->video, "write overlay.avi");
   command->add_flag("--force", options->force, "overwrite an earlier run");
   command->callback([options, vendors, where, odometry, no_dynamics] {
-    options->odometry = *odometry;
-    if (*odometry == play::kOdometryFile) options->odometry = options->dataset / *odometry;
+    options->sensors.odometry = !odometry->empty();
+    if (*odometry != kOdometryOfRecording) options->sensors.odometry_file = *odometry;
     options->dynamics = !*no_dynamics;
     if (options->view_keep && options->view.empty()) options->view = kViewPort;
     const int status = run(*options, *vendors, *where);

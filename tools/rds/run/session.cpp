@@ -10,6 +10,7 @@
 
 #include "services/viewer/listen_address.hpp"
 #include "tools/rds/commander/topology.hpp"
+#include "tools/rds/play/sensor_choice.hpp"
 #include "tools/rds/run/results/results.hpp"
 #include "tools/rds/run/services/join_bus.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
@@ -53,7 +54,7 @@ Session::Session(const RunOptions& options, const image::Recording& dataset,
                .start = options.start,
                .frames = options.frames,
                .loop = false,
-               .odometry = options.odometry}),
+               .sensors = play::chosen_sensors(dataset, options.sensors)}),
       services_(options, domain_.domain(), folder_.path(), *bus_, elsewhere),
       overlay_(
           std::make_unique<OverlayWriter>(*bus_, recorder_, folder_.path(), options.video, dataset.fps())),

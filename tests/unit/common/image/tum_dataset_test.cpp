@@ -23,6 +23,23 @@ class TumDatasetTest : public testing::Test {
   test::TemporaryFolder folder;
 };
 
+TEST_F(TumDatasetTest, ReadsWhatTheRobotHasSensed) {
+  EXPECT_FALSE(TumDataset::open(folder.path())->sensors().imu);
+  test::write_text(folder / "odometry.txt", "10 0 0 0 0 0 0 1\n10.1 0.5 0 0 0 0 0 1\n");
+  test::write_text(folder / "imu.txt", "10 0 -9.81 0 0.1 0.2 0.3\n");
+  const auto dataset = TumDataset::open(folder.path());
+  ASSERT_TRUE(dataset) << dataset.error();
+  ASSERT_TRUE(dataset->sensors().imu && dataset->sensors().odometry);
+  EXPECT_EQ(dataset->sensors().imu->measurements[0].turn_rate.y(), 0.2);
+  EXPECT_EQ(dataset->sensors().odometry->odom_from_body[1].map_from_camera.translation().x(), 0.5);
+  EXPECT_TRUE(dataset->sensors().odometry->body_from_camera.isApprox(geometry::Pose::Identity()));
+  test::write_text(folder / "odometry.txt", "# none\n");
+  EXPECT_THAT(open_error(), AllOf(HasSubstr("odometry.txt"), HasSubstr("at least one pose")));
+  test::write_text(folder / "odometry.txt", "10 0 0 0 0 0 0 1\n");
+  test::write_text(folder / "imu.txt", "10 down\n");
+  EXPECT_THAT(open_error(), HasSubstr("imu.txt:1"));
+}
+
 TEST_F(TumDatasetTest, ReadsListsCameraTruthAndPictures) {
   const auto dataset = TumDataset::open(folder.path());
   ASSERT_TRUE(dataset) << dataset.error();

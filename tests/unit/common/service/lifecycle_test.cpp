@@ -28,6 +28,17 @@ class LifecycleTest : public ::testing::Test {
   }};
 };
 
+TEST_F(LifecycleTest, BeginsUnconfiguredWhereAManagerBringsItUp) {
+  Lifecycle managed([](const LifecycleEvent&) {}, kUnconfigured);
+  managed.set_paused(true);
+  EXPECT_EQ(managed.state(), kUnconfigured) << "the worker pauses until it is activated";
+  for (const char* label : {"configure", "activate"}) {
+    ASSERT_TRUE(managed.begin(0, label)) << label;
+    managed.end(true);
+  }
+  EXPECT_EQ(managed.state(), kActive);
+}
+
 TEST_F(LifecycleTest, GoesThroughAllStatesAsRclcppNodesDo) {
   EXPECT_EQ(life.state(), kActive) << "services need nobody who configures them";
   EXPECT_THAT(labels_from_here(), ElementsAre("deactivate", "shutdown"));

@@ -35,6 +35,17 @@ TEST(TrackerServiceConfig, NamesEveryViolation) {
   }
 }
 
+TEST(TrackerServiceConfig, ReadsOdometryFromOneSource) {
+  config::ConfigReader reader(YAML::Load("{inputs: {odometry: odom, odometry_frame: odom}}"), "tracker.yaml");
+  TrackerServiceConfig config;
+  read(reader, config);
+  EXPECT_THROW(reader.finish(), config::ConfigError);
+  InputsConfig inputs;
+  EXPECT_FALSE(inputs.reads_odometry());
+  inputs.odometry_frame = "odom";
+  EXPECT_TRUE(inputs.reads_odometry());
+}
+
 TEST(TrackerServiceConfig, TakesTopicsOfThePresetUnlessTheyAreSet) {
   config::ConfigReader reader(YAML::Load("{camera: {preset: xtion, depth: mine/depth}}"), "tracker.yaml");
   TrackerServiceConfig config;

@@ -51,14 +51,16 @@ TEST(MissingLinks, AreNoneWhenEveryRunningPairKnowsEachOther) {
   EXPECT_THAT(missing_links(kRunning, connected()), IsEmpty());
 }
 
-TEST(MissingLinks, OfOdometryAreMissedOnlyWhereItIsPlayed) {
-  auto endpoints = connected();
-  endpoints[kPlayer].push_back({"odom", true, 0});
-  EXPECT_THAT(missing_links(kRunning, endpoints),
-              Contains(HasSubstr(kPlayer + " writes odom: 0 of 1 readers")));
-  endpoints[kPlayer].back().matched = 1;
-  endpoints[kTracker].push_back({"odom", false, 1});
-  EXPECT_THAT(missing_links(kRunning, endpoints), IsEmpty());
+TEST(MissingLinks, OfARobotsSensorsAreMissedOnlyWhereTheyArePlayed) {
+  for (const char* topic : {"odom", "imu"}) {
+    auto endpoints = connected();
+    endpoints[kPlayer].push_back({topic, true, 0});
+    EXPECT_THAT(missing_links(kRunning, endpoints),
+                Contains(HasSubstr(kPlayer + " writes " + topic + ": 0 of 1 readers")));
+    endpoints[kPlayer].back().matched = 1;
+    endpoints[kTracker].push_back({topic, false, 1});
+    EXPECT_THAT(missing_links(kRunning, endpoints), IsEmpty());
+  }
 }
 
 TEST(MissingLinks, NameTheEndAndTheTopicThatLacksPartners) {

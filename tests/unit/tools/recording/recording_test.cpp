@@ -127,6 +127,34 @@ TEST_F(RecordingForms, AFolderMadeOfABagIsAsTheFolder) {
   expect_same(folder / "again");
 }
 
+TEST_F(RecordingForms, WhatTheRobotHasSensedIsInAllOfThem) {
+  test::write_text(tum / "odometry.txt", "10 0 0 0 0 0 0 1\n10.1 0.5 0 0 0 0 0 1\n");
+  test::write_text(tum / "imu.txt", "9.9 0.5 -9.75 0 0.125 0.25 0.5\n10.2 0 -9.8 0 0 0 1\n");
+  const auto expect_sensors = [](const image::Recording& recording) {
+    const auto& [imu, odometry] = recording.sensors();
+    ASSERT_TRUE(imu && odometry);
+    EXPECT_TRUE(imu->has_gyroscope);
+    ASSERT_EQ(imu->measurements.size(), 2U);
+    EXPECT_EQ(imu->measurements[0].stamp_ns, 9'900'000'000);
+    EXPECT_EQ(imu->measurements[0].acceleration, Eigen::Vector3d(0.5, -9.75, 0));
+    EXPECT_EQ(imu->measurements[0].turn_rate, Eigen::Vector3d(0.125, 0.25, 0.5));
+    ASSERT_EQ(odometry->odom_from_body.size(), 2U);
+    EXPECT_EQ(odometry->odom_from_body[1].stamp_ns, 10'100'000'000);
+    EXPECT_EQ(odometry->odom_from_body[1].map_from_camera.translation().x(), 0.5);
+  };
+  for (const char* name : {"a.mcap", "a.db3"}) {
+    auto writer = make_bag_writer(folder / name, mcap::Compression::kLz4).value();
+    ASSERT_TRUE(write_bag(image::TumDataset::open(tum).value(), *writer));
+    const auto opened = open_recording(folder / name);
+    ASSERT_TRUE(opened) << opened.error();
+    EXPECT_THAT(opened->notes, AllOf(HasSubstr("IMU /imu"), HasSubstr("odometry /odom")));
+    expect_sensors(*opened->recording);
+    const fs::path again = folder / (std::string(name) + "_again");
+    ASSERT_TRUE(write_tum_folder(*opened->recording, again));
+    expect_sensors(image::TumDataset::open(again).value());
+  }
+}
+
 TEST_F(RecordingForms, AFolderOfRosbag2NamesItsFiles) {
   const fs::path bag = folder / "bag";
   fs::create_directories(bag);
@@ -271,13 +299,17 @@ TEST_F(ForeignBag, ACameraWithoutDescriptionIsRefused) {
 }
 
 TEST_F(ForeignBag, PicturesOfAnotherSizeAreErrorsOfTheirFrames) {
-  add("/c/color", color_message({color, image::ChannelOrder::kBgr, nullptr}, 1));
-  add("/c/depth", depth_message({cv::Mat1w(12, 16, std::uint16_t{1}), 0.001F, nullptr}, 1));
+  const image::DepthImage odd{cv::Mat1w(12, 16, std::uint16_t{1}), 0.001F, nullptr};
+  for (std::int64_t i = 1; i <= 2; ++i) {
+    add("/c/color", color_message({color, image::ChannelOrder::kBgr, nullptr}, i * 100'000'000));
+    add("/c/depth", depth_message(i == 1 ? image::DepthImage{depth, 0.001F, nullptr} : odd, i * 100'000'000));
+  }
   add("/c/camera_info", camera_info_message(camera, 1));
   const auto opened = open();
   ASSERT_TRUE(opened) << opened.error();
-  EXPECT_THAT(opened->recording->load(opened->recording->frames()[0]).error(),
-              HasSubstr("/c/depth at 0.000000001: 16×12 px"));
+  EXPECT_TRUE(opened->recording->load(opened->recording->frames()[0]));
+  EXPECT_THAT(opened->recording->load(opened->recording->frames()[1]).error(),
+              HasSubstr("/c/depth at 0.200000: 16×12 px"));
 }
 
 TEST(RecordingFiles, WhatIsNoRecordingIsRefused) {

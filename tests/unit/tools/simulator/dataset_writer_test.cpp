@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/image/sensors/imu_file.hpp"
+
 namespace rds::simulator {
 namespace {
 
@@ -69,6 +71,21 @@ TEST_F(DatasetWriterTest, WritesPicturesListsAndTruth) {
     EXPECT_LE(object["size"].at(1).get<double>(), s * x + c * y + 1e-3) << object;
     EXPECT_GT(object["size"].at(0).get<double>(), 0.6 * (c * x + s * y)) << object;
   }
+}
+
+TEST_F(DatasetWriterTest, WritesAnImuThatReachesBeyondTheLastPicture) {
+  SimulationOptions asked = options();
+  asked.imu = true;
+  const Simulation simulation(asked);
+  prepare_folder(folder_, false);
+  DatasetWriter(simulation, folder_).finish();
+  const auto imu = image::read_imu(folder_ / "imu.txt");
+  ASSERT_TRUE(imu) << imu.error();
+  EXPECT_TRUE(imu->has_gyroscope);
+  EXPECT_EQ(imu->measurements[1].stamp_ns - imu->measurements[0].stamp_ns, 5'000'000);
+  EXPECT_GT(imu->measurements.back().stamp_ns, std::llround(1e9 * (1 + simulation.time_s(2))));
+  for (const auto& m : imu->measurements) EXPECT_NEAR(m.acceleration.norm(), 9.81, 3);
+  EXPECT_FALSE(fs::exists(folder_ / "odometry.txt"));
 }
 
 TEST_F(DatasetWriterTest, RefusesAFolderWithARecordingUnlessForced) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/doctor/checks/dataset_check.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "tools/rds/doctor/checks/camera_check.hpp"
@@ -8,6 +11,7 @@
 #include "tools/rds/doctor/checks/depth_checks.hpp"
 #include "tools/rds/doctor/checks/list_checks.hpp"
 #include "tools/rds/doctor/checks/registration_check.hpp"
+#include "tools/rds/doctor/checks/sensor_check.hpp"
 
 namespace rds::doctor {
 namespace {
@@ -34,6 +38,7 @@ std::vector<Finding> check_dataset(const image::Recording& dataset, std::size_t 
                                 check_rate(lists, dataset.fps()),
                                 check_gaps(lists),
                                 check_truth(lists)};
+  std::ranges::copy(check_sensors(dataset), std::back_inserter(findings));
   const auto looks = look_at_pictures(dataset, every);
   findings.push_back(check_unreadable(looks));
   if (looks.frames.empty()) return findings;

@@ -10,6 +10,7 @@
 
 #include "common/bus/participant.hpp"
 #include "tools/rds/cli/secure_options.hpp"
+#include "tools/rds/play/sensor_choice.hpp"
 
 namespace rds::run {
 
@@ -33,9 +34,9 @@ struct RunOptions {
   std::size_t start = 0;
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::filesystem::path detections;
-  std::filesystem::path poses;     // empty: estimated
-  std::filesystem::path odometry;  // of the robot, to play beside the pictures; empty: none
-  std::filesystem::path map;       // saved map to start from, or an octree alone; empty: none
+  std::filesystem::path poses;  // empty: estimated
+  play::SensorChoice sensors;   // of the robot, for the tracker
+  std::filesystem::path map;    // saved map to start from, or an octree alone; empty: none
   bool map_is_octree = false;
   bool localize_only = false;
   std::optional<int> domain;   // DDS domain, to listen from outside; otherwise one that no other run uses

@@ -61,8 +61,9 @@ void complete(YAML::Node& node, const std::string& process, const RunOptions& op
               const fs::path& folder) {
   if (process != kTransformer) node["lockstep"] = options.lockstep();
   if (process == kTracker) node["dynamics"] = options.dynamics;
-  if (process == kTracker && !options.odometry.empty())
+  if (process == kTracker && options.sensors.odometry)
     node["inputs"]["odometry"] = topics::kRobotOdometry.name;
+  if (process == kTracker && options.sensors.imu) node["inputs"]["imu"] = topics::kImu.name;
   if (process == kTracker && !options.poses.empty())
     node["poses_file"] = fs::absolute(options.poses).string();
   if (process == kMapper && !options.poses.empty() && !node["grid"]["up"])

@@ -20,12 +20,12 @@ Pose at(double x, double y, double z, double turn_rad = 0) {
                              Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY())));
 }
 
-RobotFrames frames_of(const TransformTree& tree, const std::string& camera = "optical") {
+RobotFrames frames_of(const geometry::TransformTree& tree, const std::string& camera = "optical") {
   return robot_frames(tree, kNames, camera, 0);
 }
 
-TransformTree robot_with_a_camera() {
-  TransformTree tree;
+geometry::TransformTree robot_with_a_camera() {
+  geometry::TransformTree tree;
   tree.set_static("base_footprint", "base_link", at(0, 0, 0.1));
   tree.set_static("base_link", "camera_link", at(0.2, 0, 0.5, 0.3));
   tree.set_static("camera_link", "optical", at(0, 0.02, 0));
@@ -48,7 +48,7 @@ TEST(RobotFrames, HangTheRootOfTheTreeBelowOdomAndTellOfTheBase) {
 }
 
 TEST(RobotFrames, OfACircleThatSomebodyPublishesAreFoundAllTheSame) {
-  TransformTree tree;
+  geometry::TransformTree tree;
   tree.set_static("a", "optical", at(0, 0, 0));
   tree.set_static("b", "a", at(0, 0, 0));
   tree.set_static("a", "b", at(0, 0, 0));
@@ -57,7 +57,7 @@ TEST(RobotFrames, OfACircleThatSomebodyPublishesAreFoundAllTheSame) {
 }
 
 TEST(RobotFrames, LeaveOdomToWheelOdometry) {
-  TransformTree tree = robot_with_a_camera();
+  geometry::TransformTree tree = robot_with_a_camera();
   tree.set("odom", "base_footprint", 0, at(3, 0, 1));
   const RobotFrames frames = frames_of(tree);
   EXPECT_FALSE(frames.odom_to_body_is_ours);
@@ -68,11 +68,11 @@ TEST(RobotFrames, LeaveOdomToWheelOdometry) {
 }
 
 TEST(RobotFrames, LeaveTheMapToALocalisation) {
-  TransformTree tree = robot_with_a_camera();
+  geometry::TransformTree tree = robot_with_a_camera();
   tree.set("map", "odom", 0, at(0, 0, 0));
   EXPECT_FALSE(frames_of(tree).map_to_odom_is_ours);
   EXPECT_TRUE(frames_of(tree).odom_to_body_is_ours);
-  TransformTree direct = robot_with_a_camera();
+  geometry::TransformTree direct = robot_with_a_camera();
   direct.set("map", "base_footprint", 0, at(0, 0, 0));
   EXPECT_FALSE(frames_of(direct).map_to_odom_is_ours || frames_of(direct).odom_to_body_is_ours)
       << "its parent is map";
@@ -117,7 +117,7 @@ TEST(Odometry, GoesOnInASubmapThatHasNoPlaceInTheMap) {
 }
 
 TEST(Odometry, CorrectsTheMapAboveWheelOdometry) {
-  TransformTree tree = robot_with_a_camera();
+  geometry::TransformTree tree = robot_with_a_camera();
   tree.set("odom", "base_footprint", 0, at(3, 0, 1));
   const RobotFrames frames = frames_of(tree);
   const OdometryStep step = Odometry().step(pose(0, at(1, 2, 3, 0.4)), frames);

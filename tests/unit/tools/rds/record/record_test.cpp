@@ -16,7 +16,8 @@ TEST(TopicChoice, CameraAndOutputsLeaveOutWhatServicesTellEachOther) {
   const auto choice = TopicChoice::camera_and_outputs();
   for (const char* topic :
        {"camera/color/image_raw", "camera/color/camera_info", "camera/aligned_depth_to_color/image_raw", "tf",
-        "tf_static", "rds/odometry", "rds/keyframe/poses", "rds/map/delta", "rds/map/full", "diagnostics"})
+        "tf_static", "odom", "imu", "rds/odometry", "rds/keyframe/poses", "rds/map/delta", "rds/map/full",
+        "diagnostics"})
     EXPECT_TRUE(choice.contains(topic)) << topic;
   for (const char* topic :
        {"rds/keyframe/images", "rds/transfer/offers", "rds/transfer/mapper", "rds/map/chunks",

@@ -12,7 +12,7 @@
 #include "common/image/depth_registration.hpp"
 #include "common/image/lens_table.hpp"
 
-namespace rds::tracker {
+namespace rds::image {
 
 /// How the pictures of a camera become those of the one pinhole camera that the tracker knows: colour and its
 /// registered depth without the distortion that geometry::CameraModel does not have, other depth registered
@@ -27,8 +27,8 @@ namespace rds::tracker {
 class PictureRegistration {
  public:
   /// Empty: the picture stays as it is.
-  using MakeColor = std::function<image::ColorImage(const image::ColorImage&)>;
-  using MakeDepth = std::function<image::DepthImage(const image::DepthImage&)>;
+  using MakeColor = std::function<ColorImage(const ColorImage&)>;
+  using MakeDepth = std::function<DepthImage(const DepthImage&)>;
   /// @return target_from_source by tf; nullopt if no path joins the frames.
   using LookUp = std::function<std::optional<geometry::Pose>(
       const std::string& target, const std::string& source, std::int64_t stamp_ns)>;
@@ -52,7 +52,7 @@ class PictureRegistration {
   [[nodiscard]] const std::string& color_frame() const;
 
  private:
-  using Table = std::shared_ptr<const image::LensTable>;
+  using Table = std::shared_ptr<const LensTable>;
 
   [[nodiscard]] bool is_of_another_frame(const std::string& depth_frame) const;
   tl::expected<MakeDepth, std::string> depth_elsewhere(const cv::Size& size,
@@ -67,7 +67,7 @@ class PictureRegistration {
   std::string depth_frame_;
   Table color_table_;  // colour's lens to the camera
   Table depth_table_;  // depth's lens to the camera, of the same frame
-  std::shared_ptr<const image::DepthRegistration> elsewhere_;
+  std::shared_ptr<const DepthRegistration> elsewhere_;
 };
 
-}  // namespace rds::tracker
+}  // namespace rds::image

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/input/picture_registration.hpp"
+#include "common/image/registration/picture_registration.hpp"
 
 #include <utility>
 
 #include <fmt/format.h>
 
-namespace rds::tracker {
+namespace rds::image {
 namespace {
 
 std::string text_of(const cv::Size& size) {
@@ -27,8 +27,8 @@ std::shared_ptr<const Maker> made(std::shared_ptr<const Maker>& maker, const geo
   return maker;
 }
 
-PictureRegistration::MakeDepth by(std::shared_ptr<const image::LensTable> table) {
-  return [table = std::move(table)](const image::DepthImage& picture) { return table->depth(picture); };
+PictureRegistration::MakeDepth by(std::shared_ptr<const LensTable> table) {
+  return [table = std::move(table)](const DepthImage& picture) { return table->depth(picture); };
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ tl::expected<PictureRegistration::MakeColor, std::string> PictureRegistration::c
         fmt::format("pictures of {} px, but camera_info is of {}: let both come from one driver",
                     text_of(size), text_of(size_of(*color_lens_))));
   if (color_lens_->is_plain()) return MakeColor();
-  return [table = made(color_table_, *color_lens_, color_lens_->camera())](const image::ColorImage& picture) {
+  return [table = made(color_table_, *color_lens_, color_lens_->camera())](const ColorImage& picture) {
     return table->color(picture);
   };
 }
@@ -90,7 +90,7 @@ tl::expected<PictureRegistration::MakeDepth, std::string> PictureRegistration::d
     const cv::Size& size, const geometry::Pose& color_from_depth) {
   if (const std::string fault = fault_of_depth_lens(size); !fault.empty()) return tl::unexpected(fault);
   return [registration = made(elsewhere_, *depth_lens_, color_lens_->camera()), color_from_depth](
-             const image::DepthImage& picture) { return registration->depth(picture, color_from_depth); };
+             const DepthImage& picture) { return registration->depth(picture, color_from_depth); };
 }
 
 /// Empty if it is of the picture's size.
@@ -106,4 +106,4 @@ std::string PictureRegistration::fault_of_depth_lens(const cv::Size& size) const
   return "";
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::image

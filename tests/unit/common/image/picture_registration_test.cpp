@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/input/picture_registration.hpp"
+#include "common/image/registration/picture_registration.hpp"
 
 #include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace rds::tracker {
+namespace rds::image {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,7 +39,7 @@ PictureRegistration registration_of(geometry::LensModel model = geometry::LensMo
 const cv::Size kSize(64, 48);
 const cv::Size kHalf(32, 24);
 
-image::DepthImage flat(const cv::Size& size) {
+DepthImage flat(const cv::Size& size) {
   return {cv::Mat1w(size, std::uint16_t{1500}), 0.001F, nullptr};
 }
 
@@ -55,7 +55,7 @@ TEST(PictureRegistration, UndistortsColourAndItsDepth) {
   PictureRegistration registration = registration_of(geometry::LensModel::kEquidistant);
   const auto color = registration.color(kSize, "c").value();
   ASSERT_TRUE(color);
-  EXPECT_EQ(color({cv::Mat3b(kSize), image::ChannelOrder::kRgb, nullptr}).pixels.size(), kSize);
+  EXPECT_EQ(color({cv::Mat3b(kSize), ChannelOrder::kRgb, nullptr}).pixels.size(), kSize);
   const auto depth = registration.depth(kSize, "c", 0).value();
   ASSERT_TRUE(depth);
   EXPECT_FLOAT_EQ(depth(flat(kSize)).at(32, 24), 1.5F);
@@ -75,7 +75,7 @@ TEST(PictureRegistration, MovesDepthOfACameraElsewhere) {
   PictureRegistration registration = registration_of();
   const auto depth = registration.depth(kHalf, "d", 0).value();
   ASSERT_TRUE(depth);
-  image::DepthImage half_seen = flat(kHalf);
+  DepthImage half_seen = flat(kHalf);
   half_seen.values.colRange(16, 32) = 0;  // from the middle on
   const auto registered = depth(half_seen);
   ASSERT_EQ(registered.values.size(), kSize);
@@ -135,4 +135,4 @@ TEST(PictureRegistration, RefusesPicturesThatAreNotOfTheirCameraInfo) {
 }
 
 }  // namespace
-}  // namespace rds::tracker
+}  // namespace rds::image

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/odometry/transform_tree.hpp"
+#include "common/geometry/transforms/transform_tree.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-namespace rds::tracker {
+namespace rds::geometry {
 namespace {
 
-geometry::Pose interpolated(const std::deque<std::pair<std::int64_t, geometry::Pose>>& poses,
-                            std::int64_t stamp_ns) {
-  const auto after =
-      std::ranges::lower_bound(poses, stamp_ns, {}, &std::pair<std::int64_t, geometry::Pose>::first);
+Pose interpolated(const std::deque<std::pair<std::int64_t, Pose>>& poses, std::int64_t stamp_ns) {
+  const auto after = std::ranges::lower_bound(poses, stamp_ns, {}, &std::pair<std::int64_t, Pose>::first);
   if (after == poses.begin()) return poses.front().second;
   if (after == poses.end()) return poses.back().second;
   const auto& [first_ns, first] = *std::prev(after);
@@ -18,7 +16,7 @@ geometry::Pose interpolated(const std::deque<std::pair<std::int64_t, geometry::P
   const double share = static_cast<double>(stamp_ns - first_ns) / static_cast<double>(second_ns - first_ns);
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond(first.linear()).slerp(share, Eigen::Quaterniond(second.linear()));
-  return geometry::make_pose((1 - share) * first.translation() + share * second.translation(), turn);
+  return make_pose((1 - share) * first.translation() + share * second.translation(), turn);
 }
 
 }  // namespace
@@ -32,7 +30,7 @@ TransformTree::Edge* TransformTree::edge_for(const std::string& parent, const st
 }
 
 void TransformTree::set(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
-                        const geometry::Pose& parent_from_child) {
+                        const Pose& parent_from_child) {
   Edge* edge = edge_for(parent, child);
   if (edge == nullptr) return;
   if (edge->is_static) *edge = {parent, false, {}};
@@ -44,7 +42,7 @@ void TransformTree::set(const std::string& parent, const std::string& child, std
 }
 
 void TransformTree::set_static(const std::string& parent, const std::string& child,
-                               const geometry::Pose& parent_from_child) {
+                               const Pose& parent_from_child) {
   Edge* edge = edge_for(parent, child);
   if (edge != nullptr) *edge = {parent, true, {{0, parent_from_child}}};
 }
@@ -67,20 +65,19 @@ std::vector<std::string> TransformTree::ancestry(const std::string& frame, std::
   return frames;
 }
 
-geometry::Pose TransformTree::root_from(const std::vector<std::string>& ancestry,
-                                        std::int64_t stamp_ns) const {
-  geometry::Pose pose = geometry::Pose::Identity();
+Pose TransformTree::root_from(const std::vector<std::string>& ancestry, std::int64_t stamp_ns) const {
+  Pose pose = Pose::Identity();
   for (std::size_t i = 0; i + 1 < ancestry.size(); ++i)
     pose = interpolated(by_child_.at(ancestry[i]).poses, stamp_ns) * pose;
   return pose;
 }
 
-std::optional<geometry::Pose> TransformTree::lookup(const std::string& target, const std::string& source,
-                                                    std::int64_t stamp_ns) const {
+std::optional<Pose> TransformTree::lookup(const std::string& target, const std::string& source,
+                                          std::int64_t stamp_ns) const {
   const auto of_target = ancestry(target, stamp_ns);
   const auto of_source = ancestry(source, stamp_ns);
   if (of_target.back() != of_source.back()) return std::nullopt;
   return root_from(of_target, stamp_ns).inverse() * root_from(of_source, stamp_ns);
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::geometry

@@ -12,7 +12,7 @@
 
 #include "common/geometry/pose.hpp"
 
-namespace rds::tracker {
+namespace rds::geometry {
 
 /// The transforms that others publish: of each frame its parent and, of the last seconds, where it was in it.
 ///
@@ -26,9 +26,8 @@ class TransformTree {
   static constexpr std::size_t kDeepest = 64;
 
   void set(const std::string& parent, const std::string& child, std::int64_t stamp_ns,
-           const geometry::Pose& parent_from_child);
-  void set_static(const std::string& parent, const std::string& child,
-                  const geometry::Pose& parent_from_child);
+           const Pose& parent_from_child);
+  void set_static(const std::string& parent, const std::string& child, const Pose& parent_from_child);
 
   /// The frame, its parent, and so on up to the root. Where others publish a circle it ends after kDeepest.
   [[nodiscard]] std::vector<std::string> ancestry(const std::string& frame, std::int64_t stamp_ns) const;
@@ -38,22 +37,21 @@ class TransformTree {
   }
   /// Where `source` is in `target` at that time: interpolated, beyond the newest transform as it was last.
   /// @return target_from_source; nullopt if no path joins them.
-  [[nodiscard]] std::optional<geometry::Pose> lookup(const std::string& target, const std::string& source,
-                                                     std::int64_t stamp_ns) const;
+  [[nodiscard]] std::optional<Pose> lookup(const std::string& target, const std::string& source,
+                                           std::int64_t stamp_ns) const;
 
  private:
   struct Edge {
     std::string parent;
     bool is_static = false;
-    std::deque<std::pair<std::int64_t, geometry::Pose>> poses;  // parent_from_child, by stamp
+    std::deque<std::pair<std::int64_t, Pose>> poses;  // parent_from_child, by stamp
   };
   [[nodiscard]] const Edge* edge_of(const std::string& frame, std::int64_t stamp_ns) const;
   Edge* edge_for(const std::string& parent, const std::string& child);
   /// Where the first of them is in the last.
-  [[nodiscard]] geometry::Pose root_from(const std::vector<std::string>& ancestry,
-                                         std::int64_t stamp_ns) const;
+  [[nodiscard]] Pose root_from(const std::vector<std::string>& ancestry, std::int64_t stamp_ns) const;
 
   std::map<std::string, Edge> by_child_;
 };
 
-}  // namespace rds::tracker
+}  // namespace rds::geometry

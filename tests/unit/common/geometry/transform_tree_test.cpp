@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/odometry/transform_tree.hpp"
+#include "common/geometry/transforms/transform_tree.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rds::tracker {
+namespace rds::geometry {
 namespace {
 
 constexpr std::int64_t kS = 1'000'000'000;
 using Frames = std::vector<std::string>;
 
-geometry::Pose at(double x, double y, double z, double turn_rad = 0) {
-  return geometry::make_pose({x, y, z},
-                             Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ())));
+Pose at(double x, double y, double z, double turn_rad = 0) {
+  return make_pose({x, y, z}, Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ())));
 }
 
 TEST(TransformTree, JoinsFramesByTheirCommonParent) {
@@ -27,7 +26,7 @@ TEST(TransformTree, JoinsFramesByTheirCommonParent) {
   EXPECT_TRUE(
       laser_from_optical->isApprox(at(0, 0, 3).inverse() * at(1, 0, 0, M_PI / 2) * at(0, 2, 0), 1e-12));
   EXPECT_FALSE(tree.lookup("base", "elsewhere", 0));
-  EXPECT_TRUE(tree.lookup("alone", "alone", 0)->isApprox(geometry::Pose::Identity()));
+  EXPECT_TRUE(tree.lookup("alone", "alone", 0)->isApprox(Pose::Identity()));
 }
 
 TEST(TransformTree, InterpolatesInTime) {
@@ -71,4 +70,4 @@ TEST(TransformTree, EndsInACircleAndKeepsItsBound) {
 }
 
 }  // namespace
-}  // namespace rds::tracker
+}  // namespace rds::geometry

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adjusts all of a saved map, bent as by drift before, and prints how long that takes and how much of the bend
-// is left.
+// Adjusts all of a saved map, bent as by drift before, and prints how long that takes and how much of the
+// bend is left.
 #include <cmath>
 #include <ctime>
 #include <iostream>
@@ -75,8 +75,7 @@ double processor_s() {
 double off_m(const SavedMap& saved, const LocalMappingResult& result) {
   double sum = 0;
   for (const auto& moved : result.keyframes)
-    sum +=
-        (moved.map_from_camera.translation() - saved.map.pose_of(moved.id).translation()).squaredNorm();
+    sum += (moved.map_from_camera.translation() - saved.map.pose_of(moved.id).translation()).squaredNorm();
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, result.keyframes.size())));
 }
 

@@ -119,11 +119,11 @@ Result add_objects(const RunScoreInput& input, Figures& figures) {
     if (!std::filesystem::exists(file)) return {};
   const auto map = read_placed_map(input.dataset, input.out, input.align);
   if (!map) return tl::unexpected(map.error());
-  const auto score = score_objects({input.dataset,
-                                    input.out,
-                                    map->truth_from_map,
-                                    {map->tree.occupied_centers(), map->tree.occupied_colors(),
-                                     map->tree.resolution_m}});
+  const auto score =
+      score_objects({input.dataset,
+                     input.out,
+                     map->truth_from_map,
+                     {map->tree.occupied_centers(), map->tree.occupied_colors(), map->tree.resolution_m}});
   if (!score) return tl::unexpected(score.error());
   figures["objects_wanted"] = score->wanted;
   figures["objects_found"] = score->found;

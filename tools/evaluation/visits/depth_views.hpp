@@ -20,7 +20,7 @@ struct PointViews {
 
 /// Which depth pictures are looked at, and how far off a surface a point may be.
 struct DepthViewsOptions {
-  int every = 5;             // pictures between two that are looked at
+  int every = 5;              // pictures between two that are looked at
   double tolerance_m = 0.05;  // a voxel
 };
 

@@ -5,7 +5,6 @@
 
 #include <ceres/ceres.h>
 
-#include "services/tracker/core/bundle/sparse_bundle.hpp"
 #include "services/tracker/core/mapping/mapping_scene.hpp"
 #include "services/tracker/core/motion/se3.hpp"
 #include "services/tracker/core/pose/observation_model.hpp"
@@ -88,11 +87,24 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, 7, 3> {
   Eigen::Vector3d shift_;
 };
 
+/// Ends the solver when it is told to stop.
+class StopCallback final : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(std::stop_token stop) : stop_(std::move(stop)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return stop_.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::stop_token stop_;
+};
+
 /// The same bits every time: one thread, no threaded BLAS, no time limit.
-ceres::Solver::Options solver_options(int iterations) {
+ceres::Solver::Options solver_options(const BundleOptions& bundle) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = iterations;
+  options.linear_solver_type = bundle.is_sparse ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+  if (bundle.is_sparse) options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.max_num_iterations = bundle.iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;
@@ -108,7 +120,33 @@ class Bundle {
   }
 
   void optimize(const BundleOptions& bundle, bool robust) {
-    bundle.is_sparse ? optimize_sparsely(bundle, robust) : optimize_densely(bundle, robust);
+    ceres::Problem::Options ownership;
+    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ownership);
+    auto* ordering = new ceres::ParameterBlockOrdering;
+    for (auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      for (const auto& o : point.observations) {
+        const Measurement m = measurement(o);
+        ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
+        problem.AddResidualBlock(new ReprojectionCost(cost(o)), loss, poses_[o.keyframe].data(),
+                                 point.position.data());
+      }
+      ordering->AddElementToGroup(point.position.data(), 0);
+    }
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      if (!problem.HasParameterBlock(poses_[k].data())) continue;
+      problem.SetManifold(poses_[k].data(), &manifold_);
+      if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
+      ordering->AddElementToGroup(poses_[k].data(), 1);
+    }
+    ceres::Solver::Options options = solver_options(bundle);
+    options.linear_solver_ordering.reset(ordering);
+    StopCallback stop(bundle.stop);
+    options.callbacks.push_back(&stop);
+    ceres::Solver::Summary summary;
+    if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
   }
 
   /// Removes observations of points that lie behind their camera: the solver could not even begin.
@@ -154,52 +192,6 @@ class Bundle {
   }
 
  private:
-  void optimize_densely(const BundleOptions& bundle, bool robust) {
-    ceres::Problem::Options ownership;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(ownership);
-    auto* ordering = new ceres::ParameterBlockOrdering;
-    for (auto& point : scene_.points()) {
-      if (!is_adjusted(point)) continue;
-      for (const auto& o : point.observations) {
-        const Measurement m = measurement(o);
-        ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
-        problem.AddResidualBlock(new ReprojectionCost(cost(o)), loss, poses_[o.keyframe].data(),
-                                 point.position.data());
-      }
-      ordering->AddElementToGroup(point.position.data(), 0);
-    }
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
-      if (!problem.HasParameterBlock(poses_[k].data())) continue;
-      problem.SetManifold(poses_[k].data(), &manifold_);
-      if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
-      ordering->AddElementToGroup(poses_[k].data(), 1);
-    }
-    ceres::Solver::Options options = solver_options(bundle.iterations);
-    options.linear_solver_ordering.reset(ordering);
-    ceres::Solver::Summary summary;
-    if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
-  }
-
-  void optimize_sparsely(const BundleOptions& bundle, bool robust) {
-    SparseBundle sparse;
-    for (std::size_t k = 0; k < poses_.size(); ++k)
-      sparse.cameras.push_back({to_pose(poses_[k].data()), models_[k], scene_.job().keyframes[k].fixed});
-    std::vector<Eigen::Vector3d*> positions;
-    for (auto& point : scene_.points()) {
-      if (!is_adjusted(point)) continue;
-      positions.push_back(&point.position);
-      sparse.points.push_back(point.position);
-      auto& seen = sparse.seen.emplace_back();
-      for (const auto& o : point.observations)
-        seen.push_back({static_cast<std::uint32_t>(o.keyframe), measurement(o), shift(o)});
-    }
-    if (!adjust(sparse, {bundle.iterations, robust, bundle.stop})) return;
-    for (std::size_t k = 0; k < poses_.size(); ++k) poses_[k] = to_block(sparse.cameras[k].camera_from_map);
-    for (std::size_t p = 0; p < positions.size(); ++p) *positions[p] = sparse.points[p];
-  }
-
   /// A point that only one keyframe sees would just take that keyframe's measurement: it is carried along.
   static bool is_adjusted(const MappingScene::ScenePoint& point) {
     return point.alive && point.observations.size() >= 2;
@@ -244,15 +236,10 @@ class Bundle {
     return models_[o.keyframe].jacobian(k.features->point_in_camera(o.feature), measurement(o)) * effect;
   }
 
-  /// Of the weighted residual: what a feature was compensated for is made good with the readout time that is
-  /// known by now.
-  [[nodiscard]] Eigen::Vector3d shift(const MappingScene::SceneObservation& o) const {
-    const double late = scene_.job().readout_s - scene_.job().keyframes[o.keyframe].motion.readout_s;
-    return late * by_readout(o);
-  }
-
+  /// What a feature was compensated for is made good with the readout time that is known by now.
   [[nodiscard]] ReprojectionCost cost(const MappingScene::SceneObservation& o) const {
-    return {models_[o.keyframe], measurement(o), shift(o)};
+    const double late = scene_.job().readout_s - scene_.job().keyframes[o.keyframe].motion.readout_s;
+    return {models_[o.keyframe], measurement(o), late * by_readout(o)};
   }
 
   [[nodiscard]] ObservationDerivatives derivatives(const MappingScene::SceneObservation& o,

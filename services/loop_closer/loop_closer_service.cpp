@@ -27,17 +27,17 @@ LoopCloserService::LoopCloserService(service::ServiceContext& context, const Loo
           config.maps.checkpoint_s),
       map_commands_(mailbox_, config.maps, map_file::kLoopCloser),
       answers_(context),
+      is_read_only_(config.localize_only),
       features_(mailbox_, config.lockstep ? std::numeric_limits<std::size_t>::max() : kMaxWaiting) {
   if (!config.map_file.empty()) read_start(config);
   go_on_from_checkpoint();
-  if (!config.localize_only)
-    keyframe_source_.emplace(
-        context, topics::kLoopCloser,
-        [this](auto receiver) {
-          return subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser, std::move(receiver));
-        },
-        [this](Features m) { features_.push(std::move(m)); },
-        [this] { return features_.size() + keyframe_transfer::kRoom <= kMaxWaiting; });
+  keyframe_source_.emplace(
+      context, topics::kLoopCloser,
+      [this](auto receiver) {
+        return subscribe_to_instances(topics::kKeyframeFeatures, topics::kLoopCloser, std::move(receiver));
+      },
+      [this](Features m) { features_.push(std::move(m)); },
+      [this] { return features_.size() + keyframe_transfer::kRoom <= kMaxWaiting; });
   context.diagnostics.gauge("keyframes", [this] { return keyframes_.load(); });
   context.diagnostics.gauge("keyframes waiting", [this] { return features_.size(); });
   context.diagnostics.gauge("keyframes dropped", [this] { return features_.dropped(); });
@@ -173,7 +173,10 @@ bool LoopCloserService::begin(const service::PendingCommand& command) {
     map_commands_.save(
         command,
         [this]() -> map_file::MapPart {
-          return {map_file::kLoopCloser, {{map_file::kLoopCloser, loop_closer_.to_bytes()}}, {}};
+          return {map_file::kLoopCloser,
+                  {{map_file::kLoopCloser,
+                    is_read_only_ ? loop_closer_.start_to_bytes() : loop_closer_.to_bytes()}},
+                  {}};
         },
         "keyframes");
     return true;

@@ -54,8 +54,10 @@ class LoopCloserService : public service::Service {
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
   PoseAnswers answers_;
+  bool is_read_only_;  // what is saved is what it started from
   concurrency::Inbox<Features> features_;
-  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>> keyframe_source_;  // last: fills the inbox
+  std::optional<keyframe_transfer::KeyframeSource<rds_msgs::msg::KeyFrameFeatures>>
+      keyframe_source_;  // last: fills the inbox
 };
 
 }  // namespace rds::loop_closer

@@ -11,7 +11,7 @@ struct LoopCloserServiceConfig {
   int nice = 10;               // the tracker has the processor first
   bool lockstep = false;       // no keyframe is ever dropped
   std::string map_file;        // saved map whose keyframes it starts from; empty: none
-  bool localize_only = false;  // keyframes are not listened to
+  bool localize_only = false;  // what is saved is the map_file; keyframes that come are forgotten
   store::MapsConfig maps;      // where the keyframes last
   LoopCloserConfig loop_closer;
 

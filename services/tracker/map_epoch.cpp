@@ -25,6 +25,7 @@ bool keeps_checkpoint(const TrackerServiceConfig& config) {
 MapEpoch::MapEpoch(service::ServiceContext& context, const TrackerServiceConfig& config, Tracker& tracker)
     : tracker_(tracker),
       extraction_(config.tracker.extraction),
+      is_read_only_(config.tracker.localize_only),
       epoch_{service::random_id(), 0, {}},
       checkpoints_(
           keeps_checkpoint(config) ? service::open_checkpoints(context, config.maps, "tracker") : nullptr,
@@ -101,7 +102,7 @@ std::string MapEpoch::description() const {
 }
 
 map_file::MapPart MapEpoch::part() const {
-  const SlamMap& map = tracker_.map();
+  const SlamMap& map = is_read_only_ && start_ ? start_->map : tracker_.map();
   return {map_file::kTracker,
           {{map_file::kTracker, to_bytes(map, tracker_.calibration().known_camera(), extraction_)},
            {map_file::kKeyframePoses, map_file::to_bytes(keyframe_poses(map))}},

@@ -52,6 +52,7 @@ class MapEpoch {
 
   Tracker& tracker_;
   ExtractionConfig extraction_;
+  bool is_read_only_;  // what is saved is the map that the epoch began with
   TrackerCheckpoints::Epoch epoch_;
   std::optional<SavedMap> start_;  // that every epoch begins in
   TrackerCheckpoints checkpoints_;

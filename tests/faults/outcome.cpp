@@ -6,7 +6,7 @@
 
 #include "tests/integration/run_support.hpp"
 #include "tools/evaluation/octree_file.hpp"
-#include "tools/evaluation/voxel_set.hpp"
+#include "tools/evaluation/voxels/voxel_set.hpp"
 
 namespace rds::test {
 namespace {

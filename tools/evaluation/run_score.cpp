@@ -15,9 +15,10 @@
 #include "tools/evaluation/loops/returns.hpp"
 #include "tools/evaluation/map_score.hpp"
 #include "tools/evaluation/objects/object_score.hpp"
-#include "tools/evaluation/octree_file.hpp"
+#include "tools/evaluation/placed_map.hpp"
 #include "tools/evaluation/statistics.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
+#include "tools/evaluation/visits/visit_score.hpp"
 
 namespace rds::evaluation {
 namespace {
@@ -116,20 +117,13 @@ Result add_objects(const RunScoreInput& input, Figures& figures) {
   for (const auto& file : {input.dataset / "objects.json", input.dataset / "detections_truth.jsonl",
                            input.out / "objects.json", input.out / "map.ot", input.out / "keyframes.txt"})
     if (!std::filesystem::exists(file)) return {};
-  const auto truth = geometry::read_trajectory(input.dataset / "groundtruth.txt");
-  if (!truth) return tl::unexpected(truth.error());
-  const auto keyframes = geometry::read_trajectory(input.out / "keyframes.txt");
-  if (!keyframes) return tl::unexpected(keyframes.error());
-  const auto errors = evaluate_trajectory(*truth, *keyframes, {.align = input.align});
-  if (!errors)
-    return tl::unexpected(fmt::format("{}: expected at least 3 poses that match groundtruth.txt in time",
-                                      (input.out / "keyframes.txt").string()));
-  const auto tree = read_octree_file(input.out / "map.ot");
-  if (!tree) return tl::unexpected(tree.error());
-  const auto score = score_objects({input.dataset,
-                                    input.out,
-                                    errors->truth_from_estimate,
-                                    {tree->occupied_centers(), tree->occupied_colors(), tree->resolution_m}});
+  const auto map = read_placed_map(input.dataset, input.out, input.align);
+  if (!map) return tl::unexpected(map.error());
+  const auto score =
+      score_objects({input.dataset,
+                     input.out,
+                     map->truth_from_map,
+                     {map->tree.occupied_centers(), map->tree.occupied_colors(), map->tree.resolution_m}});
   if (!score) return tl::unexpected(score.error());
   figures["objects_wanted"] = score->wanted;
   figures["objects_found"] = score->found;
@@ -142,6 +136,36 @@ Result add_objects(const RunScoreInput& input, Figures& figures) {
   return {};
 }
 
+Result add_visit(const RunScoreInput& input, Figures& figures) {
+  if (input.earlier.empty()) return {};
+  const auto map = read_placed_map(input.dataset, input.out, input.align);
+  if (!map) return tl::unexpected(map.error());
+  VisitScoreInput visits{{}, {}, map->tree.occupied_centers(), map->tree.resolution_m, input.every};
+  for (Eigen::Vector3d& center : visits.map) center = map->truth_from_map * center;
+  const auto read = [&](const std::filesystem::path& recording) {
+    return read_surfaces(recording, visits.voxel_m).map([&](std::vector<Eigen::Vector3d>&& surfaces) {
+      return Visit{recording, std::move(surfaces)};
+    });
+  };
+  auto today = read(input.dataset);
+  if (!today) return tl::unexpected(today.error());
+  visits.visit = std::move(*today);
+  for (const auto& recording : input.earlier) {
+    auto before = read(recording);
+    if (!before) return tl::unexpected(before.error());
+    visits.earlier.push_back(std::move(*before));
+  }
+  const auto score = score_visit(visits);
+  if (!score) return tl::unexpected(score.error());
+  figures["visit_recall"] = score->recall;
+  figures["visit_precision"] = score->precision;
+  figures["moved_from"] = score->moved_from;
+  figures["moved_from_free"] = score->moved_from_free;
+  figures["moved_to"] = score->moved_to;
+  figures["moved_to_mapped"] = score->moved_to_mapped;
+  return {};
+}
+
 }  // namespace
 
 tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
@@ -149,7 +173,7 @@ tl::expected<Figures, std::string> score_run(const RunScoreInput& input) {
     return tl::unexpected(
         fmt::format("{}: no such folder, expected what `rds run --out` wrote", input.out.string()));
   Figures figures = Figures::object();
-  for (const auto add : {add_trajectories, add_loops, add_times, add_boxes, add_map, add_objects})
+  for (const auto add : {add_trajectories, add_loops, add_times, add_boxes, add_map, add_objects, add_visit})
     if (const auto added = add(input, figures); !added) return tl::unexpected(added.error());
   if (figures.empty())
     return tl::unexpected(

@@ -13,7 +13,7 @@
 #include "common/geometry/pose.hpp"
 #include "common/image/camera_yaml.hpp"
 #include "common/image/tum_list.hpp"
-#include "tools/evaluation/voxel_set.hpp"
+#include "tools/evaluation/voxels/voxel_set.hpp"
 
 namespace rds::evaluation {
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,13 +22,13 @@ using evaluation::TrajectoryErrors;
 using nlohmann::ordered_json;
 
 const std::map<std::string, evaluation::Alignment> kAlignments{
-    {"positions", evaluation::Alignment::kPositions},
-    {"orientations", evaluation::Alignment::kOrientations}};
+    {"positions", evaluation::Alignment::kPositions}, {"orientations", evaluation::Alignment::kOrientations}};
 
 struct EvalOptions {
   std::string truth;
   std::string estimate;
   std::string background;
+  std::vector<std::string> earlier;
   std::string plot;
   int every = 5;
   evaluation::TrajectoryEvaluationOptions trajectory;
@@ -89,8 +90,13 @@ void evaluate_files(const EvalOptions& options) {
 void evaluate_run(const EvalOptions& options) {
   std::optional<std::filesystem::path> background;
   if (!options.background.empty()) background = options.background;
-  const auto figures = value_or_exit(evaluation::score_run(
-      {options.truth, options.estimate, background, options.every, options.trajectory.align}));
+  const auto figures =
+      value_or_exit(evaluation::score_run({options.truth,
+                                           options.estimate,
+                                           background,
+                                           options.every,
+                                           options.trajectory.align,
+                                           {options.earlier.begin(), options.earlier.end()}}));
   if (options.json)
     fmt::print("{}\n", figures.dump());
   else
@@ -107,6 +113,10 @@ void add_eval_command(CLI::App& rds) {
       ->required();
   command->add_option("--background", options->background,
                       "The same sequence without people: scores the map as well");
+  command->add_option(
+      "--earlier", options->earlier,
+      "Recording of the same floor on an earlier day (rds simulate --visits; may be repeated): "
+      "scores what has moved since");
   command->add_option("--every", options->every, "Depth pictures between two that the map is compared with")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

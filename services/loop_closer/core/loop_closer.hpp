@@ -13,8 +13,8 @@
 #include "common/map_file/byte_writer.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/loop_closer/core/keyframe_graph.hpp"
-#include "services/loop_closer/core/loop_closer_config.hpp"
 #include "services/loop_closer/core/loop_agreement.hpp"
+#include "services/loop_closer/core/loop_closer_config.hpp"
 #include "services/loop_closer/core/loop_types.hpp"
 #include "services/loop_closer/core/loop_verification.hpp"
 
@@ -49,7 +49,9 @@ class LoopCloser {
 
   /// What of the keyframes cannot be told again: their ids, descriptors and points. Not their poses: a saved
   /// map takes the tracker's, which are final.
-  [[nodiscard]] map_file::Bytes to_bytes() const;
+  [[nodiscard]] map_file::Bytes to_bytes() const { return to_bytes(views_.size()); }
+  /// The same of the keyframes of start_from() alone.
+  [[nodiscard]] map_file::Bytes start_to_bytes() const { return to_bytes(start_ ? start_->views.size() : 0); }
   /// Goes on from such bytes with the keyframes' final poses, in every epoch from now on. They are not moved
   /// any more.
   /// @return what does not fit; then nothing has changed.
@@ -68,6 +70,7 @@ class LoopCloser {
     std::vector<KeyframePose> poses;
     std::vector<KeyframeView> views;
   };
+  [[nodiscard]] map_file::Bytes to_bytes(std::size_t keyframes) const;
   [[nodiscard]] std::string why_impossible(const KeyframeFeatures& features) const;
   [[nodiscard]] std::vector<std::size_t> candidates_for(std::size_t query,
                                                         const KeyframeFeatures& features) const;

@@ -80,10 +80,11 @@ tl::expected<map_file::Bytes, std::string> merge_maps(std::span<const std::uint8
   return writer.take();
 }
 
-map_file::Bytes LoopCloser::to_bytes() const {
+/// @param keyframes  the first so many.
+map_file::Bytes LoopCloser::to_bytes(std::size_t keyframes) const {
   ByteWriter writer;
-  writer.put_count(views_.size());
-  for (std::size_t i = 0; i < views_.size(); ++i) {
+  writer.put_count(keyframes);
+  for (std::size_t i = 0; i < keyframes; ++i) {
     writer.put(graph_.id(i));
     put(writer, views_[i]);
   }

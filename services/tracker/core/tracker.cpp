@@ -53,7 +53,7 @@ Tracker::Tracker(const TrackerConfig& config, TrackerPorts ports)
       odometry_(ports_.given_poses ? RobotOdometry() : ports_.odometry),
       gyroscope_(ports_.given_poses ? Gyroscope() : ports_.gyroscope),
       localizer_(config, ports_.executor, ports_.now_us, ports_.given_poses != nullptr),
-      keyframes_(config.keyframe, config.localize_only),
+      keyframes_(config.keyframe),
       mapper_(localizer_.settings(), !config.localize_only, config.keep_all_poses) {}
 
 void Tracker::reset() {
@@ -99,8 +99,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
   }
   describe(frame, result);
   result.map_covariance = drift_.under(mapper_.map(), frame.points, frame.camera_from_map.inverse());
-  if (need != KeyframeNeed::kNone)
-    make_keyframe(config_.localize_only ? KeyframeNeed::kDetector : need, frame, result);
+  if (need != KeyframeNeed::kNone) make_keyframe(need, frame, result);
   if (has_pose(result.state)) {
     result.map_from_camera = frame.camera_from_map.inverse();
     result.information = frame.information;
@@ -172,10 +171,11 @@ void Tracker::make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult&
     localizer_.features().set_newest_keyframe(result.keyframe->id);
     localizer_.relocalizer().add(result.keyframe->id);
     keyframes_.note_in_map(result.keyframe->id, frame.time_ns);
+    if (const auto culled = mapper_.cull_temporary()) localizer_.relocalizer().remove(*culled);
   } else {
     const KeyframePose keyframe = mapper_.insert_pose_only(frame, localizer_.features().reference());
     result.keyframe = KeyframeData{keyframe.id, keyframe.stamp_ns, keyframe.map_from_camera, {}, {}, false};
-    keyframes_.note_not_in_map(keyframe, frame.time_ns);
+    keyframes_.note_not_in_map(frame.time_ns);
   }
   localizer_.begin_interval();
 }

@@ -54,7 +54,7 @@ struct JoinedSubmap {
 /// (OdometryPrior). Who is lost for config.submap_after_s begins a submap: a map beside the map, in a frame
 /// of its own, that join_submaps() puts in its place once it is known. Where stamps go back, time goes on
 /// (ContinuousTime): the camera is lost, until it has found itself in the map. With config.localize_only
-/// nothing enters the map; keyframes are then for other services only. Same calls, same results, bit by bit.
+/// keyframes are temporary: the oldest leave the map again, and those that it started from stay. Same calls, same results, bit by bit.
 class Tracker {
  public:
   explicit Tracker(const TrackerConfig& config, TrackerPorts ports = {});

@@ -110,15 +110,13 @@ std::vector<std::string> missing_links(const std::set<std::string>& running, con
     return player != endpoints.end() &&
            std::ranges::any_of(player->second, [&](const Endpoint& e) { return e.topic == topic; });
   };
-  static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kKeyframeFeatures.name,
-                                             topics::kBoxes.name};
+  static const std::set<std::string> kMapped{topics::kKeyframeImages.name, topics::kBoxes.name};
   static const std::set<std::string> kTransferred{topics::kKeyframeImages.name,
                                                   topics::kKeyframeFeatures.name};
   static const std::set<std::string> kPerhapsPlayed{topics::kRobotOdometry.name, topics::kImu.name};
   for (Link& link : links()) {
     if (kPerhapsPlayed.contains(link.topic) && !is_used(link.topic)) continue;
-    if (localize_only && kMapped.contains(link.topic))
-      std::erase_if(link.readers, [](const std::string& r) { return r == kMapper || r == kLoopCloser; });
+    if (localize_only && kMapped.contains(link.topic)) link.readers.erase(kMapper);
     if (kTransferred.contains(link.topic))
       std::erase_if(link.readers, [&](const std::string& r) { return far.contains(r); });
     for (const std::string& writer : link.writers) check(writer, link, true);

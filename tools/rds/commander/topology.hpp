@@ -42,7 +42,7 @@ Endpoints endpoints_of(const bus::Participant& player, const std::map<std::strin
 /// A volatile sample written before both ends know each other is lost, so a run starts when this is empty.
 /// @param endpoints  by process name, as each process reported; a process that has not reported is a missing
 /// link.
-/// @param localize_only  the mapper and the loop closer do not listen to keyframes.
+/// @param localize_only  the mapper does not listen to keyframes.
 /// @param far  services on other machines than the tracker, which ask for keyframes (common/transfer).
 std::vector<std::string> missing_links(const std::set<std::string>& running, const Endpoints& endpoints,
                                        bool localize_only = false, const std::set<std::string>& far = {});

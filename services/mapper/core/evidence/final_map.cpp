@@ -13,6 +13,9 @@ using map_file::ByteWriter;
 constexpr std::uint32_t kOften = 1000;  // more keyframes than any that speak against a saved voxel
 constexpr std::size_t kVoxelBytes = 2 + 1 + 2 * 2 + 2 * 1 + 2 * (4 + 2 * 4);
 constexpr std::uint64_t kLastKey = 0xFFFF'FFFF'FFFF;
+// What a voxel is, in the bits of a byte.
+constexpr unsigned kKnown = 1;
+constexpr unsigned kRemembered = 2;
 
 bool says_something(const FinalBlock& block, std::size_t cell) {
   return block.occupancy.known.has(cell) || block.counts.statics.count[cell] > 0 ||
@@ -40,7 +43,9 @@ void put(ByteWriter& writer, const FinalBlock& block) {
   for (std::size_t cell = 0; cell < kBlockCells; ++cell) {
     if (!says_something(block, cell)) continue;
     writer.put(static_cast<std::uint16_t>(cell));
-    writer.put(static_cast<std::uint8_t>(block.occupancy.known.has(cell)));
+    const BlockOccupancy& voxels = block.occupancy;
+    writer.put(static_cast<std::uint8_t>((voxels.known.has(cell) ? kKnown : 0) |
+                                         (voxels.remembered.has(cell) ? kRemembered : 0)));
     each_value(block, cell, [&](const auto& value) { writer.put(value); });
   }
   writer.put_count(block.looks.size());
@@ -74,7 +79,10 @@ FinalBlock get_block(ByteReader& reader, std::size_t labels) {
   const std::size_t cells = reader.get_count(kVoxelBytes);
   for (std::size_t i = 0; i < cells && reader.ok(); ++i) {
     const auto cell = get_cell(reader);
-    if (reader.get<std::uint8_t>() != 0) block.occupancy.known.insert(cell);
+    const unsigned what = reader.get<std::uint8_t>();
+    if (what > (kKnown | kRemembered)) reader.refuse("a voxel of no kind");
+    if ((what & kKnown) != 0) block.occupancy.known.insert(cell);
+    if ((what & kRemembered) != 0) block.occupancy.remembered.insert(cell);
     each_value(block, cell, [&](auto& value) { value = reader.get<std::decay_t<decltype(value)>>(); });
     if (const auto fault = fault_of(block, cell); fault != nullptr) reader.refuse(fault);
   }
@@ -92,6 +100,7 @@ void FinalBlock::add(std::uint16_t cell, LogOdds log_odds, const VoxelLook& look
   occupancy.values[cell] = occupancy.lasting[cell] = log_odds;
   occupancy.known.insert(cell);
   if (log_odds <= 0) return;
+  occupancy.remembered.insert(cell);
   if (log_odds == kHighest) occupancy.row[cell] = kSolidRow;  // it has stood for long
   occupancy.balance[cell] = kMostBalance;
   counts.statics.count[cell] = kOften;

@@ -9,7 +9,7 @@ namespace {
 constexpr LogOdds kHit = 850;
 constexpr LogOdds kMiss = 410;
 constexpr LogOdds kSolidMiss = 700;        // a voxel at the upper clamp is free after five
-constexpr LogOdds kGhostMiss = 1200;       // after three
+constexpr LogOdds kGhostMiss = 1200;       // after three, as one that is only remembered
 constexpr std::int8_t kSeldomBalance = 2;  // no more sightings may be an accident
 
 // Eight cells at once; a comparison gives −1 where it holds and 0 elsewhere.
@@ -82,9 +82,9 @@ void add_to(BlockOccupancy& block, std::size_t i, const BlockStep& step) {
   const Lanes is_carved = no_return & (balance <= kSeldomBalance);
   const Lanes missed = passed | (is_carved & is_occupied);
   const Lanes missed_lasting = passed | (is_carved & (lasting > 0));
-  const Lanes ghost = is_occupied & (balance < 0);
-  const Lanes solid = ~ghost & is_occupied & (length >= kSolidRow);
-  const Lanes miss = (ghost & kGhostMiss) | (solid & kSolidMiss) | (~(ghost | solid) & kMiss);
+  const Lanes doubted = is_occupied & ((balance < 0) | members(block.remembered, i));
+  const Lanes solid = ~doubted & is_occupied & (length >= kSolidRow);
+  const Lanes miss = (doubted & kGhostMiss) | (solid & kSolidMiss) | (~(doubted | solid) & kMiss);
   const Lanes lasting_now = clamped(lasting + (hit & kHit) - (missed_lasting & kMiss), kLowest, kHighest);
   const Lanes value_now = clamped(value - (missed & miss), kLowest, kHighest);
   const Lanes longer = row > 0 ? clamped(row + 1, 0, kSolidRow) : 1 - Lanes{};
@@ -105,6 +105,7 @@ void BlockOccupancy::add(const BlockStep& step) {
     add_to(*this, i, step);
   }
   known |= step.hit | step.passed;
+  remembered &= ~(step.hit | step.seen_static);
 }
 
 BlockMask BlockOccupancy::changed_since(const BlockOccupancy& before) const {

@@ -18,8 +18,9 @@
 //
 //   seen     C ← L                       as static or doubtful, a hit or not; L with the hit
 //   miss     C ← clamp(C − m)            m = 1.2 if C > 0 and b < 0   (ghost)
-//                                        m = .7  if C > 0 and r ≥ 8   (solid)
-//                                        m = .41 else: as the paper
+//                                        m = 1.2 if C > 0 and nobody has seen it since it was saved
+//                                        (remembered) m = .7  if C > 0 and r ≥ 8   (solid) m = .41 else: as
+//                                        the paper
 //
 //   b   keyframes that saw it as static or doubtful, less those that saw something dynamic there; in ±100
 //   r   hits in a row before the last miss
@@ -33,8 +34,9 @@
 //
 // So what has stood for long and is carried away is gone after five misses, and nine if it was often missed
 // while it stood; who was taken for static now and then is gone after three; what is put somewhere is there
-// after three hits. From the upper clamp, 3.476: 5 · .7 and 9 · .41 and 3 · 1.2 are more. From the lower
-// one, −1.992: 3 · .85 is more.
+// after three hits. What a saved map remembers may have been moved before this visit, so three misses tell,
+// too, until it is seen again: then it stands today. From the upper clamp, 3.476: 5 · .7 and 9 · .41 and 3
+// · 1.2 are more. From the lower one, −1.992: 3 · .85 is more.
 //
 // Which surfaces count is decided by all keyframes together. A surface is a connected one of a keyframe's
 // picture, and judged as a whole, so that the end of a table that no other keyframe has seen stands or falls
@@ -70,6 +72,7 @@ struct BlockOccupancy {
   PerCell<std::int8_t> row{};      // r; negative after a miss
   PerCell<std::int8_t> balance{};  // b
   BlockMask known;                 // hit or missed by a keyframe
+  BlockMask remembered;            // occupied in a saved map, and not seen as static or doubtful since
 
   /// The next keyframe.
   void add(const BlockStep& step);

@@ -90,7 +90,7 @@ struct TrackerConfig {
   MapFrameConfig map_frame;
   double young_map_s = 5;       // of tracking; a younger map is given up by who is lost in it for as long
   double submap_after_s = 1;    // of being lost, a submap begins; 0: never
-  bool localize_only = false;   // in the map that it starts from, which stays as it is
+  bool localize_only = false;   // in the map that it starts from; keyframes are temporary
   bool keep_all_poses = false;  // of keyframes in a known place; else those of a minute
 
   bool operator==(const TrackerConfig&) const = default;

@@ -77,10 +77,6 @@ KeyframeSelector::NearestView KeyframeSelector::nearest_view(const SlamMap& map,
     const double change = view_change(frame.camera_from_map * map_from_camera, depth);
     if (change < nearest.change) nearest = {id, change};
   };
-  if (localize_only_) {
-    if (newest_not_in_map_) compare(newest_not_in_map_->id, newest_not_in_map_->map_from_camera);
-    return nearest;
-  }
   const auto compare_old = [&](KeyframeId id) {
     const Keyframe* keyframe = map.keyframe(id);
     if (keyframe != nullptr && seconds(frame.time_ns - keyframe->time_ns) > config_.known_after_s)
@@ -101,8 +97,8 @@ KeyframeFacts KeyframeSelector::facts(const Candidate& candidate, double view_ch
   KeyframeFacts facts;
   facts.inliers = facts.seen = frame.matches();
   facts.has_depth = frame.features->has_depth();
-  facts.triangulates = !localize_only_ && candidate.context.settings.depth.triangulate;
-  if (!localize_only_) add_facts_of_map(candidate, facts);
+  facts.triangulates = candidate.context.settings.depth.triangulate;
+  add_facts_of_map(candidate, facts);
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.time_ns - *last_ns_);
   facts.frames_since_last = frames_since_last_;
@@ -137,15 +133,10 @@ KeyframeNeed KeyframeSelector::need_of_followed(const Candidate& candidate) {
 void KeyframeSelector::note_in_map(KeyframeId keyframe, std::int64_t time_ns) {
   newest_in_map_ = keyframe;
   followed_view_ = kNoId;
-  note(time_ns);
+  note_not_in_map(time_ns);
 }
 
-void KeyframeSelector::note_not_in_map(const KeyframePose& keyframe, std::int64_t time_ns) {
-  newest_not_in_map_ = keyframe;
-  note(time_ns);
-}
-
-void KeyframeSelector::note(std::int64_t time_ns) {
+void KeyframeSelector::note_not_in_map(std::int64_t time_ns) {
   last_ns_ = time_ns;
   frames_since_last_ = 0;
 }

@@ -26,14 +26,11 @@ class KeyframeSelector {
     bool scene_changed = false;  // faster than the view
   };
 
-  /// @param localize_only  the map does not grow.
-  KeyframeSelector(const KeyframeConfig& config, bool localize_only)
-      : config_(config), localize_only_(localize_only) {}
+  explicit KeyframeSelector(const KeyframeConfig& config) : config_(config) {}
 
   /// The keyframe with the view nearest to the frame's: the newest one, or one of those covisible with the
   /// reference that are older than config.known_after_s. (While a place is new, every turn of the camera
-  /// makes a keyframe: from views that come back bundle adjustment learns drift and readout time.) Where the
-  /// map does not grow, it is the last keyframe.
+  /// makes a keyframe: from views that come back bundle adjustment learns drift and readout time.)
   [[nodiscard]] NearestView nearest_view(const SlamMap& map, const TrackedFrame& frame,
                                          KeyframeId reference) const;
   /// Of a frame that is matched by features.
@@ -47,16 +44,13 @@ class KeyframeSelector {
   [[nodiscard]] KeyframeId newest_in_map() const { return newest_in_map_; }
   void note_in_map(KeyframeId keyframe, std::int64_t time_ns);
   /// The frame has become a keyframe for others only.
-  void note_not_in_map(const KeyframePose& keyframe, std::int64_t time_ns);
+  void note_not_in_map(std::int64_t time_ns);
 
  private:
   [[nodiscard]] KeyframeFacts facts(const Candidate& candidate, double view_change) const;
-  void note(std::int64_t time_ns);
 
   KeyframeConfig config_;
-  bool localize_only_;
   KeyframeId newest_in_map_ = kNoId;
-  std::optional<KeyframePose> newest_not_in_map_;
   std::optional<std::int64_t> last_ns_;  // time of the last keyframe
   int frames_since_last_ = 0;
   KeyframeId followed_view_ = kNoId;  // nearest_view() of the last followed frame

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kAwaitingBoxes = 30;  // keyframes whose boxes may still come
 constexpr std::size_t kOutside = 1000;      // keyframes that are remembered where the map does not grow
+constexpr std::size_t kTemporary = 60;      // of them in the map: a room or two
 
 KeyframeData data_of(const SlamMap& map, const Keyframe& keyframe) {
   KeyframeData data;
@@ -42,21 +43,46 @@ KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const Imag
   KeyframeData data = data_of(map_, keyframe);
   for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
   cull_recent_points(map_, keyframe.id, recent_points_);
-  job_centre_ = keyframe.id;
   depths_.push_back({keyframe.id, cells});
   if (depths_.size() > kAwaitingBoxes) depths_.pop_front();
+  job_centre_ = keyframe.id;
+  if (!grows_) {
+    temporary_.push_back(keyframe.id);
+    remember({keyframe.id, keyframe.stamp_ns, keyframe.map_from_camera});
+  }
   return data;
+}
+
+std::optional<KeyframeId> LocalMapper::cull_temporary() {
+  if (temporary_.size() <= kTemporary) return std::nullopt;
+  const KeyframeId oldest = temporary_.front();
+  temporary_.pop_front();
+  map_.cull_keyframe(oldest);
+  settle_pose(oldest);
+  return oldest;
+}
+
+/// Of a temporary keyframe that the map does not hold any more: what comes later tells nothing of it.
+void LocalMapper::settle_pose(KeyframeId id) {
+  const auto known = std::ranges::lower_bound(outside_, id, {}, &KeyframePose::id);
+  if (known != outside_.end() && known->id == id) known->map_from_camera = map_.pose_of(id);
+}
+
+/// A keyframe made while the map does not grow.
+void LocalMapper::remember(const KeyframePose& keyframe) {
+  outside_.push_back(keyframe);
+  if (outside_.size() > kOutside && !keep_all_poses_) outside_.pop_front();
 }
 
 KeyframePose LocalMapper::insert_pose_only(const TrackedFrame& frame, KeyframeId anchor) {
   const Pose map_from_camera = frame.camera_from_map.inverse();
+  KeyframeRecords& records = map_.records();
   if (!grows_) {
-    outside_.push_back({map_.records().next_id() + outside_count_++, frame.stamp_ns, map_from_camera});
-    if (outside_.size() > kOutside && !keep_all_poses_) outside_.pop_front();
+    remember({records.next_id(), frame.stamp_ns, map_from_camera});
+    records.skip_ids(records.next_id() + 1);
     return outside_.back();
   }
   if (job_centre_ == kNoId) job_centre_ = anchor;  // nothing new: what is there gets better
-  KeyframeRecords& records = map_.records();
   const KeyframeId id =
       records.add_pose_only(frame.stamp_ns, anchor, map_.pose_of(anchor).inverse() * map_from_camera);
   if (!keep_all_poses_) records.forget_pose_only(anchor, frame.stamp_ns);
@@ -70,8 +96,11 @@ KeyframeData LocalMapper::keyframe_data(KeyframeId id) const {
 }
 
 std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
-  if (!grows_) return {outside_.begin(), outside_.end()};
-  return tracker::keyframe_poses(map_, map_.records().first_free());
+  if (grows_) return tracker::keyframe_poses(map_, map_.records().first_free());
+  std::vector<KeyframePose> poses(outside_.begin(), outside_.end());
+  for (KeyframePose& k : poses)
+    if (const Keyframe* keyframe = map_.keyframe(k.id)) k.map_from_camera = keyframe->map_from_camera;
+  return poses;
 }
 
 const PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
@@ -110,7 +139,10 @@ std::optional<std::vector<KeyframeId>> LocalMapper::apply(const LocalMappingResu
   const PointId first_new = map_.points().next_id();
   apply_mapping_result(map_, result);
   for (PointId id = first_new; id < map_.points().next_id(); ++id) recent_points_.push_back(id);
-  return cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
+  auto culled = cull_redundant_keyframes(map_, result.keyframe, settings_.depth);
+  if (!grows_) std::ranges::for_each(culled, [this](KeyframeId id) { settle_pose(id); });
+  std::erase_if(temporary_, [this](KeyframeId id) { return std::as_const(map_).keyframe(id) == nullptr; });
+  return culled;
 }
 
 bool LocalMapper::is_mostly_static(KeyframeId id) const {

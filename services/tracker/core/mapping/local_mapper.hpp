@@ -21,7 +21,7 @@ namespace rds::tracker {
 /// Source: Mur-Artal et al. 2015, §VI.
 class LocalMapper {
  public:
-  /// @param grows           false: nothing enters the map.
+  /// @param grows           false: keyframes made here are temporary.
   /// @param keep_all_poses  of keyframes for other services; else the newer ones.
   LocalMapper(const PoseSettings& settings, bool grows, bool keep_all_poses)
       : settings_(settings), grows_(grows), keep_all_poses_(keep_all_poses), map_(settings.pyramid) {}
@@ -36,6 +36,10 @@ class LocalMapper {
                       const PictureCells& cells);
   /// A keyframe for other services only; a map that grows keeps its pose, relative to `anchor`.
   KeyframePose insert_pose_only(const TrackedFrame& frame, KeyframeId anchor);
+  /// Takes a keyframe out of the map if there are too many temporary ones, and the points that it alone sees:
+  /// the oldest of them.
+  /// @return it; nullopt if there is none.
+  std::optional<KeyframeId> cull_temporary();
   /// A keyframe of the map as other services see it. @throws std::out_of_range if it is not there.
   [[nodiscard]] KeyframeData keyframe_data(KeyframeId id) const;
   /// Every keyframe made here that is in the map, by id, also those that are culled; of those for other
@@ -72,6 +76,8 @@ class LocalMapper {
 
  private:
   ReplacedPoints join(std::span<const LoopMatch> loops);
+  void remember(const KeyframePose& keyframe);
+  void settle_pose(KeyframeId id);
   [[nodiscard]] LocalMappingJob prepared(LocalMappingJob&& job, const SelfCalibration& calibration) const;
 
   struct KeyframeDepth {
@@ -90,7 +96,7 @@ class LocalMapper {
   std::vector<PointId> recent_points_;  // that may still prove bad
   std::deque<KeyframeDepth> depths_;    // of keyframes whose boxes may still come
   std::deque<KeyframePose> outside_;    // keyframes made while the map does not grow, the newest
-  std::uint64_t outside_count_ = 0;     // all of these
+  std::deque<KeyframeId> temporary_;    // those of them that the map holds, by id
 };
 
 }  // namespace rds::tracker

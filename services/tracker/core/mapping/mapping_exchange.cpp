@@ -70,19 +70,21 @@ LocalMappingJob make_mapping_job(const SlamMap& map, KeyframeId id) {
   job.next_point = map.points().next_id();
   const Keyframe* centre = map.keyframe(id);
   if (centre == nullptr) return job;
-  std::set<KeyframeId> free{id};
+  std::set<KeyframeId> free;
+  if (!map.records().is_fixed(id)) free.insert(id);
   for (const CovisibleKeyframe& c : centre->covisible)
     if (!map.records().is_fixed(c.id) && free.size() < kFreeKeyframes) free.insert(c.id);
   const auto points = points_of(map, free);
   const auto fixed = holders(map, points, free);
   std::set<KeyframeId> all(free);
+  all.insert(id);
   all.insert(fixed.begin(), fixed.end());
-  const bool has_gauge = !fixed.empty() || free.contains(0);
+  const bool has_gauge = all.size() > free.size() || free.contains(0);
   for (const KeyframeId k : all) {
     const Keyframe& keyframe = *map.keyframe(k);
     // Without a holder the oldest keyframe fixes the gauge.
     const bool is_fixed =
-        k == 0 || keyframe.pose_is_given || fixed.contains(k) || (!has_gauge && k == *all.begin());
+        k == 0 || keyframe.pose_is_given || !free.contains(k) || (!has_gauge && k == *all.begin());
     job.keyframes.push_back({k, keyframe.map_from_camera, keyframe.features, keyframe.points,
                              keyframe.movable, keyframe.motion, keyframe.given_fx, is_fixed});
   }

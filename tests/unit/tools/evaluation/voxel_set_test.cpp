@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/evaluation/voxel_set.hpp"
+#include "tools/evaluation/voxels/voxel_set.hpp"
 
 #include <limits>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stood for long is carried away, what was not there is put there: how many keyframes until the map says
 // so? The camera moves, so that edges and sides are seen at changing angles.
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "common/geometry/box.hpp"
@@ -33,14 +35,21 @@ class Room {
   static constexpr int kLong = 24;  // keyframes, one in 25 seconds
 
   void see(bool with_box, int times) {
-    for (int i = 0; i < times; ++i, ++keyframes_) mapper_.integrate(keyframe(with_box));
+    for (int i = 0; i < times; ++i, ++keyframes_) mapper_->integrate(keyframe(with_box));
+  }
+  /// The map is saved, and gone on in on another day.
+  void come_back() {
+    mapper_->settle({});
+    const auto bytes = test::saved_bytes(*mapper_);
+    mapper_ = std::make_unique<SemanticMapper>(MapperConfig{});
+    if (const auto read = test::start_from(*mapper_, bytes); !read) throw std::runtime_error(read.error());
   }
   /// Occupied voxels in and around the box.
   [[nodiscard]] int voxels_of_box() const {
-    return test::occupied_between(mapper_.map().tree(), kBox.min.z() - 0.1, kBox.max.z() + 0.1);
+    return test::occupied_between(mapper_->map().tree(), kBox.min.z() - 0.1, kBox.max.z() + 0.1);
   }
   [[nodiscard]] int voxels_of_wall() const {
-    return test::occupied_between(mapper_.map().tree(), kWallM - 0.1, kWallM + 0.1);
+    return test::occupied_between(mapper_->map().tree(), kWallM - 0.1, kWallM + 0.1);
   }
 
  private:
@@ -61,7 +70,7 @@ class Room {
     return input;
   }
 
-  SemanticMapper mapper_{MapperConfig{}};
+  std::unique_ptr<SemanticMapper> mapper_ = std::make_unique<SemanticMapper>(MapperConfig{});
   int keyframes_ = 0;
 };
 
@@ -78,6 +87,28 @@ TEST(Change, WhatStoodForTenMinutesIsGoneAfterFiveKeyframesThroughIt) {
   room.see(false, 4);
   EXPECT_EQ(room.voxels_of_box(), 0) << "after the paper's nine";
   EXPECT_GE(room.voxels_of_wall(), wall);
+}
+
+TEST(Change, WhatIsCarriedAwayBetweenTwoVisitsIsGoneAfterThreeKeyframes) {
+  Room room;
+  room.see(true, Room::kLong);
+  const int before = room.voxels_of_box();
+  const int wall = room.voxels_of_wall();
+  room.come_back();
+  EXPECT_EQ(room.voxels_of_box(), before);
+  room.see(false, 3);
+  EXPECT_LE(room.voxels_of_box(), before / 10);
+  EXPECT_GE(room.voxels_of_wall(), wall);
+}
+
+TEST(Change, WhatIsSeenToStandOnTheNextVisitTakesAsManyAsBefore) {
+  Room room;
+  room.see(true, Room::kLong);
+  const int before = room.voxels_of_box();
+  room.come_back();
+  room.see(true, 8);
+  room.see(false, 4);
+  EXPECT_GT(room.voxels_of_box(), before / 2) << "the fifth decides";
 }
 
 TEST(Change, WhatIsPutWhereNothingWasForTenMinutesIsInAfterThreeKeyframes) {

@@ -136,19 +136,54 @@ TEST(OccupancyModel, WhatStandsASecondBeforeOrAfterIsNotTransient) {
   EXPECT_FALSE(is_transient(counts_of({3200}, {2000, 2100, 2200}), kCell, kApart));
 }
 
-TEST(OccupancyModel, ASavedVoxelHasAlwaysBeenThere) {
-  const auto cell = cell_of({100, 200, 300});
+/// A voxel that has stood for long, as a saved map remembers it.
+FinalBlock remembered() {
   FinalBlock block;
-  block.add(cell, 3476, {});
-  EXPECT_TRUE(seen_apart(block.counts, cell, 0, kApart));
-  EXPECT_FALSE(seen_apart(block.counts, cell_of({100, 200, 301}), 0, kApart));
-  BlockOccupancy occupancy = block.occupancy;
-  BlockStep miss;
-  miss.passed.insert(cell);
-  for (int i = 0; i < 4; ++i) occupancy.add(miss);
-  EXPECT_GT(occupancy.values[cell], 0);
-  occupancy.add(miss);
-  EXPECT_LT(occupancy.values[cell], 0);
+  block.add(kCell, kHighest, {});
+  return block;
+}
+
+BlockStep step(BlockMask BlockStep::*what) {
+  BlockStep made;
+  (made.*what).insert(kCell);
+  return made;
+}
+
+TEST(OccupancyModel, ASavedVoxelHasAlwaysBeenThere) {
+  EXPECT_TRUE(seen_apart(remembered().counts, kCell, 0, kApart));
+  EXPECT_FALSE(seen_apart(remembered().counts, kCell + 1, 0, kApart));
+}
+
+/// Misses until it is free.
+int misses_to_be_free(BlockOccupancy voxel) {
+  int misses = 0;
+  for (; voxel.values[kCell] > 0 && misses < 100; ++misses) voxel.add(step(&BlockStep::passed));
+  return misses;
+}
+
+TEST(OccupancyModel, WhatIsOnlyRememberedIsGoneAfterThreeMissesAndWhatIsSeenAgainAfterFive) {
+  BlockOccupancy voxel = remembered().occupancy;
+  EXPECT_EQ(misses_to_be_free(voxel), 3);
+  voxel.add(step(&BlockStep::passed));
+  voxel.add(step(&BlockStep::passed));
+  BlockStep seen = step(&BlockStep::hit);
+  seen.seen_static = seen.hit;
+  for (int i = 0; i < kSolidRow; ++i) voxel.add(seen);
+  EXPECT_EQ(voxel.values[kCell], kHighest) << "it was noise";
+  EXPECT_EQ(misses_to_be_free(voxel), 5);
+}
+
+TEST(OccupancyModel, WhatIsOnlyRememberedOutlastsACheckpoint) {
+  FinalMap map;
+  map.blocks.emplace(packed(block_key({800, 800, 800})), std::make_shared<const FinalBlock>(remembered()));
+  map_file::ByteWriter writer;
+  map.put(writer);
+  const auto bytes = writer.take();
+  map_file::ByteReader reader(bytes);
+  const FinalMap read = FinalMap::get(reader, 1);
+  ASSERT_TRUE(reader.finish());
+  ASSERT_EQ(read.blocks.size(), 1U);
+  EXPECT_EQ(misses_to_be_free(read.blocks.begin()->second->occupancy), 3);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ class KeyframeSelection : public testing::Test, protected test::KnownPlace {
     selector.note_in_map(reference, time_ns);
   }
 
-  KeyframeSelector selector{{}, false};
+  KeyframeSelector selector{KeyframeConfig{}};
   KeyframeId reference = kNoId;
 };
 
@@ -73,15 +73,6 @@ TEST_F(KeyframeSelection, AFollowedFrameThatLosesAThirdOfThePictureEntersTheMap)
   for (std::size_t i = 0; i < frame.points.size(); ++i)
     if ((*frame.features)[i].px.x() > 200) frame.points[i] = kNoId;
   EXPECT_EQ(need_of_followed(frame), KeyframeNeed::kMap);
-}
-
-TEST_F(KeyframeSelection, WhereTheMapDoesNotGrowTheLastKeyframeIsTheNearestView) {
-  add_keyframe(Pose::Identity());
-  KeyframeSelector only{{}, true};
-  const TrackedFrame frame = frame_at(test::pose(0.3, 0, 0), kSecond);
-  EXPECT_EQ(only.nearest_view(map, frame, 0).keyframe, kNoId);
-  only.note_not_in_map({7, 0, test::pose(0.3, 0, 0)}, 0);
-  EXPECT_EQ(only.nearest_view(map, frame, 0).keyframe, 7U);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@
 //
 //   seen     C ← L                       as static or doubtful, a hit or not; L with the hit
 //   miss     C ← clamp(C − m)            m = 1.2 if C > 0 and b < 0   (ghost)
-//                                        m = 1.2 if C > 0 and nobody has seen it since it was saved
-//                                        (remembered) m = .7  if C > 0 and r ≥ 8   (solid) m = .41 else: as
-//                                        the paper
+//                                        m = 1.2 if C > 0 and remembered: not seen since it was saved
+//                                        m = .7  if C > 0 and r ≥ 8   (solid)
+//                                        m = .41 else: as the paper
 //
 //   b   keyframes that saw it as static or doubtful, less those that saw something dynamic there; in ±100
 //   r   hits in a row before the last miss

@@ -111,8 +111,7 @@ TEST_P(NodeServices, GoThroughTheStatesOfALife) {
   EXPECT_FALSE(change("activate")) << "it is";
   EXPECT_TRUE(change("deactivate"));
   EXPECT_EQ(state(), "inactive");
-  const auto available =
-      ask<GetAvailableTransitions_Request, GetAvailableTransitions_Response>("get_available_transitions", {});
+  const auto available = ask<GetAvailableTransitions_Request, GetAvailableTransitions_Response>("get_available_transitions", {});
   ASSERT_TRUE(available);
   EXPECT_EQ(available->available_transitions().size(), 3U);
   EXPECT_TRUE(change("cleanup"));

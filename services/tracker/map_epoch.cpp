@@ -102,9 +102,11 @@ std::string MapEpoch::description() const {
 }
 
 map_file::MapPart MapEpoch::part() const {
-  const SlamMap& map = is_read_only_ && start_ ? start_->map : tracker_.map();
+  const bool is_as_it_began = is_read_only_ && start_;
+  const SlamMap& map = is_as_it_began ? start_->map : tracker_.map();
+  const KnownCamera camera = is_as_it_began ? start_->camera : tracker_.calibration().known_camera();
   return {map_file::kTracker,
-          {{map_file::kTracker, to_bytes(map, tracker_.calibration().known_camera(), extraction_)},
+          {{map_file::kTracker, to_bytes(map, camera, extraction_)},
            {map_file::kKeyframePoses, map_file::to_bytes(keyframe_poses(map))}},
           {}};
 }

@@ -22,9 +22,9 @@ constexpr double kAlikeDistance = 1.3;     // times nearer or farther, likewise
 constexpr double kMinInformation = 0.1;    // of what is needed: a pair with less leads to no third view
 constexpr PointId kTaken = 0;              // any but kNoId
 
-// Of a whole sensor .12 of the features have no depth: triangulated points add nothing to its map, and where
-// depth is not registered well to colour they contradict it. Of one that ends at 2.5 m .3 to .7 have none.
-constexpr double kFewWithoutDepth = 0.2;
+// Where at least every other feature has depth, triangulated points add nothing to the map, and contradict what
+// is measured: in corridors, where a sensor does not see the end, as where depth lies beside its colour.
+constexpr double kFewWithoutDepth = 0.5;
 
 bool lacks_depth(const MappingKeyframe& keyframe) {
   int all = 0;

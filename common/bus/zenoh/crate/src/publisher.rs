@@ -39,7 +39,7 @@ pub unsafe extern "C" fn declare_publisher(
         };
         let mut detection = MissDetectionConfig::default(); // numbers the messages
         if options.heartbeat_ms > 0 {
-            detection = detection.heartbeat(Duration::from_millis(options.heartbeat_ms));
+            detection = detection.sporadic_heartbeat(Duration::from_millis(options.heartbeat_ms));
         }
         let mut builder = (*session)
             .session

@@ -30,7 +30,8 @@ struct Qos {
 inline constexpr Qos kSensor{
     .reliable = true, .depth = 5, .follows_publishers = true, .urgency = Urgency::kPictures};
 inline constexpr Qos kSensorBestEffort{.reliable = false, .depth = 5, .urgency = Urgency::kPictures};
-/// The same for a player that waits for each picture's pose: there, none may be missing.
+/// The same for a player that waits for each picture's pose: none may be missing, so on Zenoh, too, what is
+/// lost is asked for again, as keyframes are.
 inline constexpr Qos kSensorLockstep{
     .reliable = true, .depth = 5, .follows_publishers = true, .urgency = Urgency::kKeyframes};
 inline constexpr Qos kStream{.reliable = true, .depth = 10};

@@ -5,6 +5,7 @@
 
 #include "common/image/picture_file.hpp"
 #include "common/image/sensors/imu_file.hpp"
+#include "common/image/sensors/odometry_file.hpp"
 
 namespace rds::image {
 
@@ -34,10 +35,9 @@ tl::expected<TumDataset, std::string> TumDataset::open(const std::filesystem::pa
 
 tl::expected<void, std::string> TumDataset::read_sensors() {
   if (const auto file = folder_ / "odometry.txt"; std::filesystem::exists(file)) {
-    auto poses = geometry::read_trajectory(file);
-    if (!poses) return tl::unexpected(poses.error());
-    if (poses->empty()) return tl::unexpected(fmt::format("{}: expected at least one pose", file.string()));
-    sensors_.odometry = OdometryTrack{.odom_from_body = std::move(*poses)};
+    auto odometry = read_odometry(file);
+    if (!odometry) return tl::unexpected(odometry.error());
+    sensors_.odometry = std::move(*odometry);
   }
   if (const auto file = folder_ / "imu.txt"; std::filesystem::exists(file)) {
     auto imu = read_imu(file);

@@ -5,11 +5,11 @@
 #include <cctype>
 #include <tuple>
 
-#include "common/bus/type_ops.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/topics/topics.hpp"
 #include "geometry_msgs/msg/PoseStamped.h"
 #include "nav_msgs/msg/Odometry.h"
+#include "tools/recording/decode.hpp"
 
 namespace rds::recording {
 namespace {
@@ -17,11 +17,6 @@ namespace {
 using geometry_msgs::msg::PoseStamped;
 using nav_msgs::msg::Odometry;
 using sensor_msgs::msg::CameraInfo;
-
-template <class Message>
-bool decode(std::span<const std::uint8_t> data, Message& message) {
-  return bus::type_ops<Message>().decode(data.data(), data.size(), &message);
-}
 
 std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -54,8 +49,7 @@ void BagTopics::see(const BagTopic& topic, const BagMessage& message, const BagP
   if (topic.encoding != "cdr") return;
   if (topic.type == kImageType || topic.type == kCompressedImageType) see_picture(topic, message, place);
   if (topic.type == "sensor_msgs/msg/CameraInfo" && !cameras_.contains(topic.name)) {
-    CameraInfo info;
-    if (decode(message.data, info)) cameras_.emplace(topic.name, std::move(info));
+    if (auto info = decode<CameraInfo>(message.data)) cameras_.emplace(topic.name, std::move(*info));
   }
   if (!names_truth(topic.name)) return robot_.see(topic, message);
   if (topic.type == "geometry_msgs/msg/PoseStamped")
@@ -76,10 +70,10 @@ void BagTopics::see_picture(const BagTopic& topic, const BagMessage& message, co
 
 template <class Message, class PoseOf>
 void BagTopics::see_pose(const std::string& topic, const BagMessage& message, PoseOf pose_of) {
-  Message decoded;
-  if (!decode(message.data, decoded)) return;
-  const auto pose = messages::to_pose(pose_of(decoded));
-  if (pose) truths_[topic].push_back({messages::to_nanoseconds(decoded.header().stamp()), *pose, ""});
+  const auto decoded = decode<Message>(message.data);
+  if (!decoded) return;
+  const auto pose = messages::to_pose(pose_of(*decoded));
+  if (pose) truths_[topic].push_back({messages::to_nanoseconds(decoded->header().stamp()), *pose, ""});
 }
 
 const Stream* BagTopics::best(Content content) const {

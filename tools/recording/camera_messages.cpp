@@ -2,6 +2,7 @@
 #include "tools/recording/camera_messages.hpp"
 
 #include "common/messages/conversions.hpp"
+#include "common/messages/sensors/imu_conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 
 namespace rds::recording {
@@ -19,14 +20,6 @@ std_msgs::msg::Header header_at(std::int64_t stamp_ns) {
 /// The frame's own name, unless it is the camera's.
 const char* frame_of(const geometry::Pose& to_camera, const char* name) {
   return to_camera.isApprox(geometry::Pose::Identity(), kSamePlace) ? kOpticalFrame : name;
-}
-
-geometry_msgs::msg::Vector3 vector(const Eigen::Vector3d& v) {
-  geometry_msgs::msg::Vector3 message;
-  message.x(v.x());
-  message.y(v.y());
-  message.z(v.z());
-  return message;
 }
 
 geometry_msgs::msg::TransformStamped transform(const char* parent, const char* child,
@@ -54,15 +47,9 @@ sensor_msgs::msg::CameraInfo camera_info_message(const geometry::CameraModel& ca
 
 sensor_msgs::msg::Imu imu_message(const image::ImuTrack& of, const image::ImuMeasurement& measurement,
                                   std::int64_t stamp_ns) {
-  constexpr double kNotMeasured = -1;  // first of a covariance
-  sensor_msgs::msg::Imu message;
-  message.header(messages::make_header(stamp_ns, frame_of(of.camera_from_imu, kImuFrame)));
-  message.orientation().w(1);
-  message.orientation_covariance()[0] = kNotMeasured;
-  message.linear_acceleration(vector(measurement.acceleration));
-  message.angular_velocity(vector(measurement.turn_rate));
-  if (!of.has_gyroscope) message.angular_velocity_covariance()[0] = kNotMeasured;
-  return message;
+  return messages::to_imu_message(
+      measurement, of.has_gyroscope,
+      messages::make_header(stamp_ns, frame_of(of.camera_from_imu, kImuFrame)));
 }
 
 nav_msgs::msg::Odometry odometry_message(const image::OdometryTrack& of, const geometry::Pose& odom_from_body,

@@ -6,25 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "common/bus/type_ops.hpp"
 #include "common/messages/conversions.hpp"
+#include "common/messages/sensors/imu_conversions.hpp"
 #include "common/topics/topics.hpp"
 #include "nav_msgs/msg/Odometry.h"
-#include "sensor_msgs/msg/Imu.h"
 #include "tf2_msgs/msg/TFMessage.h"
+#include "tools/recording/decode.hpp"
 
 namespace rds::recording {
 namespace {
-
-constexpr double kNotMeasured = -1;  // first of a covariance, of what an Imu has no sensor for
-
-template <class Message>
-std::optional<Message> decode(const BagMessage& message) {
-  Message decoded;
-  if (!bus::type_ops<Message>().decode(message.data.data(), message.data.size(), &decoded))
-    return std::nullopt;
-  return decoded;
-}
 
 /// "odom" of "/robot1/odom".
 std::string last_part(const std::string& name) {
@@ -76,21 +66,18 @@ void RobotTopics::see(const BagTopic& topic, const BagMessage& message) {
 }
 
 void RobotTopics::see_imu(const std::string& topic, const BagMessage& message) {
-  const auto imu = decode<sensor_msgs::msg::Imu>(message);
+  const auto imu = decode<sensor_msgs::msg::Imu>(message.data);
   if (!imu) return;
-  const auto& a = imu->linear_acceleration();
-  const auto& w = imu->angular_velocity();
-  const image::ImuMeasurement measurement{
-      messages::to_nanoseconds(imu->header().stamp()), {a.x(), a.y(), a.z()}, {w.x(), w.y(), w.z()}};
+  const image::ImuMeasurement measurement = messages::to_measurement(*imu);
   if (!measurement.acceleration.allFinite() || !measurement.turn_rate.allFinite()) return;
   Imu& its = imus_[topic];
   its.frame = frame_name(imu->header().frame_id());
-  its.track.has_gyroscope = imu->angular_velocity_covariance()[0] != kNotMeasured;
+  its.track.has_gyroscope = messages::has_gyroscope(*imu);
   its.track.measurements.push_back(measurement);
 }
 
 void RobotTopics::see_odometry(const std::string& topic, const BagMessage& message) {
-  const auto odometry = decode<nav_msgs::msg::Odometry>(message);
+  const auto odometry = decode<nav_msgs::msg::Odometry>(message.data);
   if (!odometry) return;
   const auto pose = messages::to_pose(odometry->pose().pose());
   if (!pose) return;
@@ -100,7 +87,7 @@ void RobotTopics::see_odometry(const std::string& topic, const BagMessage& messa
 }
 
 void RobotTopics::see_transforms(const std::string& topic, const BagMessage& message) {
-  const auto transforms = decode<tf2_msgs::msg::TFMessage>(message);
+  const auto transforms = decode<tf2_msgs::msg::TFMessage>(message.data);
   if (!transforms) return;
   const bool is_static = last_part(topic) == topics::kStaticTransforms.name;
   for (const auto& transform : transforms->transforms()) {

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/recording/stream.hpp"
 
-#include "common/bus/type_ops.hpp"
 #include "common/messages/camera_conversions.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "sensor_msgs/msg/CompressedImage.h"
 #include "sensor_msgs/msg/Image.h"
+#include "tools/recording/decode.hpp"
 
 namespace rds::recording {
 namespace {
 
 using sensor_msgs::msg::CompressedImage;
 using sensor_msgs::msg::Image;
-
-template <class Message>
-std::shared_ptr<Message> decode(std::span<const std::uint8_t> data) {
-  auto message = std::make_shared<Message>();
-  if (!bus::type_ops<Message>().decode(data.data(), data.size(), message.get())) return nullptr;
-  return message;
-}
 
 std::optional<Content> content_of(const std::string& encoding) {
   if (encoding == "rgb8" || encoding == "bgr8") return Content::kColor;

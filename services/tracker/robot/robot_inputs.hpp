@@ -59,7 +59,7 @@ class RobotInputs {
     std::string body;
   };
   struct Sensed {
-    InertialMeasurement measurement;
+    image::ImuMeasurement measurement;
     bool has_turn_rate;
     std::string frame;
   };

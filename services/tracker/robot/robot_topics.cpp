@@ -6,17 +6,16 @@
 #include <fmt/format.h>
 
 #include "common/messages/conversions.hpp"
+#include "common/messages/sensors/imu_conversions.hpp"
 #include "common/topics/endpoints.hpp"
 #include "geometry_msgs/msg/PoseWithCovarianceStamped.h"
 #include "nav_msgs/msg/Odometry.h"
-#include "sensor_msgs/msg/Imu.h"
 #include "services/tracker/robot/robot_inputs.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
 namespace rds::tracker {
 namespace {
 
-constexpr double kNotMeasured = -1;  // first of a covariance, of what an Imu has no sensor for
 // In the rows of a covariance: x, y, z, then the angles about them.
 constexpr std::size_t kXX = 0;
 constexpr std::size_t kYY = 7;
@@ -69,12 +68,7 @@ void RobotInputs::warn(const std::string& name, const std::string& fault) {
 
 void RobotInputs::read_imu(const std::string& topic) {
   const auto take = [this](const std::shared_ptr<const sensor_msgs::msg::Imu>& m) {
-    const auto& a = m->linear_acceleration();
-    const auto& w = m->angular_velocity();
-    sensed_.push(
-        {{messages::to_nanoseconds(m->header().stamp()), {a.x(), a.y(), a.z()}, {w.x(), w.y(), w.z()}},
-         m->angular_velocity_covariance()[0] != kNotMeasured,
-         m->header().frame_id()});
+    sensed_.push({messages::to_measurement(*m), messages::has_gyroscope(*m), m->header().frame_id()});
   };
   warn("imu", imu_fault_);
   subscriptions_.push_back(

@@ -2,15 +2,14 @@
 // A tracker that reads an IMU beside the camera: its gyroscope is turned into the camera's frame by tf,
 // compared with vision, and what comes of that is told.
 #include <algorithm>
-#include <map>
 #include <thread>
 
 #include <gmock/gmock.h>
 
 #include "common/messages/conversions.hpp"
-#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "sensor_msgs/msg/Imu.h"
 #include "tests/integration/camera/camera_driver.hpp"
+#include "tests/integration/camera/told_diagnostics.hpp"
 #include "tests/support/test_domain.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 #include "tools/simulator/sensors/gyroscope.hpp"
@@ -26,12 +25,6 @@ const Eigen::Quaterniond kCameraFromImu(-0.5, 0.5, -0.5, 0.5);
 class GyroscopeInput : public ::testing::Test {
  protected:
   GyroscopeInput() {
-    figures_ = driver_.bus().subscribe<diagnostic_msgs::msg::DiagnosticArray>(
-        "/diagnostics", bus::kStream, [this](const auto& message) {
-          const std::lock_guard lock(mutex_);
-          for (const auto& status : message->status())
-            for (const auto& value : status.values()) told_[value.key()] = value.value();
-        });
     static_ = driver_.bus().advertise<tf2_msgs::msg::TFMessage>("/tf_static", bus::kLatched);
     imu_ = driver_.bus().advertise<sensor_msgs::msg::Imu>("imu", {.reliable = true, .depth = 2000});
   }
@@ -64,17 +57,11 @@ class GyroscopeInput : public ::testing::Test {
     for (std::size_t i = 0; i < TrackerWithDriver::frames().size(); ++i) driver_.track(i);
     std::this_thread::sleep_for(2500ms);  // diagnostics come once a second
   }
-  std::string told(const std::string& key) {
-    const std::lock_guard lock(mutex_);
-    return told_[key];
-  }
 
   TrackerWithDriver driver_{bus::Vendor::kFastDds, test_domain(), {}, "{inputs: {imu: imu}}"};
   bus::Publisher<tf2_msgs::msg::TFMessage> static_;
   bus::Publisher<sensor_msgs::msg::Imu> imu_;
-  std::mutex mutex_;
-  std::map<std::string, std::string> told_;
-  bus::Subscription figures_;
+  ToldDiagnostics told{driver_.bus()};
 };
 
 TEST_F(GyroscopeInput, IsRightWhereTfSaysHowItIsMounted) {

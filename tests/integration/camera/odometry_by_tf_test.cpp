@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot that tells its odometry on tf alone: the tracker reads it there, each frame in lockstep as far as
 // it needs it.
-#include <map>
-
 #include <gmock/gmock.h>
 
 #include "common/messages/conversions.hpp"
-#include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "tests/integration/camera/camera_driver.hpp"
+#include "tests/integration/camera/told_diagnostics.hpp"
 #include "tests/support/test_domain.hpp"
 
 namespace rds::test {
@@ -23,12 +21,6 @@ const std::string kOptical = "camera_color_optical_frame";
 class OdometryByTf : public testing::TestWithParam<bus::Vendor> {
  protected:
   OdometryByTf() {
-    figures_ = driver_.bus().subscribe<diagnostic_msgs::msg::DiagnosticArray>(
-        "/diagnostics", bus::kStream, [this](const auto& message) {
-          const std::lock_guard lock(mutex_);
-          for (const auto& status : message->status())
-            for (const auto& value : status.values()) told_[value.key()] = value.value();
-        });
     static_ = driver_.bus().advertise<tf2_msgs::msg::TFMessage>("/tf_static", bus::kLatched);
     tf_ = driver_.bus().advertise<tf2_msgs::msg::TFMessage>("/tf", {.reliable = true, .depth = 500});
     static_.write(tree("base_footprint", kOptical, 0, 0));
@@ -62,10 +54,6 @@ class OdometryByTf : public testing::TestWithParam<bus::Vendor> {
     std::this_thread::sleep_for(2500ms);  // diagnostics come once a second
     return count;
   }
-  std::string told(const std::string& key) {
-    const std::lock_guard lock(mutex_);
-    return told_[key];
-  }
 
   TrackerWithDriver driver_{
       GetParam(),
@@ -74,9 +62,7 @@ class OdometryByTf : public testing::TestWithParam<bus::Vendor> {
       "{lockstep: true, dynamics: false, loop_closer: false, inputs: {odometry_frame: odom}}"};
   bus::Publisher<tf2_msgs::msg::TFMessage> static_;
   bus::Publisher<tf2_msgs::msg::TFMessage> tf_;
-  std::mutex mutex_;
-  std::map<std::string, std::string> told_;
-  bus::Subscription figures_;
+  ToldDiagnostics told{driver_.bus()};
 };
 
 TEST_P(OdometryByTf, IsReadFromTheFrameThatIsNamed) {

@@ -3,16 +3,15 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
+#include "common/image/sensors/odometry_file.hpp"
 
 namespace rds::play {
 namespace {
 
 image::OdometryTrack read(const std::filesystem::path& file) {
-  auto poses = geometry::read_trajectory(file);
-  if (!poses) throw std::runtime_error(poses.error());
-  if (poses->empty()) throw std::runtime_error(fmt::format("{}: expected at least one pose", file.string()));
-  return {.odom_from_body = std::move(*poses)};
+  auto odometry = image::read_odometry(file);
+  if (!odometry) throw std::runtime_error(odometry.error());
+  return std::move(*odometry);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace rds::tracker {
 
-void Gravity::add(const InertialMeasurement& measurement) {
+void Gravity::add(const image::ImuMeasurement& measurement) {
   if (!window_.empty() && measurement.stamp_ns < window_.back().stamp_ns) window_.clear();
   window_.push_back(measurement);
   while (window_.front().stamp_ns < measurement.stamp_ns - kWindowNs) window_.pop_front();
@@ -19,7 +19,7 @@ std::optional<Eigen::Vector3d> Gravity::up() const {
   for (const auto& m : window_) sum += m.acceleration;
   const Eigen::Vector3d mean = sum / static_cast<double>(window_.size());
   if (!(std::abs(mean.norm() - kStandardGravity) <= kMaxOff)) return std::nullopt;
-  const bool stands_still = std::ranges::all_of(window_, [&](const InertialMeasurement& m) {
+  const bool stands_still = std::ranges::all_of(window_, [&](const image::ImuMeasurement& m) {
     return (m.acceleration - mean).norm() <= kMaxShake && m.turn_rate.norm() <= kMaxTurnRate;
   });
   return stands_still ? std::optional<Eigen::Vector3d>(mean.normalized()) : std::nullopt;

@@ -7,14 +7,9 @@
 
 #include <Eigen/Core>
 
-namespace rds::tracker {
+#include "common/image/sensors/robot_sensors.hpp"
 
-/// One measurement of an inertial measurement unit, in its own frame.
-struct InertialMeasurement {
-  std::int64_t stamp_ns = 0;
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // with gravity's reaction, as they measure [m/s²]
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();     // [rad/s]
-};
+namespace rds::tracker {
 
 /// Which way is up by an accelerometer: its mean over half a second in which the unit stood still.
 class Gravity {
@@ -27,12 +22,12 @@ class Gravity {
   static constexpr double kMaxTurnRate = 0.05;      // rad/s, with the bias of a cheap gyroscope
 
   /// A measurement with an earlier stamp than the newest one begins anew.
-  void add(const InertialMeasurement& measurement);
+  void add(const image::ImuMeasurement& measurement);
   /// Unit vector in the unit's frame; nullopt while it moves, or too little is known.
   [[nodiscard]] std::optional<Eigen::Vector3d> up() const;
 
  private:
-  std::deque<InertialMeasurement> window_;
+  std::deque<image::ImuMeasurement> window_;
 };
 
 }  // namespace rds::tracker

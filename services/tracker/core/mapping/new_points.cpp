@@ -22,9 +22,9 @@ constexpr double kAlikeDistance = 1.3;     // times nearer or farther, likewise
 constexpr double kMinInformation = 0.1;    // of what is needed: a pair with less leads to no third view
 constexpr PointId kTaken = 0;              // any but kNoId
 
-// Where at least every other feature has depth, triangulated points add nothing to the map, and contradict what
-// is measured: in corridors, where a sensor does not see the end, as where depth lies beside its colour.
-constexpr double kFewWithoutDepth = 0.5;
+// Where at least every other feature has depth, triangulated points add nothing to the map, and contradict
+// what is measured: in corridors, where a sensor does not see the end, as where depth lies beside its colour.
+constexpr double kMostly = 0.5;
 
 bool lacks_depth(const MappingKeyframe& keyframe) {
   int all = 0;
@@ -34,7 +34,7 @@ bool lacks_depth(const MappingKeyframe& keyframe) {
     ++all;
     without += (*keyframe.features)[i].depth_m > 0 ? 0 : 1;
   }
-  return without > kFewWithoutDepth * all;
+  return without > kMostly * all;
 }
 
 struct Seen {

@@ -5,13 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "services/tracker/core/motion/gyroscope_buffer.hpp"
+#include "services/tracker/core/motion/odometry_buffer.hpp"
+
 namespace rds::doctor {
 namespace {
 
 constexpr std::size_t kTenths = 10;
-constexpr std::size_t kEnoughTenths = 9;                 // of the frames
-constexpr std::int64_t kMaxOdometryGapNs = 500'000'000;  // as the tracker has it
-constexpr std::int64_t kMaxImuGapNs = 50'000'000;        // likewise
+constexpr std::size_t kEnoughTenths = 9;  // of the frames
 
 template <class Sample>
 std::vector<std::int64_t> stamps_of(const std::vector<Sample>& samples) {
@@ -39,10 +40,11 @@ std::vector<Finding> check_sensors(const image::Recording& recording) {
   std::vector<Finding> findings;
   const auto frames = stamps_of(recording.frames());
   if (const auto& odometry = recording.sensors().odometry)
-    findings.push_back(
-        check_sensor("odometry", frames, stamps_of(odometry->odom_from_body), kMaxOdometryGapNs));
+    findings.push_back(check_sensor("odometry", frames, stamps_of(odometry->odom_from_body),
+                                    tracker::OdometryBuffer::kMaxGapNs));
   if (const auto& imu = recording.sensors().imu)
-    findings.push_back(check_sensor("IMU", frames, stamps_of(imu->measurements), kMaxImuGapNs));
+    findings.push_back(
+        check_sensor("IMU", frames, stamps_of(imu->measurements), tracker::GyroscopeBuffer::kMaxGapNs));
   return findings;
 }
 

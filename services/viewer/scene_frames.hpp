@@ -34,7 +34,8 @@ Expected<Bytes> grid_frame(const nav_msgs::msg::OccupancyGrid& grid);
 /// Ids of two keyframes that a loop was closed between, the later one first.
 using Loop = std::array<std::uint64_t, 2>;
 /// @param kind  of keyframes, or of those of a submap, which has no loops.
-Bytes keyframes_frame(Kind kind, std::span<const geometry::KeyframePose> keyframes, std::span<const Loop> loops);
+Bytes keyframes_frame(Kind kind, std::span<const geometry::KeyframePose> keyframes,
+                      std::span<const Loop> loops);
 
 Bytes camera_frame(const geometry::CameraModel& camera);
 /// @param labels  the map's label table; index 0 is "".

@@ -13,8 +13,8 @@
 
 namespace rds::viewer {
 
-/// What the tracker tells of the submap in which its camera is, and which has no place in the map. Poses are in
-/// the submap's own frame.
+/// What the tracker tells of the submap in which its camera is, and which has no place in the map. Poses are
+/// in the submap's own frame.
 class SubmapView {
  public:
   using Poses = std::span<const geometry::KeyframePose>;
@@ -42,7 +42,8 @@ class SubmapView {
   /// The camera in the submap; nothing where the frame's reference keyframe was not told.
   [[nodiscard]] std::optional<geometry::Pose> camera(const rds_msgs::msg::TrackingState& state) const {
     const auto poses = known_.poses();
-    const auto reference = std::ranges::find(poses, state.reference_keyframe_id(), &geometry::KeyframePose::id);
+    const auto reference =
+        std::ranges::find(poses, state.reference_keyframe_id(), &geometry::KeyframePose::id);
     const auto reference_from_camera = messages::to_pose(state.reference_from_camera());
     if (reference == poses.end() || !reference_from_camera) return std::nullopt;
     return geometry::Pose(reference->map_from_camera * *reference_from_camera);

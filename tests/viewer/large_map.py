@@ -28,6 +28,7 @@ DOMAIN = 89
 ROOM = (100, 80, 50)  # voxels along, across and up
 SIDE_M = 0.05
 MIDDLE = 32768
+TONES = np.array([[170, 160, 145], [70, 120, 170], [150, 100, 60], [110, 140, 100], [160, 90, 100]])  # by label
 AT_ONCE = 50000  # voxels of a message
 STEPS = 20  # changes as of a keyframe: what is within 1.5 m of a place
 TIME = messages.Time(0, 0)
@@ -80,7 +81,7 @@ class Mapper:
         self.info.write(messages.MapInfo(header, 1, False, 1, 1, 0, SIDE_M, 0, 0, [0.0] * 3, [0.0] * 3, names, [], [], 0, 0, 0))
 
     def tell(self, keys, labels, seed):
-        colors = np.random.default_rng(seed).integers(90, 200, (len(keys), 3))
+        colors = TONES[labels] + np.random.default_rng(seed).integers(-15, 15, (len(keys), 1))
         self.revision += 1
         self.delta.write(messages.OctreeDelta(messages.Header(TIME, "map"), 1, 1, 1, self.revision - 1, self.revision, self.revision, SIDE_M,
                                               keys.ravel().tolist(), [2.0] * len(keys), labels.tolist(), colors.ravel().tolist(), []))

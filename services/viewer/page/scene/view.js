@@ -59,6 +59,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, this.inset / 2, 0, width, height);
+    this.fit(true);
     this.changed();
   }
 
@@ -159,7 +160,7 @@ export class View {
   /// Pictures that are slow to draw become coarser. @param lag  of this one [ms].
   adapt(lag) {
     this.lag += 0.2 * (lag - this.lag);
-    if (this.lag > SLOW_MS) this.detail = Math.min(this.detail * 1.15, COARSEST_PX);
+    if (this.lag > SLOW_MS) this.detail = Math.min(this.detail * Math.min(Math.sqrt(this.lag / SLOW_MS), 2), COARSEST_PX);
     else if (this.lag < FAST_MS) this.detail = Math.max(this.detail / 1.05, 1);
   }
 

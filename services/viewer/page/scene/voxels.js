@@ -37,6 +37,22 @@ function arranged(voxels) {
   return new Uint16Array(out.buffer);
 }
 
+/// Around a chunk's voxels, from its corner [m].
+function boundsOf(voxels, side) {
+  let low = SIDE * LAYER - 1, high = 0; // z is in a place's highest bits
+  let [lowX, lowY, highX, highY] = [SIDE, SIDE, 0, 0];
+  for (let i = 0; i < voxels.length; i += 4) {
+    const place = voxels[i], x = place & 31, y = (place >> 5) & 31;
+    if (place < low) low = place;
+    if (place > high) high = place;
+    if (x < lowX) lowX = x;
+    if (x > highX) highX = x;
+    if (y < lowY) lowY = y;
+    if (y > highY) highY = y;
+  }
+  return new Box3(new Vector3(lowX, lowY, low >> 10).multiplyScalar(side), new Vector3(highX + 1, highY + 1, (high >> 10) + 1).multiplyScalar(side));
+}
+
 /// The map's voxels: two meshes for each chunk, of which the nearer ones show cubes, the others squares.
 export class Voxels {
   constructor() {
@@ -100,7 +116,6 @@ export class Voxels {
   /// @returns the chunk's two meshes, and its place in the map.
   draw(key, voxels) {
     if (!voxels.length) return { meshes: [], box: new Box3() };
-    const size = SIDE * this.resolution;
     const corner = new Vector3(...key).multiplyScalar(SIDE).subScalar(MIDDLE).multiplyScalar(this.resolution);
     const rows = arranged(voxels);
     const cubes = new InstancedBufferGeometry();
@@ -110,16 +125,16 @@ export class Voxels {
     cubes.instanceCount = rows.length / 4;
     const squares = new BufferGeometry();
     squares.setAttribute("voxel", new BufferAttribute(rows, 4));
+    const inside = boundsOf(voxels, this.resolution);
     const meshes = [new Mesh(cubes, this.cube), new Points(squares, this.square)];
     for (const mesh of meshes) {
-      mesh.geometry.boundingBox = new Box3(new Vector3(), new Vector3(size, size, size));
-      mesh.geometry.boundingSphere = mesh.geometry.boundingBox.getBoundingSphere(new Sphere());
+      mesh.geometry.boundingSphere = inside.getBoundingSphere(new Sphere());
       mesh.position.copy(corner);
       mesh.updateMatrix();
       mesh.matrixAutoUpdate = false;
       this.group.add(mesh);
     }
-    return { meshes, box: new Box3(corner, corner.clone().addScalar(size)) };
+    return { meshes, box: inside.translate(corner) };
   }
 
   setLabels(labels) {

@@ -13,11 +13,11 @@ trap 'rm -rf --one-file-system "$place"' EXIT
 fail() { printf '%s\n' "$*" >&2; exit 1; }
 quietly() { "$@" >"$place/log" 2>&1 || { tail -n 30 "$place/log" >&2; fail "$1: failed"; }; }
 [ "$(id -u)" = 0 ] || fail "expected root"
-for program in mmdebstrap lintian unshare; do command -v $program >/dev/null || fail "$program: expected on the PATH"; done
+for program in mmdebstrap lintian unshare ip; do command -v $program >/dev/null || fail "$program: expected on the PATH"; done
 
-# inside COMMAND: a shell of the fresh system, with processes and mounts of its own.
+# inside COMMAND [--net]: a shell of the fresh system, with processes and mounts of its own; with --net alone on its network, too.
 inside() {
-  unshare --mount --pid --fork sh -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount -t tmpfs tmpfs "$0/run" &&
+  unshare --mount --pid --fork ${2:-} sh -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount -t tmpfs tmpfs "$0/run" && ip link set lo up &&
     exec chroot "$0" /usr/bin/env -i HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -euc "$1"' "$fresh" "$1"
 }
 
@@ -55,12 +55,12 @@ inside 'cd /root && export RDS_SHARED=/root/shared
   for _ in $(seq 600); do ! grep -q "the page stays" run.log || break; kill -0 $run || { cat run.log; exit 1; }; sleep 0.5; done
   perl -MIO::Socket::INET -e '\''for (["/", "page.html"], ["/metrics", "metrics"]) {
     my $s = IO::Socket::INET->new("127.0.0.1:18080") or die "no page"; print $s "GET $_->[0] HTTP/1.1\r\nHost: 127.0.0.1:18080\r\nConnection: close\r\n\r\n";
-    open my $out, ">", $_->[1]; print $out <$s>; }'\''
+    open my $out, ">", $_->[1]; print {$out} <$s>; }'\''
   kill -INT $run; wait $run
   grep -q "<!doctype html>" page.html
   voxels=$(rds map info --map results | sed -n "s/^occupied_voxels *//p")
   [ "$voxels" -gt 10000 ] && grep -q "^rds_map_occupied_voxels $voxels" metrics
-  rds eval room results' >"$place/run" 2>&1 || { tail -n 30 "$place/run" >&2; fail "rds run --view: failed"; }
+  rds eval room results' --net >"$place/run" 2>&1 || { tail -n 30 "$place/run" >&2; fail "rds run --view: failed"; }
 for program in rds rds-tracker rds-detector rds-transformer rds-mapper rds-loop-closer rds-viewer; do
   inside "$program --help >/dev/null && test -s /usr/share/man/man1/$program.1.gz && test -s /usr/share/bash-completion/completions/$program" ||
     fail "$program: no help, manual page or completion"

@@ -19,7 +19,7 @@ export class View {
   constructor(canvas, names) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS));
+    this.setSharp(true);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(50, 1, 0.05, 200);
     this.camera.up.set(0, 0, 1);
@@ -157,11 +157,21 @@ export class View {
     if (!still || (this.detail > 1 && this.lag < FAST_MS)) this.changed(); // finer, as long as it is fast
   }
 
-  /// Pictures that are slow to draw become coarser. @param lag  of this one [ms].
+  setSharp(sharp) {
+    this.sharp = sharp;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS) * (sharp ? 1 : 0.5));
+  }
+
+  /// Pictures that are slow to draw become coarser: fewer voxels, then fewer pixels. @param lag  of this one [ms].
   adapt(lag) {
     this.lag += 0.2 * (lag - this.lag);
-    if (this.lag > SLOW_MS) this.detail = Math.min(this.detail * Math.min(Math.sqrt(this.lag / SLOW_MS), 2), COARSEST_PX);
-    else if (this.lag < FAST_MS) this.detail = Math.max(this.detail / 1.05, 1);
+    if (this.lag > SLOW_MS) {
+      if (this.sharp && this.detail === COARSEST_PX) this.setSharp(false);
+      this.detail = Math.min(this.detail * Math.min(Math.sqrt(this.lag / SLOW_MS), 2), COARSEST_PX);
+    } else if (this.lag < FAST_MS) {
+      if (!this.sharp && this.detail === 1) this.setSharp(true);
+      this.detail = Math.max(this.detail / 1.05, 1);
+    }
   }
 
   drawNames() {

@@ -6,7 +6,7 @@ import { Orbit } from "./orbit.js";
 import { Voxels } from "./voxels.js";
 
 const MOST_PIXELS = 2; // per CSS pixel
-const SLOW_MS = 60, FAST_MS = 22; // until a picture that was asked for is drawn
+const SLOW_MS = 90, FAST_MS = 22; // until a picture that was asked for is drawn
 const COARSEST_PX = 5;
 const FILLED = 0.88; // of the free part of the picture, when the whole map is shown
 

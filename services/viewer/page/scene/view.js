@@ -8,6 +8,7 @@ import { Voxels } from "./voxels.js";
 const MOST_PIXELS = 2; // per CSS pixel
 const SLOW_MS = 90, FAST_MS = 22; // until a picture that was asked for is drawn
 const COARSEST_PX = 5;
+const FEW = 100000; // voxels: so many are drawn sharp however slowly
 const FILLED = 0.88; // of the free part of the picture, when the whole map is shown
 
 const cornersOf = ({ min, max }) => Array.from({ length: 8 }, (_, i) => new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
@@ -164,8 +165,12 @@ export class View {
 
   /// Pictures that are slow to draw become coarser: fewer voxels, then fewer pixels. @param lag  of this one [ms].
   adapt(lag) {
-    this.lag += 0.2 * (lag - this.lag);
-    if (this.lag > SLOW_MS) {
+    const few = this.voxels.stats.voxels < FEW;
+    this.lag = few ? FAST_MS : this.lag + 0.2 * (lag - this.lag);
+    if (few) {
+      if (!this.sharp) this.setSharp(true);
+      this.detail = 1;
+    } else if (this.lag > SLOW_MS) {
       if (this.sharp && this.detail === COARSEST_PX) this.setSharp(false);
       this.detail = Math.min(this.detail * Math.min(Math.sqrt(this.lag / SLOW_MS), 2), COARSEST_PX);
     } else if (this.lag < FAST_MS) {

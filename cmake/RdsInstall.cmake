@@ -52,6 +52,11 @@ install(FILES services/viewer/foxglove/layout.json services/viewer/foxglove/rds.
 install(DIRECTORY ${CMAKE_BINARY_DIR}/lib/openvino DESTINATION ${RDS_PRIVATE}/lib COMPONENT services)
 if(TARGET rds_zenoh)
   install(FILES ${CMAKE_BINARY_DIR}/lib/librds_zenoh.so DESTINATION ${RDS_PRIVATE}/lib COMPONENT services)
+  install(CODE "
+    if(CMAKE_INSTALL_DO_STRIP)  # of files that are no targets CMake strips none
+      execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-unneeded \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${RDS_PRIVATE}/lib/librds_zenoh.so\"
+        COMMAND_ERROR_IS_FATAL ANY)
+    endif()" COMPONENT services)
 endif()
 install(FILES README.md DESTINATION share/doc/rds-slam COMPONENT services)
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# setup.sh [--ros] [--viewer] [--no-zenoh]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
+# setup.sh [--ros] [--viewer] [--docs] [--no-zenoh]: installs on Debian 12 what building, running and testing needs: Debian packages (packages.txt), PyPI packages
 # (requirements.txt) in .venv, and a network for the detector. What is there already is left alone.
 #
 # --no-zenoh  without the compiler and sources of Zenoh (100 MB), so --bus zenoh is left out of the build.
 # --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs, and readers of
 #             ROS 2's recordings in .venv-records, and other people's Zenoh in .venv-zenoh.
 # --viewer    also Chromium, Node.js and, in tests/viewer/node_modules, npm packages, for the tests of the viewer's page.
+# --docs      also mkdocs-material and doxygen, for the site of all documents (tools/docs.sh).
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -102,6 +103,15 @@ set_up_viewer() {
   echo "$wanted" >"$folder/node_modules/lock.sha256"
 }
 
+set_up_docs() {
+  if command -v mkdocs >/dev/null && command -v doxygen >/dev/null; then
+    say "the documents' site: all there"
+  else
+    say "the documents' site: installing mkdocs-material and doxygen"
+    install_packages mkdocs-material doxygen
+  fi
+}
+
 set_up_network() {
   local shared=${RDS_SHARED:+$RDS_SHARED/models/mobilenetv2_ssdlite_voc.onnx}
   if [ -n "$shared" ] && [ -f "$shared" ]; then
@@ -117,13 +127,15 @@ set_up_network() {
 
 with_ros=false
 with_viewer=false
+with_docs=false
 with_zenoh=true
 for option in "$@"; do
   case $option in
     --ros) with_ros=true ;;
     --viewer) with_viewer=true ;;
+    --docs) with_docs=true ;;
     --no-zenoh) with_zenoh=false ;;
-    *) fail "$option: expected --ros, --viewer, --no-zenoh or nothing" ;;
+    *) fail "$option: expected --ros, --viewer, --docs, --no-zenoh or nothing" ;;
   esac
 done
 check_system
@@ -133,3 +145,4 @@ set_up_network
 ! $with_zenoh || set_up_zenoh
 ! $with_ros || set_up_ros
 ! $with_viewer || set_up_viewer
+! $with_docs || set_up_docs

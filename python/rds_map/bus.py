@@ -15,6 +15,7 @@ _LOOPBACK = """<CycloneDDS><Domain Id="any"><General><Interfaces><NetworkInterfa
 <MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer Address="127.0.0.1"/></Peers></Discovery>
 </Domain></CycloneDDS>"""
 _AT_ONCE = 1000  # samples that one look takes
+_loopback_domains = {}  # by number: a process configures each once
 
 
 class Bus:
@@ -25,7 +26,8 @@ class Bus:
         @param loopback  this machine only, as `rds run` without --network is.
         """
         number = int(os.environ.get("ROS_DOMAIN_ID") or 0) if domain is None else domain
-        self._domain = Domain(number, _LOOPBACK) if loopback else None
+        if loopback and number not in _loopback_domains:
+            _loopback_domains[number] = Domain(number, _LOOPBACK)
         self._participant = DomainParticipant(number)
         self._prefix = "rt/" + (namespace.strip("/") + "/" if namespace.strip("/") else "")
 

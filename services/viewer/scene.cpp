@@ -109,14 +109,20 @@ void Scene::take(const State& state) {
   if (!tracker_.accept(state->instance(), state->map_epoch() == map_epoch_))
     return context_.diagnostics.reject(topics::kTrackingState.name, service::Rejection::kForeign,
                                        "another tracker");
-  if (state->map_epoch() != map_epoch_) forget_path();
+  if (state->map_epoch() != map_epoch_) {
+    forget_path();
+    submap_.clear();
+  }
   map_epoch_ = state->map_epoch();
-  auto frame = tracking_frame(*state);
   namespace States = rds_msgs::msg::TrackingState_Constants;
+  const bool is_in_submap = state->state() == States::SUBMAP;
+  auto frame = tracking_frame(*state, is_in_submap ? submap_.camera(*state) : std::nullopt);
   const auto& at = state->map_from_camera().position();
   constexpr std::array kPlaced{States::TRACKING, States::WEAK, States::RELOCALISED};
-  if (frame && std::ranges::find(kPlaced, state->state()) != kPlaced.end())
+  if (frame && std::ranges::find(kPlaced, state->state()) != kPlaced.end()) {
     board_.path.add(Eigen::Vector3d(at.x(), at.y(), at.z()).cast<float>());
+    if (submap_.leave()) show_submap();
+  }
   show(Kind::kTracking, topics::kTrackingState.name, std::move(frame));
   figures_.tracking_state = state->state();
   figures_.inliers = state->inliers();
@@ -128,14 +134,15 @@ void Scene::take(const State& state) {
 }
 
 void Scene::take(const Poses& poses) {
-  if (poses->source() == messages::kPosesOfTracker) return take_of_tracker(poses);
+  if (poses->source() == messages::kPosesOfTracker || poses->source() == messages::kPosesOfSubmap)
+    return take_of_tracker(poses);
   if (poses->source() != messages::kPosesOfLoopCloser) return;
   if (poses->map_epoch() != map_epoch_ && map_epoch_ != 0) return;
   figures_.loops_closed = poses->loops_closed();
   loops_.clear();
   for (std::size_t i = 0; i + 1 < poses->loops().size() && loops_.size() < kMostLoops; i += 2)
     loops_.push_back({poses->loops()[i], poses->loops()[i + 1]});
-  board_.put(Kind::kKeyframes, keyframes_frame(keyframes_.poses(), loops_));
+  board_.put(Kind::kKeyframes, keyframes_frame(Kind::kKeyframes, keyframes_.poses(), loops_));
 }
 
 void Scene::take_of_tracker(const Poses& poses) {
@@ -147,13 +154,18 @@ void Scene::take_of_tracker(const Poses& poses) {
   if (poses->map_epoch() != map_epoch_) {
     forget_path();
     keyframes_.clear();
+    submap_.clear();
     loops_.clear();
   }
   map_epoch_ = poses->map_epoch();
+  if (poses->source() == messages::kPosesOfSubmap) {
+    submap_.take(*poses, *converted);
+    return show_submap();
+  }
   if (!keyframes_.take(*poses, *converted)) return;  // the next message with all is on its way
   const auto all = keyframes_.poses();
   figures_.keyframes = static_cast<double>(all.size());
-  board_.put(Kind::kKeyframes, keyframes_frame(all, loops_));
+  board_.put(Kind::kKeyframes, keyframes_frame(Kind::kKeyframes, all, loops_));
 }
 
 void Scene::take(const Report& report) {

@@ -22,6 +22,7 @@
 #include "services/viewer/map_feed.hpp"
 #include "services/viewer/picture_feed.hpp"
 #include "services/viewer/scene_frames.hpp"
+#include "services/viewer/submap_view.hpp"
 #include "vision_msgs/msg/Detection3DArray.h"
 
 namespace rds::viewer {
@@ -63,6 +64,7 @@ class Scene {
   void take(const State& state);
   void take(const Poses& poses);
   void take_of_tracker(const Poses& poses);
+  void show_submap() { board_.put(Kind::kSubmap, keyframes_frame(Kind::kSubmap, submap_.keyframes(), {})); }
   void take(const Report& report);
 
   service::ServiceContext& context_;
@@ -72,6 +74,7 @@ class Scene {
   service::InstanceOwners owners_;
   std::uint64_t map_epoch_ = 0;
   messages::KeyframePoseTable keyframes_;
+  SubmapView submap_;
   std::vector<Loop> loops_;
   SceneFigures figures_;
   FrameTimes frame_times_;

@@ -75,13 +75,14 @@ void put_pose(map_file::ByteWriter& frame, const geometry::Pose& pose) {
 
 }  // namespace
 
-Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state) {
+Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state,
+                               const std::optional<geometry::Pose>& in_submap) {
   const auto map_from_camera = messages::to_pose(state.map_from_camera());
   if (!map_from_camera) return tl::unexpected(map_from_camera.error());
   return json_frame(Kind::kTracking,
                     {{"stamp_s", static_cast<double>(messages::to_nanoseconds(state.header().stamp())) / 1e9},
                      {"state", state.state()},
-                     {"pose", to_json(*map_from_camera)},
+                     {"pose", to_json(in_submap.value_or(*map_from_camera))},
                      {"frame", state.frame_index()},
                      {"features", state.features()},
                      {"dynamic", state.dynamic_features()},
@@ -145,8 +146,9 @@ Expected<Bytes> grid_frame(const nav_msgs::msg::OccupancyGrid& grid) {
   return frame.take();
 }
 
-Bytes keyframes_frame(std::span<const geometry::KeyframePose> keyframes, std::span<const Loop> loops) {
-  auto frame = begin_frame(Kind::kKeyframes);
+Bytes keyframes_frame(Kind kind, std::span<const geometry::KeyframePose> keyframes,
+                      std::span<const Loop> loops) {
+  auto frame = begin_frame(kind);
   frame.put(static_cast<std::uint32_t>(keyframes.size()));
   frame.put(static_cast<std::uint32_t>(loops.size()));
   for (const auto& keyframe : keyframes) {

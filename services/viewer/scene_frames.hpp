@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,14 +24,18 @@ namespace rds::viewer {
 
 using messages::Expected;
 
-Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state);
+/// @param in_submap  the camera's pose there, in place of that in the map.
+Expected<Bytes> tracking_frame(const rds_msgs::msg::TrackingState& state,
+                               const std::optional<geometry::Pose>& in_submap = std::nullopt);
 Expected<Bytes> boxes_frame(const rds_msgs::msg::PredictedBoxes& boxes);
 Expected<Bytes> objects_frame(const vision_msgs::msg::Detection3DArray& objects);
 Expected<Bytes> grid_frame(const nav_msgs::msg::OccupancyGrid& grid);
 
 /// Ids of two keyframes that a loop was closed between, the later one first.
 using Loop = std::array<std::uint64_t, 2>;
-Bytes keyframes_frame(std::span<const geometry::KeyframePose> keyframes, std::span<const Loop> loops);
+/// @param kind  of keyframes, or of those of a submap, which has no loops.
+Bytes keyframes_frame(Kind kind, std::span<const geometry::KeyframePose> keyframes,
+                      std::span<const Loop> loops);
 
 Bytes camera_frame(const geometry::CameraModel& camera);
 /// @param labels  the map's label table; index 0 is "".

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // page.mjs URL FOLDER: opens the viewer's page in Chromium, prints its figures as JSON for each line on standard input
-// ("stats"), takes a screenshot ("shot NAME WIDTH HEIGHT HASH") and ends with standard input. Errors of the page go into the figures.
+// ("stats"), takes a screenshot ("shot NAME WIDTH HEIGHT HASH"), turns the view ("turn SECONDS") and ends with standard input. Errors of the page go into the figures.
 import { createInterface } from "node:readline";
 import { chromium } from "playwright-core";
 
@@ -33,6 +33,13 @@ const commands = {
     await page.screenshot({ path: `${folder}/${name}.png` });
     return { shot: name };
   },
+  turn: async (seconds) => page.evaluate(async (ms) => { // pictures a second while the view turns
+    const { view } = window.rds;
+    const end = performance.now() + ms, before = view.pictures;
+    const step = (shown) => (view.orbit.turn(0.01, 0), performance.now() < end ? requestAnimationFrame(() => step(shown)) : shown());
+    await new Promise(step);
+    return +((1000 * (view.pictures - before)) / ms).toFixed(1);
+  }, 1000 * seconds),
   key: async (name) => ({ key: await page.keyboard.press(name) }),
   eval: async (...code) => ({ value: await page.evaluate(code.join(" ")) }),
 };

@@ -32,6 +32,7 @@ PROGRAMS, RECORDING, PICTURES = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1), 
 MODULES = FOLDER / "node_modules"
 CLIENTS, STOPPED = 20, 5
 FRAMES = int(os.environ.get("RDS_VIEWER_FRAMES", "120"))
+SHORT = FRAMES // 2
 DOMAIN = os.environ.get("RDS_VIEWER_DOMAIN", "88")
 RECORDED = ["rds/odometry", "tf", "rds/map/grid", "rds/map/points", "rds/tracking_state"]
 LIMIT_S = 120
@@ -118,9 +119,9 @@ class Viewer(unittest.TestCase):
 
     # ---- a run
 
-    def start_run(self, rate="max"):
+    def start_run(self, rate="max", vendor="fastdds", frames=FRAMES):
         out = self.folder / "out"
-        run = self.start("run", PROGRAMS / "rds", "run", RECORDING, "--out", out, "--rate", rate, "--frames", FRAMES, "--domain", DOMAIN, f"--view={self.port}", "--view-keep")
+        run = self.start("run", PROGRAMS / "rds", "run", RECORDING, "--out", out, "--rate", rate, "--frames", frames, "--bus", vendor, "--domain", DOMAIN, f"--view={self.port}", "--view-keep")
         wait_for(lambda: "the page: " in self.log("run") or run.poll() is not None, "the page")
         self.assertIsNone(run.poll(), self.log("run"))
         return run, out
@@ -174,11 +175,22 @@ class Viewer(unittest.TestCase):
         run.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(30), 0, self.log("run"))
 
-    def test_browser_and_foxglove(self):
+    def test_browser_and_foxglove_on_fast_dds(self):
+        self.check_browser_and_foxglove("fastdds")
+
+    def test_browser_and_foxglove_on_cyclone_dds(self):
+        self.check_browser_and_foxglove("cyclonedds", SHORT)
+
+    def test_browser_and_foxglove_on_zenoh(self):
+        if "Zenoh" not in subprocess.run([PROGRAMS / "rds", "--version"], capture_output=True, text=True, check=True).stdout:
+            self.skipTest("built without Zenoh")
+        self.check_browser_and_foxglove("zenoh", SHORT)
+
+    def check_browser_and_foxglove(self, vendor, frames=FRAMES):
         self.need_node()
         recorded = self.folder / "bag.db3"
-        record = self.start("record", PROGRAMS / "rds", "record", recorded, *RECORDED, "--domain", DOMAIN, "--loopback")
-        run, out = self.start_run("0.25")  # so that the page is there before the run is over, however slowly it is drawn
+        record = self.start("record", PROGRAMS / "rds", "record", recorded, *RECORDED, "--bus", vendor, "--domain", DOMAIN, "--loopback")
+        run, out = self.start_run("0.25", vendor, frames)  # so that the page is there before the run is over, however slowly it is drawn
         page = self.child("node", FOLDER / "page.mjs", self.url, PICTURES)
         programs = {name: self.child("node", FOLDER / "foxglove.mjs", f"ws://127.0.0.1:{self.port}", name) for name in ("foxglove.sdk.v1", "foxglove.websocket.v1")}
         for program in programs.values():
@@ -205,8 +217,9 @@ class Viewer(unittest.TestCase):
         self.assertGreater(boxes, 0, "nobody passed")
         self.assertTrue(pictures)
         self.assertEqual(int(stats["keyframes"]), sum(not line.startswith("#") for line in (out / "keyframes.txt").read_text().splitlines()))
-        page.ask("shot page 1440 900")
-        page.ask("shot phone 390 780 color=label&layers=voxels,path,camera,objects,names")
+        page.ask(f"shot {vendor} 1440 900")
+        if vendor == "fastdds":
+            page.ask("shot phone 390 780 color=label&layers=voxels,path,camera,objects,names")
         self.assertEqual(page.ask("stats")["errors"], [])
         record.send_signal(signal.SIGINT)
         record.wait(30)

@@ -10,6 +10,7 @@ import { COLORS } from "./scene/voxels.js";
 import { View } from "./scene/view.js";
 
 const STATES = [["starting", "none"], ["tracking", "good"], ["weak", "warn"], ["lost", "bad"], ["relocalised", "good"], ["beside the map", "warn"]]; // as in TrackingState
+const IN_MAP = [1, 2, 4], IN_SUBMAP = 5;
 const SILENT_MS = 3000; // without a frame of the camera: no longer live
 const ADDRESS_MS = 400;
 const NARROW = matchMedia("(max-width: 720px)");
@@ -67,7 +68,8 @@ const listener = {
     silence = setTimeout(() => setState("no camera", "none"), SILENT_MS);
     byId("stat-frame").textContent = `${tracking.total_ms.toFixed(1)} ms`;
     byId("stat-inliers").textContent = tracking.inliers.toFixed(0);
-    if (tracking.state === 1 || tracking.state === 2 || tracking.state === 4) view.setPose(tracking.pose);
+    if (IN_MAP.includes(tracking.state)) view.setPose(tracking.pose);
+    else if (tracking.state === IN_SUBMAP && view.layers.submap.size) view.setPoseInSubmap(tracking.pose);
     plots.add(tracking);
   },
   camera(camera) {
@@ -82,6 +84,9 @@ const listener = {
     byId("stat-keyframes").textContent = told.keyframes.size;
     byId("stat-loops").textContent = told.loops.length;
     view.changed();
+  },
+  submap(told) {
+    view.setSubmap(told);
   },
   boxes(boxes) {
     picture.boxes = boxes;
@@ -222,4 +227,4 @@ connection = new Connection(listener);
 connection.wantsPicture = settings.layers.has("picture");
 
 /// For tests and for who is curious: what is shown now.
-window.rds = { view, picture, get stats() { return { ...view.voxels.stats, connected: seen.connected, pictures: view.pictures, path: view.layers.pathLength, boxes: view.layers.boxes.length, objects: view.layers.objects.length, labels: labels.length, keyframes: byId("stat-keyframes").textContent, picture: picture.shown ?? false }; } };
+window.rds = { view, picture, get stats() { return { ...view.voxels.stats, connected: seen.connected, pictures: view.pictures, path: view.layers.pathLength, boxes: view.layers.boxes.length, objects: view.layers.objects.length, labels: labels.length, keyframes: byId("stat-keyframes").textContent, picture: picture.shown ?? false, submap: view.layers.submap.size }; } };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binary frames, as services/viewer/FRAMES.md says.
 
-export const KIND = { hello: 1, map: 2, tracking: 3, path: 4, keyframes: 5, boxes: 6, objects: 7, grid: 8, picture: 9, services: 10, reply: 11, labels: 12, camera: 13 };
+export const KIND = { hello: 1, map: 2, tracking: 3, path: 4, keyframes: 5, boxes: 6, objects: 7, grid: 8, picture: 9, services: 10, reply: 11, labels: 12, camera: 13, submap: 14 };
 const NAMES = Object.fromEntries(Object.entries(KIND).map(([name, kind]) => [kind, name]));
 const HEADER = 8;
 const VERSION = 1;
@@ -48,7 +48,7 @@ function readPicture(view, buffer) {
   return picture;
 }
 
-const READERS = { [KIND.map]: readMap, [KIND.path]: readPath, [KIND.keyframes]: readKeyframes, [KIND.grid]: readGrid, [KIND.picture]: readPicture };
+const READERS = { [KIND.map]: readMap, [KIND.path]: readPath, [KIND.keyframes]: readKeyframes, [KIND.submap]: readKeyframes, [KIND.grid]: readGrid, [KIND.picture]: readPicture };
 
 /// [name of the kind, what it tells]; null for another version or kind.
 export function readFrame(buffer) {

@@ -56,7 +56,7 @@ class Follow:
         self.poses = 0
         self.examples = {name: subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
                          for name, command in EXAMPLES.items()}
-        run = subprocess.Popen([RDS, "run", RECORDING, "--out", out, "--domain", str(DOMAIN), "--bus", vendor, "--frames", "150"],
+        run = subprocess.Popen([RDS, "run", RECORDING, "--out", out, "--domain", str(DOMAIN), "--bus", vendor, "--frames", "100"],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         while run.poll() is None:
             self.look(bus)
@@ -126,6 +126,9 @@ class LiveMapTest(unittest.TestCase):
 
     def test_follows_fast_dds(self):
         self.check("fastdds")
+
+    def test_follows_cyclone_dds(self):
+        self.check("cyclonedds")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pages of the site: settings as their YAML says them, dead links found, folders led to their READMEs."""
+"""The pages of the site: settings as their YAML says them, messages as their IDL does, dead links found, folders led to their READMEs."""
 import pathlib
 import sys
 import tempfile
@@ -7,6 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/docs"))
+import idl_comments  # noqa: E402
 import links  # noqa: E402
 import pages  # noqa: E402
 import settings  # noqa: E402
@@ -34,6 +35,12 @@ class Docs(unittest.TestCase):
             yaml = (ROOT / f"services/{service}/{service}.yaml").read_text(encoding="utf-8")
             keys = [line for line in yaml.splitlines() if line.strip() and not line.lstrip().startswith(("#", "-"))]
             self.assertEqual(len(list(settings.rows(yaml))), len(keys), service)
+
+    def test_what_an_idl_says_of_a_message_and_its_members_reaches_doxygen(self):
+        idl = ["// SPDX-License-Identifier: Apache-2.0", "// What it is,", "// and what not.", "#ifndef X", "struct X {",
+               "  uint64 n;  // [m]", "             // and more", "};"]
+        self.assertEqual(list(idl_comments.for_doxygen("\n".join(idl))), [
+            "#ifndef X", "/** What it is, and what not. */", "struct X {", "  uint64 n;  ///< [m]", "             ///< and more", "};"])
 
     def test_links_that_lead_nowhere_are_found(self):
         with tempfile.TemporaryDirectory() as place:

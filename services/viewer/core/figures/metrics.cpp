@@ -46,7 +46,7 @@ void write_processes(MetricsText& metrics, const ServiceTable& services, double 
 }
 
 void write_latencies(MetricsText& metrics, const ServiceTable& services) {
-  metrics.begin("rds_stage_seconds", "gauge", "Duration of a stage over its last 512 times");
+  metrics.begin("rds_stage_seconds", "summary", "Duration of a stage over its last 512 times");
   for (const auto& [service, entry] : services.entries())
     for (const auto& [stage, latency] : entry.figures.latencies) {
       metrics.add(latency.p50_ms / 1e3, {{"service", service}, {"stage", stage}, {"quantile", "0.5"}});
@@ -75,8 +75,8 @@ void write_scene(MetricsText& metrics, const SceneFigures& scene) {
     metrics.begin(name, type, help);
     metrics.add(value);
   };
-  one("rds_tracking_state", "gauge", "0 not initialized, 1 tracking, 2 weak, 3 lost, 4 relocalised",
-      scene.tracking_state);
+  one("rds_tracking_state", "gauge",
+      "0 not initialized, 1 tracking, 2 weak, 3 lost, 4 relocalised, 5 in a submap", scene.tracking_state);
   one("rds_inliers", "gauge", "Map points that support the newest frame's pose", scene.inliers);
   one("rds_features", "gauge", "Features of the newest frame", scene.features);
   one("rds_dynamic_features", "gauge", "Of these, on movable objects", scene.dynamic_features);

@@ -33,8 +33,9 @@ enum class Kind : std::uint8_t {
   kReply = 11,     // JSON, a service's answer to a command
   kLabels = 12,    // JSON
   kCamera = 13,    // JSON, intrinsics
+  kSubmap = 14,    // poses of keyframes that have no place in the map
 };
-inline constexpr std::size_t kKinds = 14;  // with the 0 that none has
+inline constexpr std::size_t kKinds = 15;  // with the 0 that none has
 
 /// The header, to which the payload is appended.
 inline map_file::ByteWriter begin_frame(Kind kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Spherical, Vector3 } from "../vendor/three/three.module.js";
+import { Box3, Spherical, Vector3 } from "../vendor/three/three.module.js";
 
 const TURN_PER_PIXEL = 0.006; // rad
 const ZOOM_PER_NOTCH = 1.12;
@@ -91,6 +91,19 @@ export class Orbit {
     this.wanted.target.copy(target);
     if (radius) this.wanted.angle.radius = radius;
     this.changed();
+  }
+
+  /// Looks so that all points are seen, from the direction in which it looks. @param tangents  of half the angle of view, across and up.
+  lookAtAll(points, tangents) {
+    const { phi, theta } = this.wanted.angle;
+    const back = new Vector3(Math.sin(phi) * Math.cos(theta), Math.sin(phi) * Math.sin(theta), Math.cos(phi));
+    const right = new Vector3(-Math.sin(theta), Math.cos(theta), 0), up = new Vector3().crossVectors(back, right);
+    const middle = new Box3().setFromPoints(points).getCenter(new Vector3());
+    const away = points.map((point) => {
+      const p = point.clone().sub(middle);
+      return p.dot(back) + Math.max(Math.abs(p.dot(right)) / tangents[0], Math.abs(p.dot(up)) / tangents[1]);
+    });
+    this.lookAt(middle, Math.max(...away, 1));
   }
 
   /// Towards what is wanted. @returns whether it still moves.

@@ -6,6 +6,12 @@ import { Orbit } from "./orbit.js";
 import { Voxels } from "./voxels.js";
 
 const MOST_PIXELS = 2; // per CSS pixel
+const SLOW_MS = 90, FAST_MS = 22; // until a picture that was asked for is drawn
+const COARSEST_PX = 5;
+const FEW = 100000; // voxels: so many are drawn sharp however slowly
+const FILLED = 0.88; // of the free part of the picture, when the whole map is shown
+
+const cornersOf = ({ min, max }) => Array.from({ length: 8 }, (_, i) => new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
 const BACKGROUND = { dark: "#0f151d", light: "#eef1f4" };
 const FLOOR = { dark: ["#33404e", "#212b36"], light: ["#c2ccd5", "#dce2e8"] };
 
@@ -14,7 +20,7 @@ export class View {
   constructor(canvas, names) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS));
+    this.setSharp(true);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(50, 1, 0.05, 200);
     this.camera.up.set(0, 0, 1);
@@ -26,6 +32,8 @@ export class View {
     this.labels = new Labels(names);
     this.follows = false;
     this.pictures = 0;
+    this.detail = 1; // least side of a voxel that is drawn [px]: grows where drawing is slow
+    this.lag = FAST_MS; // mean [ms]
     this.inset = 0;
     this.orbit = new Orbit(this.camera, canvas, () => this.changed());
     this.hidden = new Set();
@@ -52,6 +60,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, this.inset / 2, 0, width, height);
+    this.fit(true);
     this.changed();
   }
 
@@ -72,7 +81,7 @@ export class View {
   }
 
   setLayer(name, shown) {
-    const objects = { voxels: [this.voxels.group], path: [this.layers.path], keyframes: [this.layers.keyframes, this.layers.loops], camera: [this.layers.frustum], moving: [this.layers.moving], objects: [this.layers.objectBoxes], grid: [this.layers.grid], floor: [this.floor], names: [] }[name];
+    const objects = { voxels: [this.voxels.group], path: [this.layers.path], keyframes: [this.layers.keyframes, this.layers.loops, this.layers.submap], camera: [this.layers.frustum], moving: [this.layers.moving], objects: [this.layers.objectBoxes], grid: [this.layers.grid], floor: [this.floor], names: [] }[name];
     for (const object of objects) object.visible = shown;
     if (shown) this.hidden.delete(name);
     else this.hidden.add(name);
@@ -89,22 +98,35 @@ export class View {
     this.changed();
   }
 
+  setPoseInSubmap(pose) {
+    this.layers.setPoseInSubmap(pose);
+    this.changed();
+  }
+
+  setSubmap(told) {
+    this.layers.setSubmap(told, this.voxels.box());
+    this.fit(true);
+    this.changed();
+  }
+
   /// Shows the whole map. @param onlyIfUntouched  the user has not chosen a view.
   fit(onlyIfUntouched = false) {
     if (onlyIfUntouched && (this.orbit.touched || this.follows)) return;
     const box = this.voxels.box();
     if (box.isEmpty()) return;
     if (this.layers.pose) box.expandByPoint(new Vector3(...this.layers.pose.slice(0, 3)));
-    const radius = box.getSize(new Vector3()).length() / 2;
-    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.68 / Math.min(1, this.camera.aspect);
-    this.orbit.lookAt(this.world(box.getCenter(new Vector3())), Math.max(distance, 1));
+    const { submap } = this.layers;
+    if (submap.size) box.union(submap.around.clone().translate(submap.position));
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    this.orbit.lookAtAll(cornersOf(box).map((corner) => this.world(corner)), [(tangent * (width - this.inset) * FILLED) / height, tangent * FILLED]);
   }
 
   heights() {
     const box = this.voxels.box();
     if (box.isEmpty()) return;
     const up = this.up();
-    const along = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => up.dot(new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z)));
+    const along = cornersOf(box).map((corner) => up.dot(corner));
     this.voxels.setHeights(this.floorZ ?? Math.min(...along), Math.max(...along));
   }
 
@@ -116,6 +138,7 @@ export class View {
   changed() {
     if (this.due) return;
     this.due = true;
+    this.asked = performance.now();
     requestAnimationFrame((now) => this.draw(now));
   }
 
@@ -126,11 +149,34 @@ export class View {
     const still = !this.orbit.advance(seconds, matchMedia("(prefers-reduced-motion: reduce)").matches);
     this.camera.updateMatrixWorld();
     this.root.updateMatrixWorld();
-    this.voxels.prepare(this.camera.position.clone().applyQuaternion(this.root.quaternion.clone().invert()), this.up());
+    this.adapt(now - this.asked);
+    const pixels = (this.renderer.domElement.height / 2) * this.camera.projectionMatrix.elements[5];
+    this.voxels.prepare(this.camera.position.clone().applyQuaternion(this.root.quaternion.clone().invert()), pixels, this.detail);
     this.renderer.render(this.scene, this.camera);
     this.drawNames();
     ++this.pictures;
-    if (!still) this.changed();
+    if (!still || (this.detail > 1 && this.lag < FAST_MS)) this.changed(); // finer, as long as it is fast
+  }
+
+  setSharp(sharp) {
+    this.sharp = sharp;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS) * (sharp ? 1 : 0.5));
+  }
+
+  /// Pictures that are slow to draw become coarser: fewer voxels, then fewer pixels. @param lag  of this one [ms].
+  adapt(lag) {
+    const few = this.voxels.stats.voxels < FEW;
+    this.lag = few ? FAST_MS : this.lag + 0.2 * (lag - this.lag);
+    if (few) {
+      if (!this.sharp) this.setSharp(true);
+      this.detail = 1;
+    } else if (this.lag > SLOW_MS) {
+      if (this.sharp && this.detail === COARSEST_PX) this.setSharp(false);
+      this.detail = Math.min(this.detail * Math.min(Math.sqrt(this.lag / SLOW_MS), 2), COARSEST_PX);
+    } else if (this.lag < FAST_MS) {
+      if (!this.sharp && this.detail === 1) this.setSharp(true);
+      this.detail = Math.max(this.detail / 1.05, 1);
+    }
   }
 
   drawNames() {

@@ -1,64 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, BufferAttribute, DataTexture, DoubleSide, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, RGBAFormat, ShaderMaterial, Sphere, UnsignedByteType, Vector3 } from "../vendor/three/three.module.js";
+import { Box3, BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, NearestFilter, Points, RGBAFormat, ShaderMaterial, Sphere, UnsignedByteType, Vector3 } from "../vendor/three/three.module.js";
+import { CORNER, CUBE, INDEX, SQUARE } from "./voxel_shaders.js";
 
 const SIDE = 32; // voxels of a chunk, as the frames have them
 const MIDDLE = 32768; // key of the map's origin
 const LABELS = 4096; // of a table at most
+const ABOVE = 1 << 15; // of a place: there is a voxel above
+const LAYER = SIDE * SIDE;
+const CUBE_PX = 3; // voxels of less are squares
 export const COLORS = ["picture", "label", "height", "certainty"];
 
-// Three faces that meet in a corner: of a cube no more can be seen. The shader mirrors them towards the eye.
-const CORNER = new Float32Array([1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, -1, 1, -1, -1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1]);
-const INDEX = [0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11];
+const occupied = new Uint8Array(SIDE * LAYER); // of the chunk that is looked at
+const RANKS = 256;
 
-const VERTEX = `
-  attribute vec4 voxel;  // place, red + 256 green, blue + 256 certainty, label
-  uniform vec3 origin;   // of the chunk, in the map [m]
-  uniform float side;    // of a voxel [m]
-  uniform vec3 eye;      // in the map [m]
-  uniform vec3 up;       // in the map
-  uniform vec2 heights;  // lowest, highest [m]
-  uniform int mode;
-  uniform float dimmed;  // label that alone is bright, or -1
-  uniform sampler2D labels;
-  varying vec3 tone;
-  varying vec2 face;
-  vec3 ramp(float t) {  // viridis, by a polynomial
-    const vec3 a = vec3(0.2777, 0.0054, 0.3341), b = vec3(0.1051, 1.4046, 1.3846), c = vec3(-0.3309, 0.2148, 0.0951), d = vec3(-4.6342, -5.7991, -19.3324), e = vec3(6.2283, 14.1799, 56.6906), f = vec3(4.7764, -13.7451, -65.3530), g = vec3(-5.4355, 4.6459, 26.3124);
-    return clamp(a + t * (b + t * (c + t * (d + t * (e + t * (f + t * g))))), 0.0, 1.0);
+/// Of each place a rank: the places below any rank are spread evenly over the chunk, and over each plane in it. Source: the sequence R3 of
+/// Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018).
+const RANK = Uint8Array.from({ length: SIDE * LAYER }, (_, place) => (((place & 31) * 0.8191725134 + ((place >> 5) & 31) * 0.6710436067 + (place >> 10) * 0.5497004779) % 1) * RANKS);
+
+/// The rows by rank, so that each beginning of them stands for all. Each is told whether there is a voxel above; in the highest layer,
+/// where that is in another chunk, as for the voxel below.
+function arranged(voxels) {
+  const starts = new Uint32Array(RANKS + 1);
+  for (let i = 0; i < voxels.length; i += 4) {
+    occupied[voxels[i]] = 1;
+    ++starts[RANK[voxels[i]] + 1];
   }
-  void main() {
-    vec3 cell = vec3(mod(voxel.x, 32.0), mod(floor(voxel.x / 32.0), 32.0), floor(voxel.x / 1024.0));
-    vec3 center = origin + (cell + 0.5) * side;
-    vec3 towards = sign(eye - center);
-    vec3 normal = gl_VertexID < 4 ? vec3(towards.x, 0.0, 0.0) : gl_VertexID < 8 ? vec3(0.0, towards.y, 0.0) : vec3(0.0, 0.0, towards.z);
-    face = gl_VertexID < 4 ? position.yz : gl_VertexID < 8 ? position.xz : position.xy;
-    vec3 color = vec3(mod(voxel.y, 256.0), floor(voxel.y / 256.0), mod(voxel.z, 256.0)) / 255.0;
-    float certainty = floor(voxel.z / 256.0) / 255.0;
-    if (mode == 1) {
-      vec3 of_label = texture2D(labels, vec2((mod(voxel.w, 64.0) + 0.5) / 64.0, (floor(voxel.w / 64.0) + 0.5) / 64.0)).rgb;
-      color = voxel.w > 0.5 ? of_label : mix(vec3(0.62, 0.65, 0.69), vec3(dot(color, vec3(0.3, 0.59, 0.11))), 0.45);
-    } else if (mode == 2) {
-      color = ramp(clamp((dot(center, up) - heights.x) / max(heights.y - heights.x, 1e-3), 0.0, 1.0));
-    } else if (mode == 3) {
-      color = ramp(certainty);
-    }
-    if (dimmed >= 0.0 && abs(voxel.w - dimmed) > 0.5) color = mix(color, vec3(dot(color, vec3(0.33))), 0.85) * 0.5;
-    float light = 0.80 + 0.20 * dot(normal, up) + 0.07 * dot(normal, normalize(vec3(0.8, 0.35, 0.5)));
-    tone = color * light;
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(center + position * towards * (0.5 * side), 1.0);
-  }`;
+  for (let rank = 0; rank < RANKS; ++rank) starts[rank + 1] += starts[rank];
+  const rows = new Uint32Array(voxels.buffer), out = new Uint32Array(rows.length);
+  for (let i = 0; i < rows.length; i += 2) {
+    const place = voxels[2 * i], to = 2 * starts[RANK[place]]++;
+    const above = place + LAYER < occupied.length ? occupied[place + LAYER] : occupied[place - LAYER];
+    out[to] = rows[i] | (above ? ABOVE : 0);
+    out[to + 1] = rows[i + 1];
+  }
+  for (let i = 0; i < voxels.length; i += 4) occupied[voxels[i]] = 0;
+  return new Uint16Array(out.buffer);
+}
 
-const FRAGMENT = `
-  varying vec3 tone;
-  varying vec2 face;
-  void main() {
-    vec2 width = fwidth(face) * 1.1;
-    vec2 edge = smoothstep(vec2(1.0) - width, vec2(1.0), abs(face));
-    float near = 1.0 - smoothstep(0.08, 0.3, max(width.x, width.y));  // far voxels are smaller than a line
-    gl_FragColor = vec4(tone * (1.0 - 0.22 * near * max(edge.x, edge.y)), 1.0);
-  }`;
+/// Around a chunk's voxels, from its corner [m].
+function boundsOf(voxels, side) {
+  let low = SIDE * LAYER - 1, high = 0; // z is in a place's highest bits
+  let [lowX, lowY, highX, highY] = [SIDE, SIDE, 0, 0];
+  for (let i = 0; i < voxels.length; i += 4) {
+    const place = voxels[i], x = place & 31, y = (place >> 5) & 31;
+    if (place < low) low = place;
+    if (place > high) high = place;
+    if (x < lowX) lowX = x;
+    if (x > highX) highX = x;
+    if (y < lowY) lowY = y;
+    if (y > highY) highY = y;
+  }
+  return new Box3(new Vector3(lowX, lowY, low >> 10).multiplyScalar(side), new Vector3(highX + 1, highY + 1, (high >> 10) + 1).multiplyScalar(side));
+}
 
-/// The map's voxels: a mesh for each chunk, whose instances are the frame's rows as they came.
+/// The map's voxels: two meshes for each chunk, of which the nearer ones show cubes, the others squares.
 export class Voxels {
   constructor() {
     this.group = new Group();
@@ -66,23 +61,26 @@ export class Voxels {
     this.labels = new DataTexture(new Uint8Array(LABELS * 4).fill(160), 64, 64, RGBAFormat, UnsignedByteType);
     this.labels.minFilter = this.labels.magFilter = NearestFilter;
     this.labels.needsUpdate = true;
-    this.shared = { eye: { value: new Vector3() }, up: { value: new Vector3(0, -1, 0) }, heights: { value: [0, 1] }, side: { value: 0.05 }, mode: { value: 0 }, dimmed: { value: -1 }, labels: { value: this.labels } };
+    const values = { heights: [0, 1], side: 0.05, mode: 0, dimmed: -1, labels: this.labels, pixels: 1, least: 1 };
+    this.shared = Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }]));
+    this.cube = new ShaderMaterial({ ...CUBE, side: DoubleSide, uniforms: this.shared });
+    this.square = new ShaderMaterial({ ...SQUARE, uniforms: this.shared });
     this.corner = new BufferAttribute(CORNER, 3);
     this.generation = null;
     this.clear();
   }
 
   clear() {
-    for (const { mesh } of this.chunks.values()) this.drop(mesh);
+    for (const chunk of this.chunks.values()) this.drop(chunk);
     this.chunks.clear();
     this.stats = { voxels: 0, keySum: 0, revision: 0, complete: false, labelled: 0 };
   }
 
-  drop(mesh) {
-    if (!mesh) return;
-    this.group.remove(mesh);
-    mesh.geometry.dispose();
-    mesh.material.dispose();
+  drop({ meshes }) {
+    for (const mesh of meshes) {
+      this.group.remove(mesh);
+      mesh.geometry.dispose();
+    }
   }
 
   /// Takes a frame of the map.
@@ -98,9 +96,9 @@ export class Voxels {
   put({ key, count, voxels }) {
     const name = key.join();
     const before = this.chunks.get(name);
+    if (before) this.drop(before);
     for (const figure of ["voxels", "keySum", "labelled"]) this.stats[figure] -= before?.[figure] ?? 0;
-    if (!count) this.drop(before?.mesh);
-    const chunk = { voxels: count, ...this.sums(key, voxels), mesh: count ? this.mesh(key, voxels, before?.mesh) : null };
+    const chunk = { voxels: count, ...this.sums(key, voxels), ...this.draw(key, voxels) };
     for (const figure of ["voxels", "keySum", "labelled"]) this.stats[figure] += chunk[figure];
     this.chunks.set(name, chunk);
   }
@@ -115,27 +113,28 @@ export class Voxels {
     return { keySum, labelled };
   }
 
-  /// @param before  the mesh of this chunk until now, which is used again.
-  mesh(key, voxels, before) {
-    const size = SIDE * this.resolution;
-    const origin = new Vector3(...key).multiplyScalar(SIDE).subScalar(MIDDLE).multiplyScalar(this.resolution);
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", this.corner);
-    geometry.setIndex(INDEX);
-    geometry.setAttribute("voxel", new InstancedBufferAttribute(voxels, 4));
-    geometry.instanceCount = voxels.length / 4;
-    geometry.boundingBox = new Box3(origin.clone(), origin.clone().addScalar(size));
-    geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
-    if (before) {
-      before.geometry.dispose();
-      before.geometry = geometry;
-      return before;
+  /// @returns the chunk's two meshes, and its place in the map.
+  draw(key, voxels) {
+    if (!voxels.length) return { meshes: [], box: new Box3() };
+    const corner = new Vector3(...key).multiplyScalar(SIDE).subScalar(MIDDLE).multiplyScalar(this.resolution);
+    const rows = arranged(voxels);
+    const cubes = new InstancedBufferGeometry();
+    cubes.setAttribute("position", this.corner);
+    cubes.setIndex(INDEX);
+    cubes.setAttribute("voxel", new InstancedBufferAttribute(rows, 4));
+    cubes.instanceCount = rows.length / 4;
+    const squares = new BufferGeometry();
+    squares.setAttribute("voxel", new BufferAttribute(rows, 4));
+    const inside = boundsOf(voxels, this.resolution);
+    const meshes = [new Mesh(cubes, this.cube), new Points(squares, this.square)];
+    for (const mesh of meshes) {
+      mesh.geometry.boundingSphere = inside.getBoundingSphere(new Sphere());
+      mesh.position.copy(corner);
+      mesh.updateMatrix();
+      mesh.matrixAutoUpdate = false;
+      this.group.add(mesh);
     }
-    const material = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide, uniforms: { ...this.shared, origin: { value: origin } } });
-    const mesh = new Mesh(geometry, material);
-    mesh.matrixAutoUpdate = false;
-    this.group.add(mesh);
-    return mesh;
+    return { meshes, box: inside.translate(corner) };
   }
 
   setLabels(labels) {
@@ -156,14 +155,24 @@ export class Voxels {
   /// Around all voxels, in the map.
   box() {
     const box = new Box3();
-    for (const { mesh } of this.chunks.values()) if (mesh) box.union(mesh.geometry.boundingBox);
+    for (const chunk of this.chunks.values()) box.union(chunk.box);
     return box;
   }
 
-  /// Before each picture. @param eye, up  in the map.
-  prepare(eye, up) {
-    this.shared.eye.value.copy(eye);
-    this.shared.up.value.copy(up);
+  /// Before each picture. @param eye  in the map. @param pixels  of 1 m at a distance of 1 m. @param detail  least side of what is drawn
+  /// [px]: of smaller voxels only some are, as many as are needed to fill their place.
+  prepare(eye, pixels, detail) {
+    this.shared.pixels.value = pixels;
+    this.shared.least.value = detail;
+    for (const { meshes, box } of this.chunks.values()) {
+      if (!meshes.length) continue;
+      const [cubes, squares] = meshes;
+      const size = (pixels * this.resolution) / Math.max(box.distanceToPoint(eye), 1e-3); // [px]
+      cubes.visible = size >= CUBE_PX * detail;
+      squares.visible = !cubes.visible;
+      const count = squares.geometry.attributes.voxel.count;
+      squares.geometry.setDrawRange(0, Math.ceil(count * Math.min(1, (size / detail) ** 2)));
+    }
   }
 
   setHeights(low, high) {

@@ -92,9 +92,9 @@ std::string short_type(const Row& row, const std::string& cell) {
   return cell.find('/') == std::string::npos ? type.substr(type.find('/') + 1) : type;
 }
 
-TEST(TopicTable, IsThatOfTheProjectsReadme) {
+TEST(TopicTable, IsThatOfThePageForRos2) {
   std::size_t found = 0;
-  for (const std::string& line : lines_of("README.md")) {
+  for (const std::string& line : lines_of("docs/ros2.md")) {
     if (!line.starts_with("| `/")) continue;
     std::istringstream cells(line);
     std::string cell;

@@ -121,7 +121,7 @@ TEST(SceneFrames, KeyframesStandInRowsOfFortyBytes) {
   std::vector<geometry::KeyframePose> keyframes(2);
   keyframes[1].id = 7;
   keyframes[1].map_from_camera.translation() = Eigen::Vector3d(1, 2, 3);
-  const Bytes frame = keyframes_frame(keyframes, std::vector<Loop>{{7, 0}});
+  const Bytes frame = keyframes_frame(Kind::kKeyframes, keyframes, std::vector<Loop>{{7, 0}});
   EXPECT_EQ(frame.size(), 8U + 8 + 2 * 40 + 16);
   test::FrameReader in(frame);
   EXPECT_EQ(in.kind(), Kind::kKeyframes);

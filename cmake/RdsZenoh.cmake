@@ -10,7 +10,7 @@ elseif(RDS_ZENOH)
   if(RDS_CARGO)
     set(library ${CMAKE_BINARY_DIR}/lib/librds_zenoh.so)
     set(zenoh ${PROJECT_SOURCE_DIR}/common/bus/zenoh)
-    file(GLOB sources CONFIGURE_DEPENDS ${zenoh}/crate/src/*.rs ${zenoh}/tls/*)
+    file(GLOB sources CONFIGURE_DEPENDS ${zenoh}/crate/src/*.rs ${zenoh}/tls/*.rs ${zenoh}/tls/*.sed)
     add_custom_command(OUTPUT ${library}
       COMMAND ${zenoh}/build_crate.sh ${RDS_CARGO} ${library}
       DEPENDS ${sources} ${zenoh}/crate/Cargo.toml ${zenoh}/crate/Cargo.lock ${zenoh}/build_crate.sh

@@ -30,7 +30,7 @@ lock_tls() {
 
 build() {
   local tls
-  tls=$cache/zenoh-link-tls-$(cat tls/* crate/Cargo.lock | hash_of)
+  tls=$cache/zenoh-link-tls-$(cat tls/*.rs tls/*.sed crate/Cargo.lock | hash_of)
   [ -d "$tls" ] || lock_tls "$tls"
   rm -rf "$cache/crate"
   cp -R crate "$cache/crate"
@@ -44,7 +44,7 @@ build() {
 mkdir -p "$cache" "$(dirname "$library")"
 exec {one_at_a_time}>"$cache/lock"
 flock "$one_at_a_time"
-kept=$cache/librds_zenoh-$({ rustc --version --verbose; cat build_crate.sh crate/Cargo.toml crate/Cargo.lock crate/src/*.rs tls/*; } | hash_of).so
+kept=$cache/librds_zenoh-$({ rustc --version --verbose; cat build_crate.sh crate/Cargo.toml crate/Cargo.lock crate/src/*.rs tls/*.rs tls/*.sed; } | hash_of).so
 [ -f "$kept" ] || build
 cp "$kept" "$library.$$"
 mv "$library.$$" "$library"

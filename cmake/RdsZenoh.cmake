@@ -9,11 +9,11 @@ elseif(RDS_ZENOH)
   find_program(RDS_CARGO cargo HINTS $ENV{HOME}/.cargo/bin)
   if(RDS_CARGO)
     set(library ${CMAKE_BINARY_DIR}/lib/librds_zenoh.so)
-    set(crate ${PROJECT_SOURCE_DIR}/common/bus/zenoh/crate)
-    file(GLOB sources CONFIGURE_DEPENDS ${crate}/src/*.rs)
+    set(zenoh ${PROJECT_SOURCE_DIR}/common/bus/zenoh)
+    file(GLOB sources CONFIGURE_DEPENDS ${zenoh}/crate/src/*.rs ${zenoh}/tls/*.rs ${zenoh}/tls/*.sed)
     add_custom_command(OUTPUT ${library}
-      COMMAND ${PROJECT_SOURCE_DIR}/common/bus/zenoh/build_crate.sh ${RDS_CARGO} ${library}
-      DEPENDS ${sources} ${crate}/Cargo.toml ${crate}/Cargo.lock ${PROJECT_SOURCE_DIR}/common/bus/zenoh/build_crate.sh
+      COMMAND ${zenoh}/build_crate.sh ${RDS_CARGO} ${library}
+      DEPENDS ${sources} ${zenoh}/crate/Cargo.toml ${zenoh}/crate/Cargo.lock ${zenoh}/build_crate.sh
       COMMENT "Zenoh: building librds_zenoh.so (minutes the first time)" VERBATIM)
     add_custom_target(rds_zenoh ALL DEPENDS ${library})
   else()

@@ -15,6 +15,9 @@ using rds_msgs::msg::KeyFrameFeatures;
 using rds_msgs::msg::KeyFrameImages;
 using Where = transfer::ItemClient::Where;
 
+/// The detector has the link for itself first: what the others make of a keyframe waits for its boxes.
+constexpr transfer::Time kHeadStart = std::chrono::milliseconds(60);
+
 template <class Message>
 constexpr bool kIsImages = std::is_same_v<Message, KeyFrameImages>;
 
@@ -50,7 +53,8 @@ KeyframeSource<Message>::KeyframeSource(service::ServiceContext& context, topics
            kIsImages<Message> ? transfer::Order::kNewest : transfer::Order::kNumber,
            {.item = [this](std::uint64_t epoch, const transfer::Item& item) { take(epoch, item); },
             .where = [this](Where where) { change_over(where); },
-            .has_room = std::move(has_room)}) {}
+            .has_room = std::move(has_room),
+            .gives_way = process == topics::kDetector ? transfer::Time{} : kHeadStart}) {}
 
 template <class Message>
 void KeyframeSource<Message>::change_over(Where where) {

@@ -21,6 +21,9 @@ const std::string kSwitch;  // its name among the hosts'
 const std::string kNsenter = "/usr/bin/nsenter";
 /// What waits at the slow side of a link, as in a card's queue of a thousand packets.
 constexpr const char* kQueue = "burst 64kb limit 1500kb";
+/// For the kernel's filter: an IPv4 frame that begins a TCP connection (SYN without ACK) is dropped.
+constexpr const char* kNoDialling =
+    "9,40 0 0 12,21 0 6 2048,48 0 0 23,21 0 4 6,48 0 0 47,84 0 0 18,21 0 1 2,6 0 0 2,6 0 0 0";
 
 /// A process that holds a network namespace of its own.
 std::unique_ptr<Process> hold_namespace() {
@@ -131,6 +134,11 @@ void HostNetwork::plug(const std::string& host) {
   const std::string& port = ports_.at(host);
   run(kSwitch, fmt::format("ip link set {0} master bridge0; bridge link set dev {0} mcast_flood {1}", port,
                            multicast_ ? "on" : "off"));
+}
+
+void HostNetwork::hide(const std::string& host) {
+  run(kSwitch, fmt::format("tc qdisc add dev to{0} clsact; tc filter add dev to{0} egress bpf da bytecode '{1}'", host,
+                           kNoDialling));
 }
 
 std::string HostNetwork::address(const std::string& host) const {

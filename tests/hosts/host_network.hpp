@@ -39,6 +39,8 @@ class HostNetwork {
   /// A host's link is pulled out at the switch, which nobody is told; and plugged in again.
   void unplug(const std::string& host);
   void plug(const std::string& host);
+  /// From now on a host can dial the others, but nobody can dial it, as behind NAT.
+  void hide(const std::string& host);
   [[nodiscard]] std::string address(const std::string& host) const;
 
  private:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -11,7 +10,11 @@
 namespace rds::test {
 namespace {
 
+#ifdef RDS_HAS_ZENOH
+constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds, bus::Vendor::kZenoh};
+#else
 constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds};
+#endif
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kLongS = 55;           // 5 before an absence of 20, 30 after it
 constexpr double kLongestS = 95;        // and of 60
@@ -32,6 +35,12 @@ std::vector<Row> kinds() {
                .bounds = {.p95_ms = kAny, .map_share = kAfterAbsence},
                .length_s = length_s};
   };
+  const auto routed = [](std::string name, Way way, Link link) {
+    return Row{.name = std::move(name), .link = link, .bounds = {.p95_ms = 500}, .has_multicast = false, .way = way};
+  };
+  Row no_router = absent("router_killed", {.host = "R", .kind = Absence::Kind::kNoRouter}, kLongS);
+  no_router.has_multicast = false;
+  no_router.way = Way::kRouters;
   return {rate("clean", 1000, {.p95_ms = 150}),
           rate("rate_100", 100, {.p95_ms = 200}),
           rate("rate_40", 40, {.p95_ms = 300}),
@@ -46,11 +55,27 @@ std::vector<Row> kinds() {
           absent("c_away", {.host = "C", .for_s = 10}, kLongS),
           absent("b_away", {.host = "B", .for_s = 20}, kLongS),
           absent("c_away_60", {.host = "C", .for_s = 60}, kLongestS),
-          absent("c_replaced", {.host = "C", .kind = Absence::Kind::kReplaced}, kLongS)};
+          absent("c_replaced", {.host = "C", .kind = Absence::Kind::kReplaced}, kLongS),
+          routed("router", Way::kRouter, {}),
+          routed("routers", Way::kRouters, {}),
+          routed("routers_rate_40_loss_1", Way::kRouters,
+                 {.rate_mbit = 40, .impairment = {.delay_ms = 3, .loss = 0.01}}),
+          no_router};
+}
+
+/// Routers are Zenoh's, which in turn does not go by multicast between machines.
+bool fits(const Row& row, bus::Vendor vendor) {
+  return vendor == bus::Vendor::kZenoh ? row.has_multicast || row.way != Way::kDirect : row.way == Way::kDirect;
+}
+
+Row of(Row row, bus::Vendor vendor) {
+  row.vendor = vendor;
+  row.has_multicast = row.has_multicast && vendor != bus::Vendor::kZenoh;
+  return row;
 }
 
 bool is_short(const Row& row) {
-  constexpr std::array kNames{"clean", "rate_40", "loss_1", "by_address", "c_away"};
+  constexpr std::array kNames{"clean", "rate_40", "loss_1", "by_address", "c_away", "routers"};
   return std::ranges::find(kNames, row.name) != kNames.end();
 }
 
@@ -77,8 +102,12 @@ std::vector<Row> one_machine_rows() {
 
 std::vector<Row> short_rows() {
   std::vector<Row> rows;
-  std::ranges::copy_if(kinds(), std::back_inserter(rows), is_short);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].vendor = kVendors[i % kVendors.size()];
+  std::size_t next = 0;
+  for (const Row& row : kinds()) {
+    if (!is_short(row) || std::ranges::none_of(kVendors, [&](auto vendor) { return fits(row, vendor); })) continue;
+    while (!fits(row, kVendors[next % kVendors.size()])) ++next;
+    rows.push_back(of(row, kVendors[next++ % kVendors.size()]));
+  }
   return rows;
 }
 
@@ -92,7 +121,8 @@ CoreRows core_rows(bus::Vendor vendor) {
 std::vector<Row> all_rows() {
   std::vector<Row> rows;
   for (const bus::Vendor vendor : kVendors)
-    for (Row& row : kinds()) rows.emplace_back(std::move(row)).vendor = vendor;
+    for (const Row& row : kinds())
+      if (fits(row, vendor)) rows.push_back(of(row, vendor));
   return rows;
 }
 

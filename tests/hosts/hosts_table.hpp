@@ -16,6 +16,7 @@ struct Absence {
   enum class Kind {
     kUnplugged,  // its link is pulled out, and plugged in again
     kReplaced,   // its services are killed, and start at once with an empty disk
+    kNoRouter,   // its router is killed, and started again
   };
   std::string host = {};
   Kind kind = Kind::kUnplugged;
@@ -38,6 +39,13 @@ enum class Cores {
   kOneForTracker,  // the tracker on the first; no other service runs
 };
 
+/// How the hosts reach each other.
+enum class Way {
+  kDirect,
+  kRouter,   // by a router on a host R; nobody can dial A, as behind NAT, whose programs only dial R
+  kRouters,  // the same, but they dial a router on A, and only that dials R
+};
+
 /// One row: five services on three hosts, A (camera, tracker, recorder), B (detector, transformer) and
 /// C (mapper, loop closer), or all on A.
 struct Row {
@@ -49,9 +57,10 @@ struct Row {
   Bounds bounds = {};
   /// So long to and fro, so that there are 30 s after an absence [s]; 0: the recording as it is.
   double length_s = 0;
-  bool has_multicast = true;    // without, the hosts know each other's addresses
+  bool has_multicast = true;    // without, the hosts know each other's addresses, or the router's
   bool has_bystanders = false;  // a fourth host where nothing runs; a second reader of the camera on A
   Cores cores = Cores::kAny;    // what feeds the camera is on the second
+  Way way = Way::kDirect;
 
   /// Name and vendor, for GoogleTest.
   [[nodiscard]] std::string label() const { return name + "_" + bus::name_of(vendor); }
@@ -64,7 +73,7 @@ void PrintTo(const Row& row, std::ostream* out);
 
 /// Each vendor and length on one machine.
 std::vector<Row> one_machine_rows();
-/// Clean, 40 Mbit/s, 1 % of loss, without multicast, C away for 10 s.
+/// Clean, 40 Mbit/s, 1 % of loss, without multicast, C away for 10 s, by two routers.
 std::vector<Row> short_rows();
 /// All.
 std::vector<Row> all_rows();

@@ -33,6 +33,7 @@ constexpr auto kJoinTime = 5s;
 const std::string kMapName = "map";
 const std::string kA = "A";
 const std::string kIdle = "D";
+constexpr const char* kZenohSettings = "ZENOH_CONFIG";
 
 /// Which service runs on which host when they are on three.
 const std::map<std::string, std::string>& placement() {
@@ -48,6 +49,7 @@ std::vector<std::string> hosts_of(const Row& row) {
   if (row.on_one_machine) return {kA};
   std::vector<std::string> hosts{kA, "B", "C"};
   if (row.has_bystanders) hosts.push_back(kIdle);
+  if (row.way != Way::kDirect) hosts.emplace_back(kRouterHost);
   return hosts;
 }
 
@@ -75,17 +77,27 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
       out_(std::move(out)),
       dataset_(image::TumDataset::open(recording).value()),
       network_(hosts_of(row), row.link, row.has_multicast),
+      routers_(network_, row.way, out_),
       here_(network_, kA),
       core_(row.cores == Cores::kAny ? -1 : 1),
-      bus_(bus::Participant::create({.vendor = row.vendor,
-                                     .domain = domain_.domain(),
-                                     .node_name = "hosts_trial",
-                                     .peers = bus::peer_addresses(peers_of(kA))})),
+      bus_(join()),
       recorder_(*bus_),
       commander_(*bus_),
       arrivals_(*bus_),
       camera_(*bus_, dataset_, {}),
       fleet_(commands()) {}
+
+/// As the other programs on A.
+std::unique_ptr<bus::Participant> HostsTrial::join() const {
+  const std::string settings = routers_.client_settings(kA);
+  if (!settings.empty()) setenv(kZenohSettings, settings.c_str(), 1);
+  auto bus = bus::Participant::create({.vendor = row_.vendor,
+                                       .domain = domain_.domain(),
+                                       .node_name = "hosts_trial",
+                                       .peers = bus::peer_addresses(peers_of(kA))});
+  unsetenv(kZenohSettings);
+  return bus;
+}
 
 /// On each host as `rds run` would start them there.
 std::vector<run::ServiceCommand> HostsTrial::commands() const {
@@ -100,6 +112,8 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
       if (row_.cores == Cores::kOneForTracker && command.name != run::kTracker) continue;
       command.command.front() = RDS_BIN_DIR "/" + command.name;
       command.command = held(command.command, row_.cores, host);
+      if (const std::string settings = routers_.client_settings(host); !settings.empty())
+        command.command.insert(command.command.begin(), {"/usr/bin/env", kZenohSettings + ("=" + settings)});
       if (!row_.on_one_machine) command.command = network_.on(host, command.command);
       all.push_back(std::move(command));
     }
@@ -111,6 +125,7 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
 std::string HostsTrial::peers_of(const std::string& host) const {
   std::string peers;
   if (row_.has_multicast) return peers;
+  if (row_.way != Way::kDirect) return network_.address(kRouterHost);
   for (const std::string& other : hosts_of(row_))
     if (other != host) peers += (peers.empty() ? "" : ",") + network_.address(other);
   return peers;
@@ -195,11 +210,13 @@ void HostsTrial::be_absent(double at_s) {
   if (phase_ == Phase::kBefore && at_s >= absence.from_s) {
     phase_ = Phase::kDuring;
     if (absence.kind == Absence::Kind::kUnplugged) return network_.unplug(absence.host);
+    if (absence.kind == Absence::Kind::kNoRouter) return routers_.kill();
     return replace(absence.host);
   }
   if (phase_ != Phase::kDuring || at_s < absence.from_s + absence.for_s) return;
   phase_ = Phase::kAfter;
   if (absence.kind == Absence::Kind::kUnplugged) network_.plug(absence.host);
+  if (absence.kind == Absence::Kind::kNoRouter) routers_.start();
 }
 
 /// Whoever looks after the services starts them again.

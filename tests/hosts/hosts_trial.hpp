@@ -11,6 +11,7 @@
 #include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/figures.hpp"
+#include "tests/hosts/host_routers.hpp"
 #include "tests/hosts/hosts_table.hpp"
 #include "tests/hosts/on_core.hpp"
 #include "tools/rds/commander/commander.hpp"
@@ -32,6 +33,7 @@ class HostsTrial {
 
  private:
   std::vector<run::ServiceCommand> commands() const;
+  [[nodiscard]] std::unique_ptr<bus::Participant> join() const;
   [[nodiscard]] std::string peers_of(const std::string& host) const;
   void add_second_reader();
   [[nodiscard]] std::uint64_t idle_bytes() const;
@@ -49,6 +51,7 @@ class HostsTrial {
   std::filesystem::path out_;
   image::TumDataset dataset_;
   HostNetwork network_;
+  HostRouters routers_;
   OnHost here_;  // all that follows is on A
   OnCore core_;
   bus::DomainLock domain_;

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define RDS_ZENOH_VERSION 2 /* of this file; the crate has the same number */
+#define RDS_ZENOH_VERSION 3 /* of this file; the crate has the same number */
 
 typedef struct RdsZenohSession RdsZenohSession;
 typedef struct RdsZenohPublisher RdsZenohPublisher;
@@ -27,6 +27,7 @@ typedef struct {
   uint8_t priority; /* 1 (real time) ... 7 (background) */
   uint8_t express;  /* not held back to be sent with others */
   uint8_t reliable;
+  uint8_t droppable;     /* messages are small, and each may be lost on a link that is full */
   uint8_t latched;       /* found by subscribers that ask for history */
   size_t cache;          /* messages kept, for those who join late or have lost some; 0: none */
   uint64_t heartbeat_ms; /* says so often how far it is, if that has changed; 0: never */

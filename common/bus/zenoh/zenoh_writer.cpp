@@ -12,6 +12,8 @@ using std::chrono::system_clock;
 /// Messages that wait to be sent at least, whatever the history: two in a row are no reason to lose the
 /// first.
 constexpr int kShortestQueue = 8;
+/// Of datagrams: as many as a reader asks for at most.
+constexpr int kDatagramQueue = 4096;
 /// How long a writer that goes still sends what waits.
 constexpr std::chrono::seconds kFarewell{1};
 /// As rmw_zenoh's.
@@ -23,11 +25,21 @@ std::uint8_t priority_of(Urgency urgency) {
   return static_cast<std::uint8_t>(kInteractiveHigh + static_cast<int>(urgency));
 }
 
+bool are_datagrams(const Qos& qos) {
+  return !qos.reliable && qos.urgency != Urgency::kPictures;
+}
+
+std::size_t queue_depth(const Qos& qos) {
+  return static_cast<std::size_t>(
+      std::max(history_depth(qos), are_datagrams(qos) ? kDatagramQueue : kShortestQueue));
+}
+
 RdsZenohPublisherOptions publisher_options(const Qos& qos) {
   const bool keeps = qos.transient_local || recovers(qos);
   return {.priority = priority_of(qos.urgency),
           .express = qos.urgency <= Urgency::kBoxes,
           .reliable = qos.reliable,
+          .droppable = are_datagrams(qos),
           .latched = qos.transient_local,
           .cache = keeps ? static_cast<std::size_t>(history_depth(qos)) : 0,
           .heartbeat_ms = recovers(qos) ? kHeartbeatMs : 0};
@@ -43,7 +55,7 @@ ZenohWriter::ZenohWriter(ZenohNode& node, const std::string& topic, const TypeOp
     : node_(node),
       topic_(topic),
       type_(type),
-      depth_(static_cast<std::size_t>(std::max(history_depth(qos), kShortestQueue))),
+      depth_(queue_depth(qos)),
       token_(node.new_endpoint(topic, type, qos, true)),
       gid_(gid_of_token(token_)),
       publisher_(

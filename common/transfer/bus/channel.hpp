@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "common/bus/participant.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/topics/topics.hpp"
 
 namespace rds::transfer {
 
-/// What is transferred from one kind of service: its topics, and how many writers each of them has in turn.
+/// What is transferred from one kind of service: its topics, and how many writers each of them has in turn
+/// where messages may overtake each other.
 struct Channel {
   topics::Topic<rds_msgs::msg::TransferOffer> offers;
   topics::Topic<rds_msgs::msg::TransferRequest> requests;
@@ -28,6 +30,11 @@ inline constexpr Channel kKeyframes{topics::kTransferOffers, topics::kTransferRe
 /// Any number of readers, each with a topic of its own for its chunks: fewer writers, as each of them has to
 /// be told to everybody.
 inline constexpr Channel kMaps{topics::kMapOffers, topics::kMapRequests, service::kMapper, topics::kTool, 8};
+
+/// On Zenoh, whose links are streams, messages come in the order in which they were written.
+inline std::size_t lanes_of(const Channel& channel, bus::Vendor vendor) {
+  return vendor == bus::Vendor::kZenoh ? 1 : channel.lanes;
+}
 
 /// Name of the topic on which a reader hears its chunks, and no other reader.
 inline std::string chunk_topic(topics::Process reader, std::uint64_t instance) {

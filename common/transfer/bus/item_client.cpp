@@ -32,7 +32,7 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
       callbacks_(std::move(callbacks)),
       source_{.followed = {context.bus, channel.writer}},
       receiver_(order),
-      requests_(channel.lanes, [this, process] {
+      requests_(lanes_of(channel, context.participant.vendor), [this, process] {
         return topics::advertise(context_.bus, channel_.requests, process);
       }) {
   subscriptions_.push_back(topics::subscribe(context.bus, channel.offers, process,
@@ -64,7 +64,8 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
 
 void ItemClient::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    const auto due = receiver_.next_due();
+    auto due = receiver_.next_due();
+    if (!source_.offers.empty()) due = std::min(due.value_or(Time::max()), source_.offers.front().due);
     const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
     const auto longest = receiver_.lacking() > 0 && !callbacks_.has_room() ? kWaitForRoom : kLongestWait;
     inboxes_.mailbox.wait_for(stop, std::clamp(wait, milliseconds(0), longest), [this] {
@@ -81,6 +82,7 @@ void ItemClient::run(const std::stop_token& stop) {
 void ItemClient::step() {
   while (const auto offers = inboxes_.offers.try_pop()) take(**offers);
   while (const auto chunk = inboxes_.chunks.try_pop()) take(**chunk, now());
+  hear_due_offers(now());
   if (source_.where == Where::kUnknown && now() - source_.started > kPatience) be(Where::kHere);
   if (source_.where == Where::kElsewhere) ask(now());
 }
@@ -95,11 +97,19 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
     return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kForeign,
                                        "another service");
   follow(offers);
-  source_.offer.reset();
+  TimedOffer heard{now() + callbacks_.gives_way};
   for (std::size_t i = 0; i < rows; ++i)
     if (static_cast<Stream>(offers.streams()[i]) == self_.stream)
-      source_.offer = Offer{offers.oldest()[i], offers.newest()[i]};
-  want();
+      heard.offer = Offer{offers.oldest()[i], offers.newest()[i]};
+  source_.offers.push_back(heard);
+}
+
+void ItemClient::hear_due_offers(Time now) {
+  while (!source_.offers.empty() && source_.offers.front().due <= now) {
+    source_.offer = source_.offers.front().offer;
+    source_.offers.pop_front();
+    want();
+  }
 }
 
 /// All that is offered, or one item after the other.
@@ -119,6 +129,8 @@ void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
   source_.instance = offers.instance();
   source_.map_epoch = offers.map_epoch();
   if (new_map) {
+    source_.offers.clear();
+    source_.offer.reset();
     receiver_ = Receiver(self_.order);
     last_wanted_ = 0;
   }

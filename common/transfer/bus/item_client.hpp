@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,6 +40,9 @@ class ItemClient {
     /// with each offer, and when an item has come; never while one is on its way. Empty: all are fetched that
     /// are offered.
     std::function<std::optional<std::uint64_t>(std::uint64_t map_epoch, const Offer&)> next = {};
+    /// How long an item is offered before it is asked for: what a link carries then is for readers in more of a
+    /// hurry.
+    Time gives_way = {};
   };
 
   /// @param stream  that is wanted. @param host  for tests.
@@ -55,12 +59,17 @@ class ItemClient {
     Order order;
     std::uint64_t host;
   };
+  struct TimedOffer {
+    Time due{};  // to be asked for
+    std::optional<Offer> offer = {};
+  };
   /// Whose offers are followed.
   struct Source {
     service::FollowedWriter followed;
     std::uint64_t instance = 0;
     std::uint64_t map_epoch = 0;
-    std::optional<Offer> offer = {};
+    std::deque<TimedOffer> offers = {};  // that are not due yet
+    std::optional<Offer> offer = {};     // the latest that was
     Where where = Where::kUnknown;
     Time started = now();
   };
@@ -83,6 +92,7 @@ class ItemClient {
   void step();
   void take(const rds_msgs::msg::TransferOffer& offers);
   void follow(const rds_msgs::msg::TransferOffer& offers);
+  void hear_due_offers(Time now);
   void want();
   void take(const rds_msgs::msg::TransferChunk& chunk, Time now);
   void be(Where where);

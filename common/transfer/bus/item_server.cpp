@@ -63,7 +63,7 @@ ItemServer::Reader& ItemServer::add_reader(topics::Process process, const std::s
   const auto advertise = [this, process, topic] {
     return topics::advertise(context_.bus, topics::transfer_to(process).named(topic), process_);
   };
-  return readers_.try_emplace(topic, channel_.lanes, advertise).first->second;
+  return readers_.try_emplace(topic, lanes_of(channel_, context_.participant.vendor), advertise).first->second;
 }
 
 /// A service that is behind is told of; how far a reader of the map is behind is its own affair.

@@ -10,8 +10,8 @@
 
 namespace rds::transfer {
 
-/// Several writers of one topic, used in turn. A best-effort reader throws away what later messages of the
-/// same writer have overtaken (RTPS 2.5, 8.4.12.1), and on a link with jitter that is nearly everything.
+/// Several writers of one topic, used in turn. On DDS a best-effort reader throws away what later messages of
+/// the same writer have overtaken, and on a link with jitter that is nearly everything.
 /// The writers are made with the first message: where nothing is sent nobody has to learn of them.
 template <class Message>
 class Lanes {

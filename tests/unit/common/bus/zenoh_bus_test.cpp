@@ -39,7 +39,8 @@ class Stranger {
  public:
   explicit Stranger(const std::string& key) {
     const RdsZenohPublisherOptions options{
-        .priority = 5, .express = 1, .reliable = 1, .latched = 0, .cache = 0, .heartbeat_ms = 0};
+        .priority = 5, .express = 1, .reliable = 1, .droppable = 0, .latched = 0, .cache = 0,
+        .heartbeat_ms = 0};
     publisher_ = detail::declare_publisher(session_, key, options);
   }
   void put(const std::vector<std::uint8_t>& payload, const std::vector<std::uint8_t>& attachment) {

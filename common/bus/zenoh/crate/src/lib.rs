@@ -76,7 +76,7 @@ pub struct Api {
 }
 
 static API: Api = Api {
-    version: 2,
+    version: 3,
     open: session::open,
     close: session::close,
     id: session::id,

@@ -15,6 +15,7 @@ pub struct PublisherOptions {
     priority: u8,
     express: u8,
     reliable: u8,
+    droppable: u8,
     latched: u8,
     cache: usize,
     heartbeat_ms: u64,
@@ -37,6 +38,10 @@ pub unsafe extern "C" fn declare_publisher(
             0 => Reliability::BestEffort,
             _ => Reliability::Reliable,
         };
+        let congestion = match options.droppable {
+            0 => CongestionControl::BlockFirst,
+            _ => CongestionControl::Drop,
+        };
         let mut detection = MissDetectionConfig::default(); // numbers the messages
         if options.heartbeat_ms > 0 {
             detection = detection.sporadic_heartbeat(Duration::from_millis(options.heartbeat_ms));
@@ -45,7 +50,7 @@ pub unsafe extern "C" fn declare_publisher(
             .session
             .declare_publisher(key(key_expression)?)
             .reliability(reliability)
-            .congestion_control(CongestionControl::BlockFirst)
+            .congestion_control(congestion)
             .priority(priority)
             .express(options.express != 0)
             .advanced()

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t kMostTold = 2000;  // between two pictures: seconds of any odometry
 constexpr std::size_t kMostSaid = 10;
 constexpr std::chrono::milliseconds kBetweenBeats(500);
+constexpr double kFirstWaitS = 1;
 // Who says where the robot is, points at a map: what is told of its exactness is a lower bound.
 constexpr double kLeastRadiusM = 1;
 constexpr double kLeastAngleRad = 0.8;
@@ -72,28 +74,36 @@ bool RobotInputs::lacks_imu(std::int64_t stamp_ns) const {
 
 void RobotInputs::go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
                         const std::function<void()>& beat) {
-  using Clock = std::chrono::steady_clock;
   camera_frame_ = camera_frame;
   take_in();
-  if (!waits_s_) return;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(*waits_s_);
+  const bool is_first = !std::exchange(has_begun_, true);
+  if (waits_s_)
+    wait(stamp_ns, *waits_s_, stop, beat);
+  else if (is_first)
+    wait(stamp_ns, kFirstWaitS, stop, beat);
+}
+
+void RobotInputs::wait(std::int64_t stamp_ns, double limit_s, const std::stop_token& stop,
+                       const std::function<void()>& beat) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::duration<double>(limit_s);
   while ((lacks_odometry(stamp_ns) || lacks_imu(stamp_ns)) && !stop.stop_requested()) {
     beat();
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return give_up(stamp_ns);
+    if (left.count() <= 0) return give_up(stamp_ns, limit_s);
     mailbox_.wait_for(stop, std::min(left, kBetweenBeats),
                       [this] { return !told_.locked_empty() || !sensed_.locked_empty(); });
     take_in();
   }
 }
 
-void RobotInputs::give_up(std::int64_t stamp_ns) {
-  ++context_.diagnostics.counter("lockstep timeouts");
+void RobotInputs::give_up(std::int64_t stamp_ns, double limit_s) {
+  if (waits_s_) ++context_.diagnostics.counter("lockstep timeouts");
   const auto say = [&](const std::string& what, const std::string& source) {
     spdlog::warn(
         "no {} of the frame's time, in a frame that tf joins with the camera's, has come on {} within "
         "{} s",
-        what, source, *waits_s_);
+        what, source, limit_s);
   };
   if (lacks_odometry(stamp_ns)) {
     odometry_wait_.give_up(stamp_ns);
@@ -127,7 +137,7 @@ std::optional<OdometryPose> RobotInputs::odometry_at(std::int64_t stamp_ns) {
 }
 
 std::optional<Eigen::Vector3d> RobotInputs::up_in_camera(std::int64_t stamp_ns) const {
-  const auto up_in_imu = gravity_.up();
+  const auto up_in_imu = gravity_.up(stamp_ns);
   if (!up_in_imu) return std::nullopt;
   const auto camera_from_imu = look_up_(camera_frame_, imu_frame_, stamp_ns);
   if (!camera_from_imu) return std::nullopt;

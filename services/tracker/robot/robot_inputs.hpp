@@ -39,7 +39,7 @@ class RobotInputs {
 
   /// A picture of this stamp and frame is to be tracked: takes in what has come. In lockstep it waits until
   /// odometry and IMU have come up to the stamp, and how they stand to the camera, waits_s at most
-  /// (SensorWait).
+  /// (SensorWait); without lockstep for the first picture, 1 s at most, as the map begins level with it.
   /// @param beat  called now and then meanwhile.
   void go_to(std::int64_t stamp_ns, const std::string& camera_frame, const std::stop_token& stop,
              const std::function<void()>& beat);
@@ -76,7 +76,9 @@ class RobotInputs {
   void take_in();
   [[nodiscard]] bool lacks_odometry(std::int64_t stamp_ns) const;
   [[nodiscard]] bool lacks_imu(std::int64_t stamp_ns) const;
-  void give_up(std::int64_t stamp_ns);
+  void wait(std::int64_t stamp_ns, double limit_s, const std::stop_token& stop,
+            const std::function<void()>& beat);
+  void give_up(std::int64_t stamp_ns, double limit_s);
   void set_fault(std::string& of, const std::string& fault);
   void warn(const std::string& name, const std::string& fault);
 
@@ -95,6 +97,7 @@ class RobotInputs {
   std::string imu_frame_;
   std::string body_;
   std::string camera_frame_;
+  bool has_begun_ = false;  // there was a picture
   SensorWait odometry_wait_;
   SensorWait imu_wait_;
   mutable std::mutex mutex_;  // of the faults

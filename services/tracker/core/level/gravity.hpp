@@ -23,11 +23,14 @@ class Gravity {
 
   /// A measurement with an earlier stamp than the newest one begins anew.
   void add(const image::ImuMeasurement& measurement);
-  /// Unit vector in the unit's frame; nullopt while it moves, or too little is known.
-  [[nodiscard]] std::optional<Eigen::Vector3d> up() const;
+  /// Unit vector in the unit's frame, at a time, or the latest where the stamps are of another clock; nullopt
+  /// while it moves, or too little is known.
+  [[nodiscard]] std::optional<Eigen::Vector3d> up(std::int64_t stamp_ns) const;
 
  private:
-  std::deque<image::ImuMeasurement> window_;
+  static constexpr std::int64_t kKeptNs = 4 * kWindowNs;  // a picture comes later than what follows it
+
+  std::deque<image::ImuMeasurement> kept_;
 };
 
 }  // namespace rds::tracker

@@ -11,6 +11,7 @@ namespace rds::tracker {
 namespace {
 
 constexpr std::int64_t kStepNs = 5'000'000;  // 200 Hz
+constexpr std::int64_t kEndNs = 1'000'000'000;
 
 /// Of a unit that is tilted by 30° about x, for a second.
 Gravity tilted(double shake, double turn_rate, int measurements = 200) {
@@ -23,21 +24,30 @@ Gravity tilted(double shake, double turn_rate, int measurements = 200) {
 }
 
 TEST(Gravity, IsTheMeanOfAUnitThatStandsStill) {
-  const auto up = tilted(0.1, 0.01).up();
+  const auto up = tilted(0.1, 0.01).up(kEndNs);
   ASSERT_TRUE(up);
   EXPECT_NEAR(up->norm(), 1, 1e-12);
   EXPECT_NEAR(up->y(), -std::cos(std::numbers::pi / 6), 1e-3);
 }
 
 TEST(Gravity, IsNotToldOfOneThatMoves) {
-  EXPECT_FALSE(tilted(1, 0.01).up());
-  EXPECT_FALSE(tilted(0.1, 0.2).up());
+  EXPECT_FALSE(tilted(1, 0.01).up(kEndNs));
+  EXPECT_FALSE(tilted(0.1, 0.2).up(kEndNs));
+}
+
+TEST(Gravity, IsOfThePicturesTimeThoughTheUnitHasMovedSince) {
+  Gravity gravity = tilted(0, 0);
+  for (int i = 200; i < 240; ++i)
+    gravity.add({i * kStepNs, Eigen::Vector3d(5, 5, 5), Eigen::Vector3d::Zero()});
+  EXPECT_TRUE(gravity.up(199 * kStepNs));
+  EXPECT_FALSE(gravity.up(239 * kStepNs));
+  EXPECT_FALSE(gravity.up(-1)) << "of another clock: the latest";
 }
 
 TEST(Gravity, IsNotToldByFewMeasurements) {
-  EXPECT_FALSE(Gravity().up());
-  EXPECT_FALSE(tilted(0, 0, 9).up());
-  EXPECT_FALSE(tilted(0, 0, 40).up()) << "0.2 s";
+  EXPECT_FALSE(Gravity().up(kEndNs));
+  EXPECT_FALSE(tilted(0, 0, 9).up(kEndNs));
+  EXPECT_FALSE(tilted(0, 0, 40).up(kEndNs)) << "0.2 s";
 }
 
 TEST(Gravity, IsNotToldByAccelerationsThatAreNoGravity) {
@@ -48,14 +58,14 @@ TEST(Gravity, IsNotToldByAccelerationsThatAreNoGravity) {
     broken.add({i * kStepNs, Eigen::Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN()),
                 Eigen::Vector3d::Zero()});
   }
-  EXPECT_FALSE(in_g.up());
-  EXPECT_FALSE(broken.up());
+  EXPECT_FALSE(in_g.up(kEndNs));
+  EXPECT_FALSE(broken.up(kEndNs));
 }
 
 TEST(Gravity, BeginsAnewWhereStampsGoBack) {
   Gravity gravity = tilted(0, 0);
   gravity.add({0, Eigen::Vector3d(0, 0, 9.81), Eigen::Vector3d::Zero()});
-  EXPECT_FALSE(gravity.up());
+  EXPECT_FALSE(gravity.up(kEndNs));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace rds::tracker {
 
-/// Whether a frame has to wait for one of a robot's sensors, in lockstep: until it has told of the frame's
-/// time and tf says where it stands. Who has waited in vain does not wait again before something is new.
+/// Whether a frame has to wait for one of a robot's sensors: until it has told of the frame's time and tf says
+/// where it stands. Who has waited in vain does not wait again before something is new.
 class SensorWait {
  public:
   void take(std::int64_t newest_ns) { newest_ns_ = newest_ns; }

@@ -104,8 +104,10 @@ void TrackerOutputs::publish(const FrameReport& report) {
   publish_boxes(report);
   publish_obstacles(report);
   publish_features(report);
-  if (report.result.keyframe) publish_keyframe(report);
+  std::optional<PublishedKeyframe> keyframe;
+  if (report.result.keyframe) keyframe = publish_keyframe(report);
   publish_state(report);
+  if (keyframe) share(*std::move(keyframe));
 }
 
 const std::string& TrackerOutputs::camera_frame(const FrameReport& report) const {
@@ -161,7 +163,7 @@ void TrackerOutputs::publish_features(const FrameReport& report) {
   features_.write(message);
 }
 
-void TrackerOutputs::publish_keyframe(const FrameReport& report) {
+TrackerOutputs::PublishedKeyframe TrackerOutputs::publish_keyframe(const FrameReport& report) {
   const KeyframeData& keyframe = *report.result.keyframe;
   auto images = about<rds_msgs::msg::KeyFrameImages>(report, camera_frame(report));
   images.keyframe_id(keyframe.id);
@@ -172,12 +174,24 @@ void TrackerOutputs::publish_keyframe(const FrameReport& report) {
   images.depth(messages::to_image_message(report.frame.depth, images.header()));
   images.movable(movable_cells(report.result.movable, images.header()));
   keyframe_images_.write(images);
-  sharing_.share(std::move(images));
-  if (keyframe.in_map && is_placed(report)) publish_features_of(keyframe, report);
+  if (!keyframe.in_map || !is_placed(report)) return {std::move(images), {}};
+  return {std::move(images), write_features(keyframe, report)};
+}
+
+/// To other machines: a thread of its own begins to compress at once, and would take the processor from what
+/// is yet to be published.
+void TrackerOutputs::share(PublishedKeyframe&& keyframe) {
+  sharing_.share(std::move(keyframe.images));
+  if (keyframe.features) sharing_.share(*std::move(keyframe.features));
+}
+
+void TrackerOutputs::publish_features_of(const KeyframeData& keyframe, const FrameReport& report) {
+  sharing_.share(write_features(keyframe, report));
 }
 
 /// @param report  of the newest frame: of an older keyframe it tells what is known by now.
-void TrackerOutputs::publish_features_of(const KeyframeData& keyframe, const FrameReport& report) {
+rds_msgs::msg::KeyFrameFeatures TrackerOutputs::write_features(const KeyframeData& keyframe,
+                                                               const FrameReport& report) {
   auto features = about<rds_msgs::msg::KeyFrameFeatures>(report, camera_frame(report));
   features.header().stamp(messages::to_time(keyframe.stamp_ns));
   fill(features, keyframe);
@@ -185,7 +199,7 @@ void TrackerOutputs::publish_features_of(const KeyframeData& keyframe, const Fra
   features.loop_instance(report.loops.instance);
   features.loop_revision(report.loops.revision);
   keyframe_features_.write(features);
-  sharing_.share(std::move(features));
+  return features;
 }
 
 void TrackerOutputs::publish_state(const FrameReport& report) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,13 +75,21 @@ class TrackerOutputs {
   void set_epoch(std::uint64_t map_epoch);
 
  private:
+  /// What was published of it.
+  struct PublishedKeyframe {
+    rds_msgs::msg::KeyFrameImages images;
+    std::optional<rds_msgs::msg::KeyFrameFeatures> features;
+  };
+
   template <class Message>
   [[nodiscard]] Message about(const FrameReport& report, const std::string& frame_id) const;
   [[nodiscard]] const std::string& camera_frame(const FrameReport& report) const;
   void publish_boxes(const FrameReport& report);
   void publish_obstacles(const FrameReport& report);
   void publish_features(const FrameReport& report);
-  void publish_keyframe(const FrameReport& report);
+  PublishedKeyframe publish_keyframe(const FrameReport& report);
+  rds_msgs::msg::KeyFrameFeatures write_features(const KeyframeData& keyframe, const FrameReport& report);
+  void share(PublishedKeyframe&& keyframe);
   void publish_state(const FrameReport& report);
 
   std::uint64_t instance_;

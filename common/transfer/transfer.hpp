@@ -20,8 +20,8 @@ inline constexpr std::size_t kChunkBytes = 1200;
 /// Larger items are refused: what claims to be larger is an error.
 inline constexpr std::size_t kMaxItemBytes = std::size_t{256} << 20U;
 
-/// What carries the chunks: datagrams, which may overtake each other, or a stream, in which what is late holds up all
-/// that follows, and small messages overtake by their class.
+/// What carries the chunks: datagrams, which may overtake each other, or a stream, in which what is late
+/// holds up all that follows, and small messages overtake by their class.
 enum class Way : std::uint8_t { kDatagrams, kStream };
 
 /// Kinds of items, as on the wire.

@@ -10,9 +10,9 @@ namespace rds::transfer {
 
 /// How many chunks may be asked for and not have come yet.
 ///
-/// Follows the delay, as LEDBAT (RFC 6817): the window grows until its chunks wait on the way for as long as they
-/// should, and shrinks, faster, where they wait for longer. What a link loses by chance does not shrink it, only
-/// loss of more than kCongestedLoss.
+/// Follows the delay, as LEDBAT (RFC 6817): the window grows until its chunks wait on the way for as long as
+/// they should, and shrinks, faster, where they wait for longer. What a link loses by chance does not shrink
+/// it, only loss of more than kCongestedLoss.
 class Window {
  public:
   explicit Window(Way way = Way::kDatagrams) : target_queue_(way == Way::kStream ? kStreamQueue : kQueue) {}

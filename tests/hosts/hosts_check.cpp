@@ -67,8 +67,8 @@ HostFigures run_row(const Row& row, bool scored = true) {
   return figures;
 }
 
-/// Those of this sitting's run on one machine, made now if there is none: in a process of its own, as Zenoh's threads
-/// stay in the network in which the first of them began.
+/// Those of this sitting's run on one machine, made now if there is none: in a process of its own, as Zenoh's
+/// threads stay in the network in which the first of them began.
 HostFigures figures_on_one_machine(const Row& row) {
   const std::string label = on_one_machine(row).label();
   const fs::path file = results_of(label) / kFiguresFile;

@@ -10,12 +10,14 @@ elseif(RDS_ZENOH)
   if(RDS_CARGO)
     set(library ${CMAKE_BINARY_DIR}/lib/librds_zenoh.so)
     set(zenoh ${PROJECT_SOURCE_DIR}/common/bus/zenoh)
-    file(GLOB sources CONFIGURE_DEPENDS ${zenoh}/crate/src/*.rs ${zenoh}/tls/*.rs ${zenoh}/tls/*.sed)
+    file(GLOB sources CONFIGURE_DEPENDS ${zenoh}/crate/src/*.rs ${zenoh}/patches/*.rs ${zenoh}/patches/*.sed)
     add_custom_command(OUTPUT ${library}
       COMMAND ${zenoh}/build_crate.sh ${RDS_CARGO} ${library}
-      DEPENDS ${sources} ${zenoh}/crate/Cargo.toml ${zenoh}/crate/Cargo.lock ${zenoh}/build_crate.sh
+      DEPENDS ${sources} ${zenoh}/crate/Cargo.toml ${zenoh}/crate/Cargo.lock ${zenoh}/build_crate.sh ${zenoh}/patches/patched_crate.sh
       COMMENT "Zenoh: building librds_zenoh.so (minutes the first time)" VERBATIM)
     add_custom_target(rds_zenoh ALL DEPENDS ${library})
+    cmake_path(GET RDS_CARGO PARENT_PATH beside_cargo)
+    find_program(RDS_CLIPPY cargo-clippy PATHS ${beside_cargo} NO_DEFAULT_PATH)  # another compiler's would not fit
   else()
     message(STATUS "Zenoh: left out, there is no cargo (tools/setup.sh installs one)")
   endif()

@@ -19,12 +19,14 @@ check_system() {
   [ "$(id -u)" = 0 ] || command -v sudo >/dev/null || fail "sudo: expected on the PATH, or run this as root"
 }
 
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
 # Names in packages.txt that are not installed and not made unnecessary by a command.
 missing_packages() {
   local package condition
   sed 's/#.*//' "$root/tools/packages.txt" | while read -r package condition; do
     [ -n "$package" ] || continue
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ] || continue
+    ! is_installed "$package" || continue
     [ -z "$condition" ] || ! command -v "${condition#unless:}" >/dev/null || continue
     echo "$package"
   done
@@ -73,11 +75,13 @@ set_up_ros() {
   set_up_venv .venv-zenoh "other programs on Zenoh" "$root/tests/integration/bus/zenoh_requirements.txt"
 }
 
-# A cargo of the user's own, else Debian's; what the crate is built of comes from crates.io.
+# A cargo of the user's own, else Debian's, with what checks the crate; what it is built of comes from crates.io.
 set_up_zenoh() {
   local cargo
   export PATH=$PATH:$HOME/.cargo/bin
-  command -v cargo >/dev/null || install_packages rustc-web cargo-web
+  if ! command -v cargo >/dev/null || { is_installed cargo-web && ! is_installed rust-web-clippy; }; then
+    install_packages rustc-web cargo-web rust-web-clippy rustfmt-web
+  fi
   cargo=$(command -v cargo)
   say "[4/4] Zenoh: $("$cargo" --version)"
   long_step cargo-fetch quiet "$cargo" fetch --locked --manifest-path "$root/common/bus/zenoh/crate/Cargo.toml"

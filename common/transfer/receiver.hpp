@@ -42,7 +42,7 @@ class Receiver {
  public:
   static constexpr std::size_t kMostBegun = 8;  // items at a time
 
-  explicit Receiver(Order order) : order_(order) {}
+  explicit Receiver(Order order, Way way = Way::kDatagrams) : order_(order), window_(way) {}
 
   void offer(const Offer& offer);
   /// @return the item, if this chunk completes it

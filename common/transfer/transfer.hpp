@@ -20,6 +20,10 @@ inline constexpr std::size_t kChunkBytes = 1200;
 /// Larger items are refused: what claims to be larger is an error.
 inline constexpr std::size_t kMaxItemBytes = std::size_t{256} << 20U;
 
+/// What carries the chunks: datagrams, which may overtake each other, or a stream, in which what is late
+/// holds up all that follows, and small messages overtake by their class.
+enum class Way : std::uint8_t { kDatagrams, kStream };
+
 /// Kinds of items, as on the wire.
 enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures, kMapUpdates };
 

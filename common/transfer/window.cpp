@@ -34,7 +34,7 @@ void Window::arrived(Time now, Time round_trip, bool again, std::size_t in_fligh
   silences_ = 0;
   loss_ *= kLossMemory;
   const bool used = static_cast<double>(in_flight) >= chunks_ / 2;
-  const double off_target = 1.0 - std::chrono::duration<double>(queue()) / kTargetQueue;
+  const double off_target = 1.0 - std::chrono::duration<double>(queue()) / target_queue_;
   if (doubling_ && off_target < 0.5) doubling_ = false;
   if (off_target > 0 && !used) return;  // what is not used shows nothing
   const double change = off_target > 0 ? off_target / chunks_ : std::max(off_target, -1.0) * kFastestShrink;

@@ -10,11 +10,13 @@ namespace rds::transfer {
 
 /// How many chunks may be asked for and not have come yet.
 ///
-/// Follows the delay, as LEDBAT (RFC 6817): the window grows until its chunks wait for kTargetQueue on the
-/// way, and shrinks, faster, where they wait for longer. What a link loses by chance does not shrink it, only
-/// loss of more than kCongestedLoss.
+/// Follows the delay, as LEDBAT (RFC 6817): the window grows until its chunks wait on the way for as long as
+/// they should, and shrinks, faster, where they wait for longer. What a link loses by chance does not shrink
+/// it, only loss of more than kCongestedLoss.
 class Window {
  public:
+  explicit Window(Way way = Way::kDatagrams) : target_queue_(way == Way::kStream ? kStreamQueue : kQueue) {}
+
   [[nodiscard]] std::size_t chunks() const { return static_cast<std::size_t>(chunks_); }
   [[nodiscard]] Time round_trip() const { return smoothed_; }
   /// Without an arrival for so long everything that was asked for counts as lost (RFC 6298).
@@ -30,7 +32,8 @@ class Window {
   void silent();
 
  private:
-  static constexpr Time kTargetQueue = std::chrono::milliseconds(30);
+  static constexpr Time kQueue = std::chrono::milliseconds(30);
+  static constexpr Time kStreamQueue = std::chrono::milliseconds(100);  // jitter of 10 ms alone looks like 30
   static constexpr Time kBasePeriod = std::chrono::seconds(20);
   static constexpr double kSmallest = 4;
   static constexpr double kFirst = 32;      // 38 kB
@@ -40,6 +43,7 @@ class Window {
   void measure(Time now, Time round_trip);
   [[nodiscard]] Time queue() const;
 
+  Time target_queue_;
   double chunks_ = kFirst;
   bool doubling_ = true;  // until the delay first grows: slow start
   double loss_ = 0;       // share of the latest hundred chunks

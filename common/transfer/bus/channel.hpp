@@ -31,9 +31,13 @@ inline constexpr Channel kKeyframes{topics::kTransferOffers, topics::kTransferRe
 /// be told to everybody.
 inline constexpr Channel kMaps{topics::kMapOffers, topics::kMapRequests, service::kMapper, topics::kTool, 8};
 
-/// On Zenoh, whose links are streams, messages come in the order in which they were written.
+inline Way way_of(bus::Vendor vendor) {
+  return vendor == bus::Vendor::kZenoh ? Way::kStream : Way::kDatagrams;
+}
+
+/// On a stream messages come in the order in which they were written.
 inline std::size_t lanes_of(const Channel& channel, bus::Vendor vendor) {
-  return vendor == bus::Vendor::kZenoh ? 1 : channel.lanes;
+  return way_of(vendor) == Way::kStream ? 1 : channel.lanes;
 }
 
 /// Name of the topic on which a reader hears its chunks, and no other reader.

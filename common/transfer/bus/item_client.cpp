@@ -31,7 +31,7 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
       self_{process, stream, order, host},
       callbacks_(std::move(callbacks)),
       source_{.followed = {context.bus, channel.writer}},
-      receiver_(order),
+      receiver_(new_receiver()),
       requests_(lanes_of(channel, context.participant.vendor), [this, process] {
         return topics::advertise(context_.bus, channel_.requests, process);
       }) {
@@ -60,6 +60,10 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
     if (!behind) return std::nullopt;
     return fmt::format("behind: {} items of {} have not come yet", *behind, channel_.writer);
   });
+}
+
+Receiver ItemClient::new_receiver() const {
+  return Receiver(self_.order, way_of(context_.participant.vendor));
 }
 
 void ItemClient::run(const std::stop_token& stop) {
@@ -119,7 +123,7 @@ void ItemClient::want() {
   if (receiver_.lacking() > 0) return;
   const auto next = callbacks_.next(source_.map_epoch, *source_.offer);
   if (!next) return;
-  if (*next <= last_wanted_) receiver_ = Receiver(self_.order);  // the numbers of one go up
+  if (*next <= last_wanted_) receiver_ = new_receiver();  // the numbers of one go up
   last_wanted_ = *next;
   receiver_.offer({*next, *next});
 }
@@ -131,7 +135,7 @@ void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
   if (new_map) {
     source_.offers.clear();
     source_.offer.reset();
-    receiver_ = Receiver(self_.order);
+    receiver_ = new_receiver();
     last_wanted_ = 0;
   }
   be(offers.host() == self_.host ? Where::kHere : Where::kElsewhere);
@@ -148,7 +152,7 @@ void ItemClient::take(const rds_msgs::msg::TransferChunk& chunk, Time now) {
   const std::uint64_t impossible = receiver_.statistics().impossible;
   auto item = receiver_.take({chunk.number(), chunk.item_bytes(), chunk.index(), chunk.data()}, now);
   if (callbacks_.next && receiver_.statistics().impossible > impossible)
-    receiver_ = Receiver(self_.order);  // the item was made anew, and is another one
+    receiver_ = new_receiver();  // the item was made anew, and is another one
   if (!item) return;
   callbacks_.item(source_.map_epoch, std::move(*item));
   if (callbacks_.next) want();

@@ -88,6 +88,7 @@ class ItemClient {
   };
 
   void tell(service::Diagnostics& diagnostics);
+  [[nodiscard]] Receiver new_receiver() const;
   void run(const std::stop_token& stop);
   void step();
   void take(const rds_msgs::msg::TransferOffer& offers);

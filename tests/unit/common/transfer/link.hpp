@@ -38,6 +38,7 @@ struct LinkQuality {
   Time delay{};
   Time jitter{};                        // of the delay, up to so much more or less
   double loss = 0;                      // share of datagrams
+  bool in_order = false;                // as a stream: what is late holds up what follows it
   std::size_t queue_bytes = 1U << 20U;  // of the bottleneck; what finds it full is lost
 };
 
@@ -56,7 +57,9 @@ class Link {
     if (std::uniform_real_distribution<>(0, 1)(random_) < quality_.loss || !connected) return;
     const double share = std::uniform_real_distribution<>(-1, 1)(random_);
     const Time jitter(static_cast<std::int64_t>(share * static_cast<double>(quality_.jitter.count())));
-    events_.at(free_at_ + quality_.delay + jitter, std::move(arrives));
+    const Time arrival = free_at_ + quality_.delay + jitter;
+    latest_ = std::max(latest_, arrival);
+    events_.at(quality_.in_order ? latest_ : arrival, std::move(arrives));
   }
 
   bool connected = true;
@@ -67,6 +70,7 @@ class Link {
   LinkQuality quality_;
   std::mt19937 random_;
   Time free_at_{};
+  Time latest_{};  // arrival so far
   std::size_t sent_bytes_ = 0;
 };
 

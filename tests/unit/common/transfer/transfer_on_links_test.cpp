@@ -26,12 +26,13 @@ class Transfer {
  public:
   Transfer(const LinkQuality& quality, int readers)
       : uplink_(events_, quality, 1), downlink_(events_, quality, 2) {
-    readers_.resize(static_cast<std::size_t>(readers));
+    const Way way = quality.in_order ? Way::kStream : Way::kDatagrams;
+    readers_.resize(static_cast<std::size_t>(readers), {.receiver = Receiver(Order::kNewest, way)});
   }
 
-  void run(int keyframes, std::size_t bytes) {
-    for (int i = 0; i < keyframes; ++i) events_.at(i * 200ms, [this, i, bytes] { make(i, bytes); });
-    events_.run(keyframes * 200ms + 10s);
+  void run(int keyframes, std::size_t bytes, Time period = 200ms) {
+    for (int i = 0; i < keyframes; ++i) events_.at(i * period, [this, i, bytes] { make(i, bytes); });
+    events_.run(keyframes * period + 10s);
   }
   void cut(Time from, Time to) {
     events_.at(from, [this] { uplink_.connected = downlink_.connected = false; });
@@ -57,10 +58,10 @@ class Transfer {
 
  private:
   struct Reader {
-    Receiver receiver{Order::kNewest};
+    Receiver receiver;
     std::array<std::uint64_t, kLanes> sent{};   // of each lane
     std::array<std::uint64_t, kLanes> heard{};  // the newest of each
-    std::vector<Time> delays;
+    std::vector<Time> delays{};
     std::uint64_t timer = 0;
   };
 
@@ -156,6 +157,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Jitter", {.delay = 20ms, .jitter = 10ms}, 220ms},
                     Case{"WiFi", {.mbit_per_s = 40, .delay = 3ms, .loss = 0.01}, 200ms}),
     [](const auto& of) { return of.param.name; });
+
+TEST(Transfer, JitterOfAStreamIsNoQueue) {
+  Transfer transfer({.delay = 20ms, .jitter = 10ms, .in_order = true}, 2);
+  transfer.run(150, 143'000, 120ms);
+  for (const int reader : {0, 1}) {
+    EXPECT_EQ(transfer.arrived(reader), 150U);
+    EXPECT_LE(transfer.delay(reader, 0.95), 200ms);
+  }
+}
 
 TEST(Transfer, SlowLinkCarriesFreshWholeItems) {
   Transfer transfer({.mbit_per_s = 2}, 1);  // 4.8 are made in a second, .5 of a second is needed for one

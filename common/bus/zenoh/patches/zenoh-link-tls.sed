@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# In zenoh-link-tls 1.10.2, src/unicast.rs: SharedStream (shared_stream.rs) in place of an UnsafeCell.
+# 35 lines of zenoh-link-tls 1.10.2: SharedStream (shared_stream.rs) in place of an UnsafeCell; closing does not wait.
 s/UnsafeCell<TlsStream<TcpStream>>/SharedStream/
 s/UnsafeCell::new(socket)/SharedStream::new(socket)/
 s/unsafe { &mut \*self\.inner\.get() }/self.inner.clone()/
@@ -9,3 +9,9 @@ s/let (tcp_stream, _) = \(.*\)\.get_mut();/let mut tcp_stream = \1;/
 s/^use crate::{/use crate::shared_stream::SharedStream;\n&/
 /cell::UnsafeCell,/d
 /^unsafe impl /d
+s/^mod unicast;/mod shared_stream;\n&/
+
+/\/\/ Set the TLS linger option/,/^        }$/d
+/static ref TLS_LINGER_TIMEOUT/d
+/^    convert::TryInto,$/d
+s/ TLS_LINGER_TIMEOUT,//

@@ -30,6 +30,10 @@ void PictureFeed::want(bool wanted) {
   if (wanted) return subscribe();
   image_subscription_.reset();
   feature_subscription_.reset();
+  while (images_.try_pop()) {  // what came just before would stand on the board for whoever looks next
+  }
+  while (features_.try_pop()) {
+  }
   waiting_.clear();
   board_.remove(Kind::kPicture);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-//! What zenoh-link-tls 1.10.2 is given in place of its `UnsafeCell` of a TLS stream (build_crate.sh): that was read by one
+//! What zenoh-link-tls 1.10.2 is given in place of its `UnsafeCell` of a TLS stream (zenoh-link-tls.sed): that was read by one
 //! thread while another one wrote, and one `rustls` connection does not bear it.
 use std::io;
 use std::pin::Pin;

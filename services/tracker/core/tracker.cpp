@@ -61,7 +61,8 @@ void Tracker::reset() {
 }
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
-FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const MovableRegion> regions) {
+FrameResult Tracker::track(const image::RgbdFrame& given,
+                           std::span<const segmentation::MovableRegion> regions) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
   localizer_.relocalizer().index_pending(mapper_.map());
@@ -117,7 +118,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given, std::span<const Movabl
 
 /// Fills in what is known before the pose is looked for: time, motion, a guess of the pose, the local map,
 /// what is movable, and the points that were found beside.
-void Tracker::prepare(const image::RgbdFrame& given, std::span<const MovableRegion> regions,
+void Tracker::prepare(const image::RgbdFrame& given, std::span<const segmentation::MovableRegion> regions,
                       TrackingContext& context) {
   const auto [time_ns, went_back] = time_.go_to(given.stamp_ns);
   if (went_back) {  // the camera may be anywhere, and what moved before moves no more
@@ -269,8 +270,9 @@ void Tracker::forget_depth_where_moved(const Pose& last_before) {
   forget_depth();
 }
 
-void Tracker::retract_movable(std::uint64_t keyframe_id, std::span<const MovableRegion> regions) {
-  if (const PictureCells* cells = mapper_.cells_of(keyframe_id))
+void Tracker::retract_movable(std::uint64_t keyframe_id,
+                              std::span<const segmentation::MovableRegion> regions) {
+  if (const segmentation::PictureCells* cells = mapper_.cells_of(keyframe_id))
     mapper_.retract(keyframe_id, removal_.segment_keyframe(*cells, regions));
 }
 

@@ -35,7 +35,7 @@ KeyframeData data_of(const SlamMap& map, const Keyframe& keyframe) {
 }  // namespace
 
 KeyframeData LocalMapper::insert(TrackedFrame& frame, std::shared_ptr<const ImagePyramid> images,
-                                 const PictureCells& cells) {
+                                 const segmentation::PictureCells& cells) {
   const PointId first_new = map_.points().next_id();
   Keyframe& keyframe = insert_keyframe(map_, frame, settings_.depth);
   frame.points = keyframe.points;
@@ -103,7 +103,7 @@ std::vector<KeyframePose> LocalMapper::keyframe_poses() const {
   return poses;
 }
 
-const PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
+const segmentation::PictureCells* LocalMapper::cells_of(KeyframeId keyframe) const {
   const auto depth = std::ranges::find(depths_, keyframe, &KeyframeDepth::keyframe);
   return depth == depths_.end() ? nullptr : &depth->cells;
 }

@@ -13,7 +13,7 @@
 #include "services/tracker/core/mapping/local_mapping.hpp"
 #include "services/tracker/core/mapping/submap_joining.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
-#include "services/tracker/core/removal/depth_grid.hpp"
+#include "common/dynamic_segmentation/depth_grid.hpp"
 
 namespace rds::tracker {
 
@@ -33,7 +33,7 @@ class LocalMapper {
   /// @param images  of the frame; null if points are not followed.
   /// @param cells   of the frame's depth: what late boxes of the keyframe are cut out of.
   KeyframeData insert(TrackedFrame& frame, std::shared_ptr<const ImagePyramid> images,
-                      const PictureCells& cells);
+                      const segmentation::PictureCells& cells);
   /// A keyframe for other services only; a map that grows keeps its pose, relative to `anchor`.
   KeyframePose insert_pose_only(const TrackedFrame& frame, KeyframeId anchor);
   /// Takes a keyframe out of the map if there are too many temporary ones, and the points that it alone sees:
@@ -46,7 +46,7 @@ class LocalMapper {
   /// services the newer ones.
   [[nodiscard]] std::vector<KeyframePose> keyframe_poses() const;
   /// Depth of a keyframe whose boxes may still come; null if unknown or too old.
-  [[nodiscard]] const PictureCells* cells_of(KeyframeId keyframe) const;
+  [[nodiscard]] const segmentation::PictureCells* cells_of(KeyframeId keyframe) const;
   /// Takes the features in a late mask of a keyframe out of the map.
   void retract(KeyframeId keyframe, const MovableMask& movable);
 
@@ -82,7 +82,7 @@ class LocalMapper {
 
   struct KeyframeDepth {
     KeyframeId keyframe = kNoId;
-    PictureCells cells;
+    segmentation::PictureCells cells;
   };
 
   PoseSettings settings_;

@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "services/tracker/core/motion/se3.hpp"
-#include "services/tracker/core/removal/surfaces.hpp"
+#include "common/dynamic_segmentation/surfaces.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -45,8 +45,8 @@ struct Sums {
   int agreeing = 0;
 };
 
-void add(const SeenCells& before, double weight, const Eigen::Isometry3f& here_from_before,
-         const SurfaceCells& now, double gate, Sums& sums) {
+void add(const segmentation::SeenCells& before, double weight, const Eigen::Isometry3f& here_from_before,
+         const segmentation::SurfaceCells& now, double gate, Sums& sums) {
   for (Eigen::Index i = 0; i < before.points.rows(); i += kStride) {
     const Eigen::Vector3f p = here_from_before * before.points.row(i).matrix().transpose();
     const cv::Point cell = now.grid.cell_of(p);
@@ -68,8 +68,8 @@ void add(const SeenCells& before, double weight, const Eigen::Isometry3f& here_f
   }
 }
 
-Sums compare(const EarlierView& before, const geometry::Pose& here_from_before, const SurfaceCells& now,
-             double gate) {
+Sums compare(const EarlierView& before, const geometry::Pose& here_from_before,
+             const segmentation::SurfaceCells& now, double gate) {
   Sums sums;
   add(before.fixed, 1, here_from_before.cast<float>(), now, gate, sums);
   add(before.movable, kMovableWeight, here_from_before.cast<float>(), now, gate, sums);
@@ -79,8 +79,8 @@ Sums compare(const EarlierView& before, const geometry::Pose& here_from_before, 
 }  // namespace
 
 std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::Mat1f& depth_m,
-                                          const GridGeometry& grid, const geometry::Pose& guess) {
-  const SurfaceCells now{depth_m, grid};
+                                          const segmentation::GridGeometry& grid, const geometry::Pose& guess) {
+  const segmentation::SurfaceCells now{depth_m, grid};
   const geometry::Pose start = guess * before.fixed.map_from_camera;
   Twist prior;  // information of the guess
   prior << Eigen::Vector3d::Constant(1 / (kGuessM * kGuessM)),
@@ -107,7 +107,7 @@ std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::M
 
 std::optional<geometry::Pose> DepthAligner::estimate(const DepthView& view,
                                                      const geometry::Pose& guess) const {
-  const GridGeometry& grid = *view.grid;
+  const segmentation::GridGeometry& grid = *view.grid;
   if (!previous_ || previous_->camera != grid.camera()) return std::nullopt;
   const auto& [depth_m, movable, camera, map_from_camera] = *previous_;
   const cv::Mat1b is_static =

@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "common/geometry/pose.hpp"
-#include "services/tracker/core/removal/motion_evidence.hpp"
+#include "common/dynamic_segmentation/motion_evidence.hpp"
 
 namespace rds::tracker {
 
 /// What an earlier picture showed.
 struct EarlierView {
-  SeenCells fixed;
-  SeenCells movable;  // may have moved since, and counts little; the same pose
+  segmentation::SeenCells fixed;
+  segmentation::SeenCells movable;  // may have moved since, and counts little; the same pose
 };
 
 /// Where the camera is by depth alone: what an earlier picture saw is laid on the surfaces that this one
@@ -24,11 +24,11 @@ struct EarlierView {
 /// @return camera_from_map; nullopt where too little of what was seen shows again, or its surfaces leave the
 /// camera free to move in some direction, as a single wall does.
 std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::Mat1f& depth_m,
-                                          const GridGeometry& grid, const geometry::Pose& guess);
+                                          const segmentation::GridGeometry& grid, const geometry::Pose& guess);
 
 /// A depth picture in the cells of a grid. Shared, not copied.
 struct DepthView {
-  const GridGeometry* grid = nullptr;
+  const segmentation::GridGeometry* grid = nullptr;
   cv::Mat1f depth_m;  // 0 where nothing was measured
   cv::Mat1b movable;  // not 0 where something movable shows; empty: nowhere
 };

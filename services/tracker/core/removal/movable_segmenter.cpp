@@ -3,21 +3,25 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/box_cut.hpp"
-#include "services/tracker/core/removal/surfaces.hpp"
+#include "common/dynamic_segmentation/box_evidence.hpp"
+#include "common/dynamic_segmentation/colour_model.hpp"
+#include "common/dynamic_segmentation/surfaces.hpp"
 
 namespace rds::tracker {
 namespace {
 
+using namespace segmentation;
+
 constexpr double kNsPerSecond = 1e9;
-constexpr float kCarryS = 0.5F;         // how long a part stays cut that neither box nor motion supports
 constexpr double kReferenceS = 0.25;    // between the earlier pictures that a new one is compared with
 constexpr std::size_t kReferences = 2;  // earlier pictures
 constexpr int kStableCells = 2;         // around a stable point
 constexpr double kStableStepM = 0.03;
+constexpr double kSurfaceStepM = 0.05;  // between where a surface was and is
 
 }  // namespace
 
@@ -29,76 +33,61 @@ void MovableSegmenter::set_picture(const image::RgbdFrame& picture) {
   last_ = std::exchange(now_, Now());
   now_.stamp_ns = picture.stamp_ns;
   now_.cells.depth_m = depth_in_cells(picture.depth, grid_, depth_.max_depth_m);
+  if (config_.method == "depth")
+    now_.cells.colours = colours_in_cells(picture.color, grid_.size(), grid_.cell_px());
 }
 
 void MovableSegmenter::detect_motion(const geometry::Pose& camera_from_map) {
   if (config_.method != "depth" || !last_.sure) return;
   now_.camera_from_map = camera_from_map;
-  if (!config_.motion) return;
-  const cv::Mat1f& depth_m = now_.cells.depth_m;
-  now_.moved = moving_objects(depth_m, compare_with_past(depth_m, grid_, camera_from_map, past_));
+  if (config_.motion) now_.motion = compare_with_past(now_.cells.depth_m, grid_, camera_from_map, past_);
 }
 
 MovableMask MovableSegmenter::segment(std::span<const MovableRegion> regions,
                                       std::span<const Eigen::Vector3f> stable) {
   if (config_.method == "off") return {};
   if (config_.method == "box") return whole_boxes(regions);
-  now_.mask = cv::Mat1b(grid_.size(), std::uint8_t{0});
-  now_.unsupported_s = cv::Mat1f(grid_.size(), 0.0F);
   mark_stable(stable);
-  if (!regions.empty() || !now_.moved.empty() || last_.widened.any()) mark(regions);
-  if (cv::countNonZero(now_.mask) > 0) now_.widened = widened(now_.cells.depth_m, now_.mask);
-  return now_.widened;
-}
-
-void MovableSegmenter::mark(std::span<const MovableRegion> regions) {
-  cv::Mat1b unknown(grid_.size(), std::uint8_t{0});
-  fill_boxes(grid_, regions, unknown);
-  for (const auto& cells : now_.moved) unknown(cv::boundingRect(cells)).setTo(255);
-  const Background background(now_.cells, grid_, unknown);
-  Foreground foreground(now_.cells, background);
-  mark_boxes(foreground, grid_, regions, now_.mask);
-  for (const auto& cells : now_.moved) mark_moved(foreground, grid_, cells, now_.mask);
-  if (now_.camera_from_map && last_.map_from_camera && last_.widened.any()) carry(background);
+  const bool has_appeared = !now_.motion.appeared.empty() && cv::countNonZero(now_.motion.appeared) > 0;
+  if (regions.empty() && !has_appeared && !last_.widened.any()) return {};
+  now_.segmentation = segmentation::segment(now_.cells, grid_, {regions, now_.motion, carried()});
+  return now_.widened = widened(now_.segmentation.log_odds);
 }
 
 /// Marks the surfaces right around points that show where they have always been.
 void MovableSegmenter::mark_stable(std::span<const Eigen::Vector3f> stable) {
   const cv::Mat1f& depth_m = now_.cells.depth_m;
   now_.cells.stable = cv::Mat1b(grid_.size(), std::uint8_t{0});
-  const cv::Rect inside({0, 0}, grid_.size());
   for (const Eigen::Vector3f& p : stable) {
     const cv::Point middle = grid_.cell_of(p);
     if (middle.x < 0) continue;
-    for (int dy = -kStableCells; dy <= kStableCells; ++dy)
-      for (int dx = -kStableCells; dx <= kStableCells; ++dx) {
-        const cv::Point cell = middle + cv::Point(dx, dy);
-        if (!inside.contains(cell) || !(depth_m(cell) > 0)) continue;
-        if (one_surface(depth_m(cell), p.z(), kStableStepM)) now_.cells.stable(cell) = 255;
-      }
+    const cv::Rect around = cv::Rect(middle - cv::Point(kStableCells, kStableCells),
+                                     middle + cv::Point(kStableCells + 1, kStableCells + 1)) &
+                            cv::Rect({0, 0}, grid_.size());
+    for (int r = around.y; r < around.br().y; ++r)
+      for (int c = around.x; c < around.br().x; ++c)
+        if (depth_m(r, c) > 0 && one_surface(depth_m(r, c), p.z(), kStableStepM))
+          now_.cells.stable(r, c) = 255;
   }
 }
 
-/// Where the parts that were cut from the last picture show now, if they have not moved.
-void MovableSegmenter::carry(const Background& background) {
-  const auto passed_s =
-      static_cast<float>(static_cast<double>(now_.stamp_ns - last_.stamp_ns) / kNsPerSecond);
+/// What the last picture tells of surfaces that have not moved since: what was movable then still is. What
+/// was static may be somebody who stood.
+cv::Mat1f MovableSegmenter::carried() const {
+  if (!now_.camera_from_map || !last_.map_from_camera || !last_.widened.any()) return {};
+  cv::Mat1f told(grid_.size(), std::numeric_limits<float>::lowest());
+  const double passed_s = static_cast<double>(now_.stamp_ns - last_.stamp_ns) / kNsPerSecond;
   const Eigen::Isometry3f here_from_last = (*now_.camera_from_map * *last_.map_from_camera).cast<float>();
-  for (int r = 0; r < last_.mask.rows; ++r)
-    for (int c = 0; c < last_.mask.cols; ++c) {
-      if (last_.mask(r, c) == 0) continue;
-      const float age_s = last_.unsupported_s(r, c) + passed_s;
+  for (int r = 0; r < told.rows; ++r)
+    for (int c = 0; c < told.cols; ++c) {
       const float z = last_.cells.depth_m(r, c);
-      if (!(z > 0) || age_s > kCarryS) continue;
+      if (!(last_.segmentation.log_odds(r, c) > 0) || !(z > 0)) continue;
       const Eigen::Vector3f p = here_from_last * (z * grid_.ray(c, r));
       const cv::Point cell = grid_.cell_of(p);
-      if (cell.x < 0 || (now_.mask(cell) != 0 && now_.unsupported_s(cell) == 0)) continue;
-      const float here = now_.cells.depth_m(cell);
-      if (!(here > 0) || !one_surface(here, p.z(), kSurfaceStepM) || background.shows_wide(cell)) continue;
-      float& unsupported = now_.unsupported_s(cell);
-      unsupported = now_.mask(cell) == 0 ? age_s : std::min(unsupported, age_s);
-      now_.mask(cell) = 255;
+      if (cell.x < 0 || !one_surface(now_.cells.depth_m(cell), p.z(), kSurfaceStepM)) continue;
+      told(cell) = std::max(told(cell), lasting_presence(last_.segmentation.presence(r, c), passed_s));
     }
+  return told;
 }
 
 void MovableSegmenter::set_pose(const geometry::Pose& map_from_camera, bool sure) {
@@ -116,25 +105,21 @@ MovableMask MovableSegmenter::segment_keyframe(const PictureCells& picture,
                                                std::span<const MovableRegion> regions) const {
   if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
   if (config_.method == "box") return whole_boxes(regions);
-  cv::Mat1b unknown(grid_.size(), std::uint8_t{0});
-  fill_boxes(grid_, regions, unknown);
-  const Background background(picture, grid_, unknown);
-  Foreground foreground(picture, background);
-  cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  mark_boxes(foreground, grid_, regions, mask);
-  return widened(picture.depth_m, mask);
+  return widened(segmentation::segment(picture, grid_, {regions, {}, {}}).log_odds);
 }
 
 MovableMask MovableSegmenter::whole_boxes(std::span<const MovableRegion> regions) const {
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  fill_boxes(grid_, regions, mask);
+  for (const MovableRegion& region : regions) mask(cells_of(region.box_px, grid_)).setTo(255);
   return {mask, grid_.cell_px()};
 }
 
-MovableMask MovableSegmenter::widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const {
-  cv::Mat1b wide = mask.clone();
-  close_and_widen(depth_m, wide);
-  return {wide, grid_.cell_px()};
+/// What is movable, and a rim of one cell, as depth is wrong there.
+MovableMask MovableSegmenter::widened(const cv::Mat1f& log_odds) const {
+  cv::Mat1b mask(log_odds > 0);
+  if (cv::countNonZero(mask) == 0) return {};
+  cv::dilate(mask, mask, cv::Mat());
+  return {mask, grid_.cell_px()};
 }
 
 void MovableSegmenter::forget() {

@@ -6,22 +6,23 @@
 #include <span>
 #include <vector>
 
+#include "common/dynamic_segmentation/dynamic_segmentation.hpp"
 #include "common/geometry/pose.hpp"
 #include "services/tracker/core/config/tracker_config.hpp"
-#include "services/tracker/core/removal/background.hpp"
-#include "services/tracker/core/removal/motion_evidence.hpp"
 #include "services/tracker/core/removal/movable_mask.hpp"
-#include "services/tracker/core/removal/movable_region.hpp"
 
 namespace rds::tracker {
 
 /// Segments each picture into cells that show something movable, and others.
 ///
-/// Movable are: the surfaces in predicted boxes, chosen by depth; what stands where nothing stood before (an
-/// object that no network knows, an arm outside its box); and what was movable in the last picture and has
-/// not moved since, for half a second without either. For one thread at a time.
+/// It keeps what the evidence needs of earlier pictures: their depth, and what was movable in the last one. The
+/// decision is segmentation::segment()'s. For one thread at a time.
 class MovableSegmenter {
  public:
+  using GridGeometry = segmentation::GridGeometry;
+  using MovableRegion = segmentation::MovableRegion;
+  using PictureCells = segmentation::PictureCells;
+
   MovableSegmenter(const RemovalConfig& config, const DepthConfig& depth) : config_(config), depth_(depth) {}
 
   /// First: the next picture; its depth is used.
@@ -46,32 +47,28 @@ class MovableSegmenter {
   void forget();
 
  private:
-  using Objects = std::vector<std::vector<cv::Point>>;
-
   struct Now {
     std::int64_t stamp_ns = 0;
     PictureCells cells;
     std::optional<geometry::Pose> camera_from_map;  // as it was guessed
-    Objects moved;                                  // what detect_motion() found
-    cv::Mat1b mask;                                 // without rim
-    cv::Mat1f unsupported_s;                        // for how long, where the mask is set
+    segmentation::MotionEvidence motion;            // what detect_motion() found
+    segmentation::Segmentation segmentation;        // empty if there is no evidence
     MovableMask widened;                            // with rim; empty where nothing is set
     std::optional<geometry::Pose> map_from_camera;  // that was found in the end
     bool sure = true;                               // is that
   };
 
-  void mark(std::span<const MovableRegion> regions);
   void mark_stable(std::span<const Eigen::Vector3f> stable);
-  void carry(const Background& background);
+  [[nodiscard]] cv::Mat1f carried() const;
   [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
-  [[nodiscard]] MovableMask widened(const cv::Mat1f& depth_m, const cv::Mat1b& mask) const;
+  [[nodiscard]] MovableMask widened(const cv::Mat1f& log_odds) const;
 
   RemovalConfig config_;
   DepthConfig depth_;
   GridGeometry grid_;
   Now now_;
   Now last_;
-  std::vector<SeenCells> past_;  // by stamp
+  std::vector<segmentation::SeenCells> past_;  // by stamp
   std::int64_t newest_past_ns_ = 0;
 };
 

@@ -32,7 +32,8 @@ inline Pose truth(int frame) {
   return pose(0.015 * frame, 0.004 * frame, 0.01 * frame, 0.004 * frame);
 }
 
-inline FrameResult step(Tracker& tracker, int frame, std::span<const MovableRegion> movable = {}) {
+inline FrameResult step(Tracker& tracker, int frame,
+                        std::span<const segmentation::MovableRegion> movable = {}) {
   return tracker.track(picture_of_strips(truth(frame), frame * kFrameNs), movable);
 }
 

@@ -54,7 +54,7 @@ class DepthPicture {
   DepthView& view() { return view_; }
 
  private:
-  GridGeometry grid_;
+  segmentation::GridGeometry grid_;
   DepthView view_;
 };
 

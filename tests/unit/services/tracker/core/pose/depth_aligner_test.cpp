@@ -57,7 +57,7 @@ class DepthAlignment : public testing::Test {
     EXPECT_LT(error.tail<3>().norm(), radians);
   }
 
-  GridGeometry grid{test::small_camera()};
+  segmentation::GridGeometry grid{test::small_camera()};
   Eigen::Vector3d walls_m{0.8, 0.6, 2.0};  // left and right, floor and ceiling, before and behind
   Eigen::Vector3d far_away{0, 0, -1.6};
   Pose moved = se3_exp((Twist() << 0.06, -0.02, 0.05, 0.02, 0.06, -0.03).finished());
@@ -114,7 +114,7 @@ TEST_F(DepthAlignment, APictureOfAnotherCameraSaysNothing) {
   DepthAligner aligner;
   geometry::CameraModel other = test::small_camera();
   other.fx *= 1.1;
-  const GridGeometry other_grid(other);
+  const segmentation::GridGeometry other_grid(other);
   aligner.set_previous({&other_grid, cv::Mat1f(other_grid.size(), 2.0F), {}}, Pose::Identity());
   EXPECT_FALSE(aligner.estimate({&grid, look(moved, far_away), {}}, guess));
 }

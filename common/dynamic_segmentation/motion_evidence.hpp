@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/geometry/pose.hpp"
-#include "services/tracker/core/removal/depth_grid.hpp"
+#include "common/dynamic_segmentation/depth_grid.hpp"
 
-namespace rds::tracker {
+namespace rds::segmentation {
 
 /// What an earlier picture saw.
 struct SeenCells {
@@ -20,7 +20,7 @@ struct SeenCells {
   geometry::Pose map_from_camera;
 };
 
-/// What earlier pictures say of the cells of a new one. Both have the new picture's size.
+/// What earlier pictures say of the cells of a new one. Both have the new picture's size, or are empty.
 struct MotionEvidence {
   cv::Mat1b appeared;   // 255 where something stands nearer than what stood there before
   cv::Mat1b unchanged;  // 255 where the same surface shows as before
@@ -29,12 +29,10 @@ struct MotionEvidence {
 /// Compares depths: what an earlier picture saw is projected into the camera where it is now.
 ///
 /// A cell is compared with all that projects into its 3×3 neighbourhood, so that a pose that is wrong by a
-/// cell changes nothing. At least two earlier pictures have to agree that something has appeared.
+/// cell changes nothing. At least two earlier pictures have to agree that something has appeared, and what is
+/// thinner than 5 cells is noise. Nothing is said if more than 40 % of the cells that can be compared have
+/// appeared: then the pose is wrong.
 MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& grid,
                                  const geometry::Pose& camera_from_map, std::span<const SeenCells> past);
 
-/// The connected surfaces among the cells that have appeared, but for small ones (noise). None if more than
-/// 40 % of the cells that can be compared have appeared: then the pose is wrong.
-std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence);
-
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/motion_evidence.hpp"
+#include "common/dynamic_segmentation/motion_evidence.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include <opencv2/imgproc.hpp>
 
-#include "services/tracker/core/removal/surfaces.hpp"
-
-namespace rds::tracker {
+namespace rds::segmentation {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::max();
@@ -19,8 +17,7 @@ constexpr int kWitnesses = 2;       // earlier pictures
 // is ten times and more what noise makes (docs/decisions/depth-noise.md).
 constexpr float kStepM = 0.1F;
 constexpr float kSameShare = 0.4F;  // of kStepM: so near is the same surface
-constexpr double kMinShare = 0.004;  // of the picture, of a moving thing
-constexpr double kMaxShare = 0.4;    // of what can be judged; more is an error of the pose
+constexpr double kMaxShare = 0.4;  // of what can be judged; more is an error of the pose
 
 /// Depth [m] of what an earlier picture saw, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,
@@ -85,24 +82,12 @@ MotionEvidence compare_with_past(const cv::Mat1f& depth_m, const GridGeometry& g
   // One earlier picture alone may be wrong: where others saw the place too, they have to agree.
   cv::threshold(evidence.appeared, evidence.appeared,
                 std::min<double>(kWitnesses, static_cast<double>(past.size())) - 0.5, 255, cv::THRESH_BINARY);
+  cv::morphologyEx(evidence.appeared, evidence.appeared, cv::MORPH_OPEN,
+                   cv::Mat::ones(kThinnest, kThinnest, CV_8U));
   evidence.unchanged.setTo(0, evidence.appeared);
+  const int appeared = cv::countNonZero(evidence.appeared);
+  if (appeared > kMaxShare * (appeared + cv::countNonZero(evidence.unchanged))) return {};
   return evidence;
 }
 
-std::vector<std::vector<cv::Point>> moving_objects(const cv::Mat1f& depth_m, const MotionEvidence& evidence) {
-  cv::Mat1b appeared;
-  cv::morphologyEx(evidence.appeared, appeared, cv::MORPH_OPEN, cv::Mat::ones(kThinnest, kThinnest, CV_8U));
-  const int moved = cv::countNonZero(appeared);
-  const double least = kMinShare * static_cast<double>(depth_m.total());
-  if (moved < least) return {};
-  const int judged = moved + cv::countNonZero(evidence.unchanged);
-  if (moved > kMaxShare * judged) return {};
-  cv::Mat1f candidates = depth_m.clone();
-  candidates.setTo(0, ~appeared);
-  const GrowthLimits whole{cv::Rect({0, 0}, depth_m.size()), 0, kNothing};
-  auto things = surfaces_within(candidates, whole);
-  std::erase_if(things, [&](const auto& cells) { return static_cast<double>(cells.size()) < least; });
-  return things;
-}
-
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

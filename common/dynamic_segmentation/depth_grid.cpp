@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/depth_grid.hpp"
+#include "common/dynamic_segmentation/depth_grid.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 
-namespace rds::tracker {
+namespace rds::segmentation {
 namespace {
 
 constexpr int kColumns = 160;
@@ -87,4 +87,4 @@ cv::Mat1f depth_in_cells(const image::DepthImage& depth, const GridGeometry& gri
   return cells;
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/plane_fitting.hpp"
+#include "common/dynamic_segmentation/plane_fitting.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-namespace rds::tracker {
+namespace rds::segmentation {
 namespace {
 
 constexpr int kMaxPlanes = 4;
@@ -18,8 +18,7 @@ constexpr int kHypotheses = 40;
 constexpr std::size_t kMinSamples = 60;  // of a plane
 constexpr std::size_t kMaxAsked = 300;   // samples that judge a hypothesis
 constexpr std::size_t kNear = 12;        // of the samples in order, that a hypothesis is made of
-constexpr float kNarrowM = 0.06F;  // standard deviation along the narrower side: a strip of 0.2 m, and …
-constexpr float kWideM = 0.16F;    // wider than 0.55 m
+constexpr float kNarrowM = 0.06F;  // standard deviation along the narrower side: a strip of 0.2 m
 constexpr float kMinSine = 0.2F;   // of the triangle that makes a hypothesis
 
 bool agrees(const BackgroundPlane& plane, const SurfaceSample& sample, const geometry::DepthNoise& noise) {
@@ -44,7 +43,7 @@ std::optional<BackgroundPlane> plane_through(const std::array<Eigen::Vector3f, 3
   const Eigen::Vector3f normal = a.cross(b);
   if (!(normal.norm() > kMinSine * a.norm() * b.norm())) return std::nullopt;
   const Eigen::Vector3f unit = normal.normalized();
-  return BackgroundPlane{unit, unit.dot(p[0]), false};
+  return BackgroundPlane{unit, unit.dot(p[0])};
 }
 
 /// The plane that fits best; nullopt for a strip, which an arm or a leg can be.
@@ -59,7 +58,7 @@ std::optional<BackgroundPlane> fit(const std::vector<SurfaceSample>& samples) {
   const Eigen::Vector3f normal = solver.eigenvectors().col(0);
   const float variance = solver.eigenvalues()(1) / static_cast<float>(samples.size());
   if (variance < kNarrowM * kNarrowM) return std::nullopt;
-  return BackgroundPlane{normal, normal.dot(mean), variance > kWideM * kWideM};
+  return BackgroundPlane{normal, normal.dot(mean)};
 }
 
 /// Every so many of the samples that agree with the plane; fewer if they cannot be more than `most`.
@@ -115,4 +114,4 @@ std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples,
   return planes;
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -8,13 +8,12 @@
 
 #include "common/geometry/depth_noise.hpp"
 
-namespace rds::tracker {
+namespace rds::segmentation {
 
 /// Points p with normal · p = distance, camera frame [m].
 struct BackgroundPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float distance = 0;
-  bool wide = false;  // wider than a person: a table, a wall, the floor
 };
 
 /// Where a surface is, camera frame [m], and which way it faces: a vector of any length, zero if not known.
@@ -40,4 +39,4 @@ inline bool is_parallel(const BackgroundPlane& plane, const Eigen::Vector3f& nor
 std::vector<BackgroundPlane> fit_planes(std::vector<SurfaceSample> samples,
                                         const geometry::DepthNoise& noise);
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/removal/background.hpp"
+#include "common/dynamic_segmentation/background.hpp"
 
 #include <algorithm>
+#include <optional>
 
-namespace rds::tracker {
+namespace rds::segmentation {
 namespace {
 
 constexpr int kStride = 2;  // cells, between those that are asked for planes
@@ -26,17 +27,15 @@ std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& unknown)
   return samples;
 }
 
-bool Background::shows(const cv::Point& cell, bool wide) const {
-  if (picture_.stable(cell) != 0) return true;
+bool Background::shows_at(const cv::Point& cell) const {
   if (!(picture_.depth_m(cell) > 0)) return false;
   const Eigen::Vector3f p = surfaces_.point(cell.x, cell.y);
-  const auto may_show = [&](const BackgroundPlane& plane) {
-    return (plane.wide || !wide) && is_near(plane, p, surfaces_.grid.noise());
-  };
-  if (std::ranges::none_of(planes_, may_show)) return false;
-  const Eigen::Vector3f n = surfaces_.normal(cell.x, cell.y);
-  return std::ranges::any_of(
-      planes_, [&](const BackgroundPlane& plane) { return may_show(plane) && is_parallel(plane, n); });
+  std::optional<Eigen::Vector3f> normal;
+  return std::ranges::any_of(planes_, [&](const BackgroundPlane& plane) {
+    if (!is_near(plane, p, surfaces_.grid.noise())) return false;
+    if (!normal) normal = surfaces_.normal(cell.x, cell.y);
+    return is_parallel(plane, *normal);
+  });
 }
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -10,7 +10,7 @@
 #include "common/geometry/depth_noise.hpp"
 #include "common/image/rgbd_frame.hpp"
 
-namespace rds::tracker {
+namespace rds::segmentation {
 
 /// How a camera's pictures are divided into square cells, some 160 across, and how well it measures depth.
 class GridGeometry {
@@ -83,10 +83,11 @@ class GridGeometry {
 /// A picture in cells.
 struct PictureCells {
   cv::Mat1f depth_m;
-  cv::Mat1b stable;  // 255 where something shows that has stood still for long
+  cv::Mat1b stable;   // 255 where something shows that has stood still for long
+  cv::Mat1w colours;  // colours_in_cells(); empty where they say nothing
 };
 
 /// Depth [m] of what stands nearest in each cell; 0 where nothing was measured or all is beyond max_depth_m.
 cv::Mat1f depth_in_cells(const image::DepthImage& depth, const GridGeometry& grid, double max_depth_m);
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

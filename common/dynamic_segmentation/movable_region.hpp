@@ -3,7 +3,7 @@
 
 #include "common/geometry/box.hpp"
 
-namespace rds::tracker {
+namespace rds::segmentation {
 
 /// A part of the picture where something that can move is expected: features inside the box whose depth lies
 /// in the interval, or that have no depth, are not to be trusted.
@@ -13,4 +13,4 @@ struct MovableRegion {
   float max_depth_m = 0;
 };
 
-}  // namespace rds::tracker
+}  // namespace rds::segmentation

@@ -17,24 +17,28 @@ constexpr int kZstdLevel = 1;  // a recorder has to keep up with its topics
 constexpr std::array<std::pair<Compression, std::string_view>, 3> kNames{
     {{Compression::kNone, ""}, {Compression::kLz4, "lz4"}, {Compression::kZstd, "zstd"}}};
 
-Bytes compress_lz4(View records) {
+/// Makes room; memory that was used before is not written again.
+void grow(Bytes& buffer, std::size_t size) {
+  if (buffer.size() < size) buffer.resize(size);
+}
+
+View compress_lz4(View records, Bytes& buffer) {
   LZ4F_preferences_t preferences = LZ4F_INIT_PREFERENCES;
   preferences.frameInfo.blockSizeID = LZ4F_max256KB;
   preferences.frameInfo.contentSize = records.size();
-  Bytes out(LZ4F_compressFrameBound(records.size(), &preferences));
+  grow(buffer, LZ4F_compressFrameBound(records.size(), &preferences));
   const std::size_t size =
-      LZ4F_compressFrame(out.data(), out.size(), records.data(), records.size(), &preferences);
+      LZ4F_compressFrame(buffer.data(), buffer.size(), records.data(), records.size(), &preferences);
   if (LZ4F_isError(size) != 0) throw std::bad_alloc();  // nothing else can fail with room enough
-  out.resize(size);
-  return out;
+  return View(buffer).first(size);
 }
 
-Bytes compress_zstd(View records) {
-  Bytes out(ZSTD_compressBound(records.size()));
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), records.data(), records.size(), kZstdLevel);
+View compress_zstd(View records, Bytes& buffer) {
+  grow(buffer, ZSTD_compressBound(records.size()));
+  const std::size_t size =
+      ZSTD_compress(buffer.data(), buffer.size(), records.data(), records.size(), kZstdLevel);
   if (ZSTD_isError(size) != 0) throw std::bad_alloc();
-  out.resize(size);
-  return out;
+  return View(buffer).first(size);
 }
 
 /// One step of a decompressor: it takes from `in`, puts into `out`, and says how it stands.
@@ -110,16 +114,16 @@ std::optional<Compression> compression_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-Bytes compress(View records, Compression compression) {
+View compress(View records, Compression compression, Bytes& buffer) {
   switch (compression) {
     case Compression::kLz4:
-      return compress_lz4(records);
+      return compress_lz4(records, buffer);
     case Compression::kZstd:
-      return compress_zstd(records);
+      return compress_zstd(records, buffer);
     case Compression::kNone:
       break;
   }
-  return {records.begin(), records.end()};
+  return records;
 }
 
 tl::expected<Bytes, std::string> decompress(View compressed, Compression compression, std::size_t size) {

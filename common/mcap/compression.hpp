@@ -19,8 +19,10 @@ std::string name_of(Compression compression);
 std::optional<Compression> compression_from_name(std::string_view name);
 
 /// Compresses a chunk's records: an LZ4 frame, or a Zstandard frame of level 1.
+/// @param buffer  for the result, of any content: one for all chunks costs no memory for each of them.
+/// @return the result in the buffer, or the records where nothing is to be compressed.
 /// @throws std::bad_alloc
-Bytes compress(View records, Compression compression);
+View compress(View records, Compression compression, Bytes& buffer);
 
 /// @param size  that the records have to have. Memory grows with what really comes out of `compressed`, never
 /// beyond that.

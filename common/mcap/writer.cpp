@@ -61,29 +61,30 @@ Result Writer::write(Message message) {
 Result Writer::end_chunk() {
   if (indexes_.empty() && head_.empty()) return {};
   if (indexes_.empty()) return give(std::exchange(head_, {}));
-  const Bytes compressed = compress(records_, options_.compression);
+  const View compressed = compress(records_, options_.compression, compressed_);
   const Chunk chunk{
       chunk_start_time_, chunk_end_time_, records_.size(), crc32_of(records_), name_of(options_.compression),
       compressed};
-  Bytes out = std::exchange(head_, {});
+  out_.assign(head_.begin(), head_.end());
+  head_.clear();
   ChunkIndex index{.start_time = chunk.start_time,
                    .end_time = chunk.end_time,
-                   .chunk_offset = given_ + out.size(),
+                   .chunk_offset = given_ + out_.size(),
                    .compression = chunk.compression,
                    .compressed_size = compressed.size(),
                    .uncompressed_size = records_.size()};
-  append(out, chunk);
-  const std::uint64_t indexes_start = given_ + out.size();
+  append(out_, chunk);
+  const std::uint64_t indexes_start = given_ + out_.size();
   index.chunk_length = indexes_start - index.chunk_offset;
   for (const auto& [channel_id, messages] : indexes_) {
-    index.message_index_offsets[channel_id] = given_ + out.size();
-    append(out, channel_id, messages);
+    index.message_index_offsets[channel_id] = given_ + out_.size();
+    append(out_, channel_id, messages);
   }
-  index.message_index_length = given_ + out.size() - indexes_start;
+  index.message_index_length = given_ + out_.size() - indexes_start;
   summary_.add(index);
   records_.clear();
   indexes_.clear();
-  return give(out);
+  return give(out_);
 }
 
 Result Writer::finish() {

@@ -61,6 +61,8 @@ class Writer {
   std::vector<Schema> schemas_;         // schema i + 1
   std::vector<KnownChannel> channels_;  // channel i
   Bytes records_;                       // of the present chunk
+  Bytes compressed_;                    // room for it, compressed
+  Bytes out_;                           // room for what is given
   std::map<std::uint16_t, MessageIndex> indexes_;
   std::uint64_t chunk_start_time_ = 0;
   std::uint64_t chunk_end_time_ = 0;

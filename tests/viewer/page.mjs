@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // page.mjs URL FOLDER: opens the viewer's page in Chromium, prints its figures as JSON for each line on standard input
-// ("stats"), takes a screenshot ("shot NAME WIDTH HEIGHT HASH"), turns the view ("turn SECONDS") and ends with standard input. Errors of the page go into the figures.
+// ("stats"), takes a screenshot ("shot NAME WIDTH HEIGHT HASH"), turns the view ("turn SECONDS"), opens the page once more beside it ("open") and ends with
+// standard input. Errors of the page go into the figures.
 import { createInterface } from "node:readline";
-import { chromium } from "playwright-core";
+import { launch, open } from "./opening.mjs";
 
 const [url, folder] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-dev-shm-usage"],
-});
+const browser = await launch();
 const page = await browser.newPage({ viewport: { width: 640, height: 400 }, colorScheme: "dark" });
 const errors = [];
 page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
@@ -40,6 +38,7 @@ const commands = {
     await new Promise(step);
     return +((1000 * (view.pictures - before)) / ms).toFixed(1);
   }, 1000 * seconds),
+  open: async () => open(browser, url),
   key: async (name) => ({ key: await page.keyboard.press(name) }),
   eval: async (...code) => ({ value: await page.evaluate(code.join(" ")) }),
 };

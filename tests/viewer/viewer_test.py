@@ -37,6 +37,7 @@ DOMAIN = os.environ.get("RDS_VIEWER_DOMAIN", "88")
 RECORDED = ["rds/odometry", "tf", "rds/map/grid", "rds/map/points", "rds/tracking_state"]
 LIMIT_S = 120
 MOST_MB = 300
+HELLO, MAP = 1, 2  # kinds of frames
 
 
 def free_port():
@@ -217,6 +218,7 @@ class Viewer(unittest.TestCase):
         self.assertGreater(boxes, 0, "nobody passed")
         self.assertTrue(pictures)
         self.assertEqual(int(stats["keyframes"]), sum(not line.startswith("#") for line in (out / "keyframes.txt").read_text().splitlines()))
+        self.check_opening(page.ask("open"), stats["voxels"])
         page.ask(f"shot {vendor} 1440 900")
         if vendor == "fastdds":
             page.ask("shot phone 390 780 color=label&layers=voxels,path,camera,objects,names")
@@ -226,6 +228,13 @@ class Viewer(unittest.TestCase):
         self.check_foxglove(programs, recorded)
         run.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(30), 0, self.log("run"))
+
+    def check_opening(self, opened, voxels):
+        """The first picture is that of the map, and waits for nothing else."""
+        print("opened again:", opened["times"], opened["waits"], flush=True)
+        self.assertEqual(opened["kinds"][:2], [HELLO, MAP])
+        self.assertEqual(opened["voxels"], voxels, "in the first picture")
+        self.assertEqual(sorted(opened["asked"]), sorted(opened["named"]), "each file is asked for once, when index.html is there")
 
     def check_foxglove(self, programs, recorded):
         on_the_bus = {}

@@ -5,18 +5,13 @@
 
 #include "common/image/tum_dataset.hpp"
 #include "tools/recording/bag_recording.hpp"
-#include "tools/recording/numbered_recording.hpp"
+#include "tools/recording/benchmarks/benchmarks.hpp"
 
 namespace rds::recording {
 namespace fs = std::filesystem;
 namespace {
 
 using Opened = tl::expected<OpenedRecording, std::string>;
-
-Opened without_notes(NumberedRecording::Opened recording) {
-  if (!recording) return tl::unexpected(recording.error());
-  return OpenedRecording{std::move(*recording), ""};
-}
 
 }  // namespace
 
@@ -32,10 +27,12 @@ Opened open_recording(const fs::path& path) {
   if (!is_folder && fs::exists(path, error))
     return tl::unexpected(fmt::format(
         "{}: expected a recording: a folder, or a file that ends in .mcap or .db3", path.string()));
-  if (is_folder && NumberedRecording::is_icl_nuim(path))
-    return without_notes(NumberedRecording::open_icl_nuim(path));
-  if (is_folder && !fs::exists(path / "rgb.txt", error) && NumberedRecording::is_seven_scenes(path))
-    return without_notes(NumberedRecording::open_seven_scenes(path));
+  if (is_folder && !fs::exists(path / "rgb.txt", error)) {
+    if (auto benchmark = open_benchmark(path)) {
+      if (!*benchmark) return tl::unexpected(benchmark->error());
+      return OpenedRecording{std::move(**benchmark), ""};
+    }
+  }
   auto dataset = image::TumDataset::open(path);
   if (!dataset) return tl::unexpected(dataset.error());
   return OpenedRecording{std::make_unique<image::TumDataset>(std::move(*dataset)), ""};

@@ -17,7 +17,7 @@ struct OpenedRecording {
 };
 
 /// Opens a recording in any form that is known by its layout: a folder in TUM form, an MCAP file, a SQLite
-/// file or folder of rosbag2, a sequence of 7-Scenes or ICL-NUIM.
+/// file or folder of rosbag2, a folder of a known benchmark (benchmarks/benchmarks.hpp).
 /// @return or one sentence that names the place and what was expected.
 tl::expected<OpenedRecording, std::string> open_recording(const std::filesystem::path& path);
 

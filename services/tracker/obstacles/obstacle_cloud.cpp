@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 namespace rds::tracker {
 namespace {
@@ -24,26 +25,28 @@ PointField coordinate(const std::string& name, std::uint32_t offset) {
   return field;
 }
 
-void append(std::vector<std::uint8_t>& bytes, double number) {
-  const auto bits = std::bit_cast<std::array<std::uint8_t, 4>>(static_cast<float>(number));
-  bytes.insert(bytes.end(), bits.begin(), bits.end());
+/// Places along an edge, both ends among them.
+std::vector<float> along(double low, double high) {
+  const double wanted = std::ceil((high - low) / kObstacleStepM - kRounding);
+  const int steps = static_cast<int>(std::clamp(wanted, 1.0, double{kMostSteps}));
+  std::vector<float> places;
+  for (int step = 0; step <= steps; ++step)
+    places.push_back(static_cast<float>(low + (high - low) * step / steps));
+  return places;
 }
 
 void fill(std::vector<std::uint8_t>& bytes, const geometry::Box3& box) {
-  std::array<int, 3> steps{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double wanted = std::ceil((box.max[axis] - box.min[axis]) / kObstacleStepM - kRounding);
-    steps[static_cast<std::size_t>(axis)] = static_cast<int>(std::clamp(wanted, 1.0, double{kMostSteps}));
-  }
-  const auto at = [&](int axis, int step) {
-    return box.min[axis] + (box.max[axis] - box.min[axis]) * step / steps[static_cast<std::size_t>(axis)];
-  };
-  for (int x = 0; x <= steps[0]; ++x)
-    for (int y = 0; y <= steps[1]; ++y)
-      for (int z = 0; z <= steps[2]; ++z) {
-        append(bytes, at(0, x));
-        append(bytes, at(1, y));
-        append(bytes, at(2, z));
+  const auto xs = along(box.min.x(), box.max.x());
+  const auto ys = along(box.min.y(), box.max.y());
+  const auto zs = along(box.min.z(), box.max.z());
+  std::size_t end = bytes.size();
+  bytes.resize(end + xs.size() * ys.size() * zs.size() * kPointBytes);
+  for (const float x : xs)
+    for (const float y : ys)
+      for (const float z : zs) {
+        const std::array<float, 3> point{x, y, z};
+        std::memcpy(bytes.data() + end, point.data(), kPointBytes);
+        end += kPointBytes;
       }
 }
 

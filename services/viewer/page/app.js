@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Vector3 } from "./vendor/three/three.module.js";
-import { Connection } from "./connection.js";
+import { connection } from "./connection.js";
 import { Commands } from "./panels/commands.js";
 import { LAYERS_AT_FIRST, LAYER_NAMES, List, makeLayerBoxes, showLegend } from "./panels/panels.js";
 import { Picture } from "./panels/picture.js";
@@ -13,6 +13,7 @@ const STATES = [["starting", "none"], ["tracking", "good"], ["weak", "warn"], ["
 const IN_MAP = [1, 2, 4], IN_SUBMAP = 5;
 const SILENT_MS = 3000; // without a frame of the camera: no longer live
 const ADDRESS_MS = 400;
+const BEFORE_MAP = ["connected", "hello"]; // what is next is the map, or there is none
 const NARROW = matchMedia("(max-width: 720px)");
 const byId = (id) => document.getElementById(id);
 
@@ -137,7 +138,7 @@ function setLayer(name, shown) {
   document.querySelector(`input[name=layer][value=${name}]`).checked = shown;
   if (name === "picture") {
     byId("picture").hidden = !shown || !picture.shown;
-    connection?.wantPicture(shown);
+    connection.wantPicture(shown);
   } else {
     view.setLayer(name, shown);
   }
@@ -204,7 +205,6 @@ function fit() {
   keepAddress();
 }
 
-let connection = null;
 const commandsPanel = new Commands(byId("commands"), (message) => connection.say(message));
 makeLayerBoxes(byId("layers"), setLayer);
 for (const input of document.querySelectorAll("input[name=color]")) input.onchange = () => setColor(input.value);
@@ -223,8 +223,10 @@ readAddress();
 setPanel(!NARROW.matches);
 moving.show([]);
 objects.show([]);
-connection = new Connection(listener);
-connection.wantsPicture = settings.layers.has("picture");
+connection.listen((kind, told) => {
+  listener[kind]?.(told);
+  if (!BEFORE_MAP.includes(kind)) view.begin();
+});
 
 /// For tests and for who is curious: what is shown now.
 window.rds = { view, picture, get stats() { return { ...view.voxels.stats, connected: seen.connected, pictures: view.pictures, path: view.layers.pathLength, boxes: view.layers.boxes.length, objects: view.layers.objects.length, labels: labels.length, keyframes: byId("stat-keyframes").textContent, picture: picture.shown ?? false, submap: view.layers.submap.size }; } };

@@ -4,12 +4,23 @@ import { readFrame } from "./frames.js";
 const PROTOCOL = "rds.view.v1";
 const AGAIN_MS = 1000;
 
-/// The WebSocket to rds-viewer; connects again until it is there. Calls listener[kind](content), and listener.connected(true or false).
-export class Connection {
-  constructor(listener) {
-    this.listener = listener;
+/// The WebSocket to rds-viewer; connects again until it is there. Calls listener(kind, content), with kind "connected" and true or false, too.
+/// Opens before the page has a listener, so that the map is under way while the page's other files are: what comes until then waits.
+class Connection {
+  constructor() {
+    this.waiting = [];
     this.wantsPicture = false;
     this.open();
+  }
+
+  listen(listener) {
+    this.listener = listener;
+    for (const told of this.waiting.splice(0)) listener(...told);
+  }
+
+  tell(kind, content) {
+    if (this.listener) this.listener(kind, content);
+    else this.waiting.push([kind, content]);
   }
 
   open() {
@@ -22,15 +33,15 @@ export class Connection {
     this.socket = new WebSocket(url, PROTOCOL);
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => {
-      this.listener.connected(true);
+      this.tell("connected", true);
       this.say({ picture: this.wantsPicture });
     };
     this.socket.onmessage = ({ data }) => {
       const frame = data instanceof ArrayBuffer ? readFrame(data) : null;
-      if (frame) this.listener[frame[0]]?.(frame[1]);
+      if (frame) this.tell(...frame);
     };
     this.socket.onclose = () => {
-      this.listener.connected(false);
+      this.tell("connected", false);
       setTimeout(() => this.open(), AGAIN_MS);
     };
   }
@@ -44,3 +55,5 @@ export class Connection {
     this.say({ picture: wanted });
   }
 }
+
+export const connection = new Connection();

@@ -9,7 +9,7 @@ CLI::Option* add_recording_option(CLI::App& command, std::filesystem::path& reco
   return command.add_option(
       "--dataset,recording", recording,
       "recording: a folder in TUM RGB-D form or of rosbag2, a .mcap or .db3 file, a sequence of "
-      "7-Scenes or ICL-NUIM");
+      "7-Scenes, ICL-NUIM, Replica or ScanNet");
 }
 
 }  // namespace rds

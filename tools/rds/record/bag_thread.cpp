@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "common/concurrency/priority.hpp"
+
 namespace rds::record {
 namespace {
 
@@ -35,6 +37,7 @@ std::vector<BagThread::Count> BagThread::counts() const {
 }
 
 void BagThread::run(const std::stop_token& stop) {
+  concurrency::give_way(kNice);
   auto flushed = std::chrono::steady_clock::now();
   bool stopping = false;
   while (result_ && !stopping) {

@@ -12,6 +12,10 @@
 
 namespace rds::record {
 
+/// By how much a recorder's threads give way: those who are recorded have the processor first, and their
+/// messages wait.
+constexpr int kNice = 10;
+
 /// Writes messages into a bag on a thread of its own, and makes them readable twice a second.
 class BagThread {
  public:

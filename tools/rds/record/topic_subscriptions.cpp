@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/concurrency/priority.hpp"
 #include "common/messages/registry.hpp"
 #include "tools/recording/bag/qos_profiles.hpp"
 #include "tools/recording/conversion.hpp"
@@ -37,7 +38,7 @@ std::string offered_profiles(const std::vector<bus::DiscoveredEndpoint>& publish
 TopicSubscriptions::TopicSubscriptions(const bus::ParticipantOptions& options, const TopicChoice& choice,
                                        BagThread& bag)
     : bag_(bag),
-      bus_(bus::Participant::create(options)),
+      bus_(concurrency::giving_way(kNice, [&] { return bus::Participant::create(options); })),
       choice_(choice.by_full_names([this](const std::string& topic) { return bus_->full_name(topic); })) {}
 
 void TopicSubscriptions::look() {
@@ -73,12 +74,13 @@ void TopicSubscriptions::subscribe(const std::string& topic, const Publishers& p
     subscribed.number = bag_.add_topic(recording::topic_of("/" + topic, *type, offered_profiles(publishers)));
   subscribed.qos = wanted_qos(publishers);
   subscribed.subscription.reset();
-  subscribed.subscription = bus_->make_subscription(
-      "/" + topic, *type, subscribed.qos,
-      [this, number = subscribed.number](std::shared_ptr<const void> message, const bus::ParticipantId&) {
-        bag_.push({number, now_ns(),
-                   std::static_pointer_cast<const messages::SerializedMessage>(std::move(message))});
-      });
+  const auto take = [this, number = subscribed.number](std::shared_ptr<const void> message,
+                                                       const bus::ParticipantId&) {
+    bag_.push(
+        {number, now_ns(), std::static_pointer_cast<const messages::SerializedMessage>(std::move(message))});
+  };
+  subscribed.subscription = concurrency::giving_way(
+      kNice, [&] { return bus_->make_subscription("/" + topic, *type, subscribed.qos, take); });
 }
 
 std::uint64_t TopicSubscriptions::lost() const {

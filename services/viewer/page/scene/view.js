@@ -15,7 +15,7 @@ const cornersOf = ({ min, max }) => Array.from({ length: 8 }, (_, i) => new Vect
 const BACKGROUND = { dark: "#0f151d", light: "#eef1f4" };
 const FLOOR = { dark: ["#33404e", "#212b36"], light: ["#c2ccd5", "#dce2e8"] };
 
-/// The picture: draws when something has changed.
+/// The picture: draws when something has changed, from begin() on.
 export class View {
   constructor(canvas, names) {
     this.canvas = canvas;
@@ -31,6 +31,7 @@ export class View {
     this.scene.add(this.root);
     this.labels = new Labels(names);
     this.follows = false;
+    this.begun = false;
     this.pictures = 0;
     this.detail = 1; // least side of a voxel that is drawn [px]: grows where drawing is slow
     this.lag = FAST_MS; // mean [ms]
@@ -135,8 +136,15 @@ export class View {
     return new Vector3(0, 0, 1).applyQuaternion(this.root.quaternion.clone().invert());
   }
 
+  /// The first picture is the map's, where there is one: without it, it would be drawn twice.
+  begin() {
+    if (this.begun) return;
+    this.begun = true;
+    this.changed();
+  }
+
   changed() {
-    if (this.due) return;
+    if (this.due || !this.begun) return;
     this.due = true;
     this.asked = performance.now();
     requestAnimationFrame((now) => this.draw(now));

@@ -2,6 +2,7 @@
 #include "common/concurrency/priority.hpp"
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -35,6 +36,18 @@ TEST(Priority, NeverComesBack) {
     EXPECT_TRUE(give_way(before + 1));
     EXPECT_EQ(niceness(), before + 2);
   }).join();
+}
+
+TEST(Priority, WhatIsCalledGivesWayWithTheThreadsThatItStarts) {
+  const int before = niceness();
+  const auto of_child = [] {
+    int child = 0;
+    std::jthread([&] { child = niceness(); }).join();
+    return child;
+  };
+  EXPECT_EQ(giving_way(before + 1, of_child), before + 1);
+  EXPECT_EQ(niceness(), before);
+  EXPECT_THROW(giving_way(before + 1, [] { throw std::runtime_error("no"); }), std::runtime_error);
 }
 
 TEST(Priority, AProcessGivesWayWithTheThreadsItHasAlready) {

@@ -325,55 +325,5 @@ TEST(RecordingFiles, WhatIsNoRecordingIsRefused) {
   EXPECT_THAT(make_bag_writer(folder / "a.bag", mcap::Compression::kLz4).error(), HasSubstr(".mcap"));
 }
 
-TEST(NumberedRecordings, SevenScenes) {
-  const test::TemporaryFolder folder;
-  cv::Mat1w depth(480, 640, std::uint16_t{65535});
-  depth(7, 5) = 2500;
-  for (const char* number : {"000000", "000001"}) {
-    const std::string stem = std::string("frame-") + number;
-    cv::imwrite((folder / (stem + ".color.png")).string(), cv::Mat3b(480, 640, cv::Vec3b(1, 2, 3)));
-    cv::imwrite((folder / (stem + ".depth.png")).string(), depth);
-    test::write_text(folder / (stem + ".pose.txt"), "1 0 0 0.5\n0 1 0 0\n0 0 1 -2\n0 0 0 1\n");
-  }
-  const auto opened = open_recording(folder.path());
-  ASSERT_TRUE(opened) << opened.error();
-  const auto& recording = *opened->recording;
-  ASSERT_EQ(recording.frames().size(), 2U);
-  EXPECT_EQ(recording.frames()[1].stamp_ns - recording.frames()[0].stamp_ns, 33'333'333);
-  EXPECT_EQ(recording.camera().fx, 585);
-  const auto frame = recording.load(recording.frames()[1]);
-  ASSERT_TRUE(frame) << frame.error();
-  EXPECT_FLOAT_EQ(frame->depth.at(5, 7), 2.5F);
-  EXPECT_EQ(frame->depth.at(6, 7), 0) << "65535 is no measurement";
-  ASSERT_EQ(recording.ground_truth()->size(), 2U);
-  EXPECT_EQ((*recording.ground_truth())[1].map_from_camera.translation(), Eigen::Vector3d(0.5, 0, -2));
-}
-
-TEST(NumberedRecordings, IclNuimIsMirrored) {
-  const test::TemporaryFolder folder;
-  fs::create_directories(folder / "rgb");
-  fs::create_directories(folder / "depth");
-  for (int i = 0; i < 2; ++i) {
-    const std::string name = std::to_string(i) + ".png";
-    cv::imwrite((folder / "rgb" / name).string(), cv::Mat3b(480, 640, cv::Vec3b(1, 2, 3)));
-    cv::imwrite((folder / "depth" / name).string(), cv::Mat1w(480, 640, std::uint16_t{5000}));
-  }
-  test::write_text(folder / "associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
-  test::write_text(folder / "livingRoom0.gt.freiburg", "0 0 0 0 0 0 0 1\n1 1 2 3 0.6 0 0 0.8\n");
-  const auto opened = open_recording(folder.path());
-  ASSERT_TRUE(opened) << opened.error();
-  const auto& recording = *opened->recording;
-  ASSERT_EQ(recording.frames().size(), 2U);
-  EXPECT_EQ(recording.camera().fy, 480);
-  EXPECT_FLOAT_EQ(recording.load(recording.frames()[0])->depth.at(5, 7), 1);
-  const auto& pose = (*recording.ground_truth())[1];
-  EXPECT_EQ(pose.stamp_ns, recording.frames()[1].stamp_ns);
-  EXPECT_EQ(pose.map_from_camera.translation(), Eigen::Vector3d(1, -2, 3));
-  const Eigen::Quaterniond expected(0.8, -0.6, 0, 0);
-  EXPECT_TRUE(pose.map_from_camera.linear().isApprox(expected.toRotationMatrix(), 1e-9));
-  test::write_text(folder / "associations.txt", "0 depth/0.png\n");
-  EXPECT_THAT(open_recording(folder.path()).error(), HasSubstr("associations.txt:1: expected"));
-}
-
 }  // namespace
 }  // namespace rds::recording

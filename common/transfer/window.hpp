@@ -15,7 +15,9 @@ namespace rds::transfer {
 /// it, only loss of more than kCongestedLoss.
 class Window {
  public:
-  explicit Window(Way way = Way::kDatagrams) : target_queue_(way == Way::kStream ? kStreamQueue : kQueue) {}
+  explicit Window(Way way = Way::kDatagrams)
+      : target_queue_(way == Way::kStream ? kStreamQueue : kQueue),
+        repair_(way == Way::kStream ? kStreamRepair : Time{}) {}
 
   [[nodiscard]] std::size_t chunks() const { return static_cast<std::size_t>(chunks_); }
   [[nodiscard]] Time round_trip() const { return smoothed_; }
@@ -34,6 +36,7 @@ class Window {
  private:
   static constexpr Time kQueue = std::chrono::milliseconds(30);
   static constexpr Time kStreamQueue = std::chrono::milliseconds(100);  // jitter of 10 ms alone looks like 30
+  static constexpr Time kStreamRepair = std::chrono::milliseconds(200);  // TCP's shortest timeout (Linux)
   static constexpr Time kBasePeriod = std::chrono::seconds(20);
   static constexpr double kSmallest = 4;
   static constexpr double kFirst = 32;      // 38 kB
@@ -44,6 +47,7 @@ class Window {
   [[nodiscard]] Time queue() const;
 
   Time target_queue_;
+  Time repair_;  // how long what carries the chunks may itself wait for what it has lost
   double chunks_ = kFirst;
   bool doubling_ = true;  // until the delay first grows: slow start
   double loss_ = 0;       // share of the latest hundred chunks

@@ -57,5 +57,12 @@ TEST(Window, WaitsLongerTheLongerNobodyAnswers) {
   EXPECT_EQ(window.timeout(), timeout);
 }
 
+TEST(Window, TakesAStreamThatRepairsItselfForLateNotForLost) {
+  Window datagrams;
+  Window stream(Way::kStream);
+  for (Window* window : {&datagrams, &stream}) window->arrived(1s, 10ms, false, 1);
+  EXPECT_EQ(stream.timeout(), datagrams.timeout() + 200ms);
+}
+
 }  // namespace
 }  // namespace rds::transfer

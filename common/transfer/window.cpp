@@ -22,7 +22,7 @@ constexpr double kFastestShrink = 0.5;  // chunks per chunk: a third in a round 
 Time Window::timeout() const {
   const Time once =
       smoothed_ == Time{} ? kFirstTimeout : std::max(smoothed_ + 4 * variation_, kShortestTimeout);
-  return std::min((once + repair_) * (1 << std::min(silences_, 8)), kLongestTimeout);
+  return std::min(once * (1 << std::min(silences_, 8)), kLongestTimeout);
 }
 
 Time Window::reordering() const {
@@ -52,6 +52,7 @@ void Window::lost(Time now) {
 
 void Window::silent() {
   ++silences_;
+  if (is_stream_) return;  // which looks after the link itself, and may only be late
   chunks_ = kSmallest;
   doubling_ = true;
 }

@@ -16,8 +16,7 @@ namespace rds::transfer {
 class Window {
  public:
   explicit Window(Way way = Way::kDatagrams)
-      : target_queue_(way == Way::kStream ? kStreamQueue : kQueue),
-        repair_(way == Way::kStream ? kStreamRepair : Time{}) {}
+      : is_stream_(way == Way::kStream), target_queue_(is_stream_ ? kStreamQueue : kQueue) {}
 
   [[nodiscard]] std::size_t chunks() const { return static_cast<std::size_t>(chunks_); }
   [[nodiscard]] Time round_trip() const { return smoothed_; }
@@ -36,7 +35,6 @@ class Window {
  private:
   static constexpr Time kQueue = std::chrono::milliseconds(30);
   static constexpr Time kStreamQueue = std::chrono::milliseconds(100);  // jitter of 10 ms alone looks like 30
-  static constexpr Time kStreamRepair = std::chrono::milliseconds(200);  // TCP's shortest timeout (Linux)
   static constexpr Time kBasePeriod = std::chrono::seconds(20);
   static constexpr double kSmallest = 4;
   static constexpr double kFirst = 32;      // 38 kB
@@ -46,8 +44,8 @@ class Window {
   void measure(Time now, Time round_trip);
   [[nodiscard]] Time queue() const;
 
+  bool is_stream_;
   Time target_queue_;
-  Time repair_;  // how long what carries the chunks may itself wait for what it has lost
   double chunks_ = kFirst;
   bool doubling_ = true;  // until the delay first grows: slow start
   double loss_ = 0;       // share of the latest hundred chunks

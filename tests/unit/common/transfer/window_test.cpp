@@ -57,11 +57,11 @@ TEST(Window, WaitsLongerTheLongerNobodyAnswers) {
   EXPECT_EQ(window.timeout(), timeout);
 }
 
-TEST(Window, TakesAStreamThatRepairsItselfForLateNotForLost) {
-  Window datagrams;
-  Window stream(Way::kStream);
-  for (Window* window : {&datagrams, &stream}) window->arrived(1s, 10ms, false, 1);
-  EXPECT_EQ(stream.timeout(), datagrams.timeout() + 200ms);
+TEST(Window, OfAStreamStaysAsItIsAfterASilence) {
+  Window window(Way::kStream);
+  const std::size_t chunks = window.chunks();
+  window.silent();
+  EXPECT_EQ(window.chunks(), chunks);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Qos {
   /// Whether a reader counts what never came as dropped. Not where the newest message of a writer replaces
   /// the ones before: what was replaced before it was sent is no loss.
   bool counts_lost = true;
-  /// Whether a writer may take half a second before it sends again what readers lack. For what is large and
+  /// Whether a writer may take a second before it sends again what readers lack. For what is large and
   /// soon replaced: readers behind a slow link ask for the same again and again while it is on its way.
   bool repairs_slowly = false;
   /// Whether a reader that asks for reliability is content without, where that is all that is offered.

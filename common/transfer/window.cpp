@@ -52,6 +52,7 @@ void Window::lost(Time now) {
 
 void Window::silent() {
   ++silences_;
+  if (is_stream_) return;  // which looks after the link itself, and may only be late
   chunks_ = kSmallest;
   doubling_ = true;
 }

@@ -15,7 +15,8 @@ namespace rds::transfer {
 /// it, only loss of more than kCongestedLoss.
 class Window {
  public:
-  explicit Window(Way way = Way::kDatagrams) : target_queue_(way == Way::kStream ? kStreamQueue : kQueue) {}
+  explicit Window(Way way = Way::kDatagrams)
+      : is_stream_(way == Way::kStream), target_queue_(is_stream_ ? kStreamQueue : kQueue) {}
 
   [[nodiscard]] std::size_t chunks() const { return static_cast<std::size_t>(chunks_); }
   [[nodiscard]] Time round_trip() const { return smoothed_; }
@@ -43,6 +44,7 @@ class Window {
   void measure(Time now, Time round_trip);
   [[nodiscard]] Time queue() const;
 
+  bool is_stream_;
   Time target_queue_;
   double chunks_ = kFirst;
   bool doubling_ = true;  // until the delay first grows: slow start

@@ -16,9 +16,11 @@ std::unique_ptr<Process> router(const HostNetwork& network, const std::string& h
                                 const std::vector<std::string>& options = {}) {
   std::vector<std::string> command{rds(), "router", "--listen", "0.0.0.0:7447"};
   command.insert(command.end(), options.begin(), options.end());
-  auto router = std::make_unique<Process>(network.on(host, command));
-  if (!router->wait_for_output("listens", kLimit)) throw std::runtime_error(router->standard_error());
-  return router;
+  return std::make_unique<Process>(network.on(host, command));
+}
+
+void wait_for(Process& router) {
+  if (!router.wait_for_output("listens", kLimit)) throw std::runtime_error(router.standard_error());
 }
 
 }  // namespace
@@ -27,7 +29,11 @@ HostRouters::HostRouters(HostNetwork& network, Way way, const std::filesystem::p
   if (way == Way::kDirect) return;
   network.hide("A");
   start();
-  if (way == Way::kRouters) on_a_ = router(network, "A", {"--connect", network.address(kRouterHost)});
+  wait_for(*on_r_);
+  if (way == Way::kRouters) {
+    on_a_ = router(network, "A", {"--connect", network.address(kRouterHost)});
+    wait_for(*on_a_);
+  }
   client_ = out / "client.json5";
   write_text(client_, R"({mode: "client", connect: {endpoints: ["tcp/)" +
                           (on_a_ ? "127.0.0.1" : network.address(kRouterHost)) +

@@ -21,6 +21,7 @@ class HostRouters {
 
   /// The one on R is killed, as by a power cut.
   void kill() { on_r_.reset(); }
+  /// Does not wait for it: the camera goes on.
   void start();
   /// Zenoh's settings (a file) for programs on a host that only dial a router; empty: they are peers.
   [[nodiscard]] std::string client_settings(const std::string& host) const;

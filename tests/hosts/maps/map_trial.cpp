@@ -59,8 +59,8 @@ std::string to_line(const MapRow& row, const MapFigures& f) {
     line += fmt::format(" first {:.1f} s, behind p95 {:.2f} max {:.2f} s, {} steps;", follower.first_s,
                         follower.behind_p95_s, follower.behind_max_s, follower.steps);
   return line + fmt::format(
-                    " offered {:.1f} Mbit/s, mapper {:.2f} cores, delta p50 {:.0f} p95 {:.0f} ms, boxes p50 "
-                    "{:.0f} p95 {:.0f} ms, gap {:.2f} s",
+                    " offered {:.1f} Mbit/s, mapper {:.3f} cores, delta p50 {:.1f} p95 {:.0f} ms, boxes p50 "
+                    "{:.1f} p95 {:.0f} ms, gap {:.2f} s",
                     f.offered_mbit_s, f.mapper_cpu, f.near_p50_ms, f.near_p95_ms, f.boxes_p50_ms,
                     f.boxes_p95_ms, f.gap_s);
 }

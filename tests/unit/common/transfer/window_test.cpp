@@ -57,5 +57,12 @@ TEST(Window, WaitsLongerTheLongerNobodyAnswers) {
   EXPECT_EQ(window.timeout(), timeout);
 }
 
+TEST(Window, OfAStreamStaysAsItIsAfterASilence) {
+  Window window(Way::kStream);
+  const std::size_t chunks = window.chunks();
+  window.silent();
+  EXPECT_EQ(window.chunks(), chunks);
+}
+
 }  // namespace
 }  // namespace rds::transfer

@@ -59,7 +59,7 @@ ColourCells colours_in_cells(const image::ColorImage& picture, const cv::Size& s
   const cv::Mat& pixels = picture.pixels;
   const int red = picture.order == image::ChannelOrder::kRgb ? 0 : 2;
   const int offset = cell_px / 4;
-  const int step = std::max(1, cell_px / 2);
+  const int step = cell_px / 2;
   ColourCells cells(size);
   for (int r = 0; r < size.height; ++r) {
     const int y = r * cell_px + offset;

@@ -36,8 +36,9 @@ void fill(const cv::Mat& values, int cell_px, float metres_per_unit, float max_d
 
 }  // namespace
 
-GridGeometry::GridGeometry(const geometry::CameraModel& camera, const geometry::DepthNoise& noise)
-    : camera_(camera), noise_(noise), cell_px_(std::max(1, camera.width / kColumns)) {
+GridGeometry::GridGeometry(const geometry::CameraModel& camera, const geometry::DepthNoise& noise,
+                           int at_least_px)
+    : camera_(camera), noise_(noise), cell_px_(std::max(at_least_px, camera.width / kColumns)) {
   size_ = {(camera.width + cell_px_ - 1) / cell_px_, (camera.height + cell_px_ - 1) / cell_px_};
   rays_.reserve(static_cast<std::size_t>(size_.area()));
   const double middle = (cell_px_ - 1) / 2.0;

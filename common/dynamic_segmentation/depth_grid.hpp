@@ -12,15 +12,18 @@
 
 namespace rds::segmentation {
 
-/// How a camera's pictures are divided into square cells, some 160 across, and how well it measures depth.
+/// How a camera's pictures are divided into square cells, at most some 160 across, and how well it measures
+/// depth.
 class GridGeometry {
  public:
   using Numbers = Eigen::Array<float, Eigen::Dynamic, 1, 0, 256, 1>;  // of some points
   using Cells = Eigen::Array<int, Eigen::Dynamic, 1, 0, 256, 1>;
 
   GridGeometry() = default;
+  /// @param at_least_px  of a cell's side.
   explicit GridGeometry(const geometry::CameraModel& camera,
-                        const geometry::DepthNoise& noise = geometry::kDepthNoises.front());
+                        const geometry::DepthNoise& noise = geometry::kDepthNoises.front(),
+                        int at_least_px = 1);
 
   [[nodiscard]] const geometry::CameraModel& camera() const { return camera_; }
   [[nodiscard]] const geometry::DepthNoise& noise() const { return noise_; }

@@ -9,7 +9,7 @@ namespace rds::mapper {
 
 void interpret(KeyframeRecord& record, std::optional<std::span<const LabelledBox>> boxes,
                const MapperConfig& config, LabelTable& labels) {
-  // Segment: movable objects are cut out of their boxes by depth.
+  // Segment: what is movable, by boxes, depth and colour.
   classify_by_depth(record, config.sampling);
   const DynamicMasks masks = boxes ? segment_dynamic(record, *boxes, config) : DynamicMasks{};
 

@@ -139,7 +139,7 @@ BENCHMARK(correct_all_of_many)->Arg(500)->Arg(5000)->Unit(benchmark::kSecond)->I
 octomap::Pointcloud points_of(const mapper::KeyframeInput& input) {
   const mapper::SamplingConfig sampling;
   auto record = mapper::make_record(input, sampling,
-                                    std::make_shared<mapper::SampledRays>(input.camera, sampling.stride_px));
+                                    std::make_shared<mapper::SampledRays>(input.camera, sampling));
   mapper::classify_by_depth(record, sampling);
   octomap::Pointcloud cloud;
   for (std::size_t i = 0; i < record.size(); ++i) {

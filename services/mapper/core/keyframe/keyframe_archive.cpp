@@ -24,7 +24,7 @@ bool has_labels_below(const KeyframeRecord& record, std::size_t labels) {
 }  // namespace
 
 KeyframeArchive::KeyframeArchive(const MapperConfig& config, std::unique_ptr<SpillStorage> storage)
-    : config_(config), rays_(config.sampling.stride_px), records_(std::move(storage)) {}
+    : config_(config), rays_(config.sampling), records_(std::move(storage)) {}
 
 void KeyframeArchive::clear() {
   records_.clear();

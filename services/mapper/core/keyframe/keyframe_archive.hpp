@@ -15,18 +15,18 @@ namespace rds::mapper {
 /// The rays of the newest camera, made once.
 class RayCache {
  public:
-  explicit RayCache(int stride_px) : stride_px_(stride_px) {}
+  explicit RayCache(const SamplingConfig& config) : config_(config) {}
 
   std::shared_ptr<const SampledRays> of(const geometry::CameraModel& camera) {
     if (!rays_ || !(camera == camera_)) {
-      rays_ = std::make_shared<SampledRays>(camera, stride_px_);
+      rays_ = std::make_shared<SampledRays>(camera, config_);
       camera_ = camera;
     }
     return rays_;
   }
 
  private:
-  int stride_px_;
+  SamplingConfig config_;
   geometry::CameraModel camera_;
   std::shared_ptr<const SampledRays> rays_;
 };

@@ -49,7 +49,9 @@ std::uint16_t to_tenth_mm(float depth_m) {
   return static_cast<std::uint16_t>(below + (scaled - below >= 0.5F ? 1 : 0));  // std::round() is a call
 }
 
-SampledRays::SampledRays(const geometry::CameraModel& camera, int stride_px) {
+SampledRays::SampledRays(const geometry::CameraModel& camera, const SamplingConfig& config)
+    : cells_(camera, config.depth_noise, config.stride_px) {
+  const int stride_px = config.stride_px;
   rays_.reserve(
       static_cast<std::size_t>(sampled(camera.width, stride_px) * sampled(camera.height, stride_px)));
   for (int y = 0; y < camera.height; y += stride_px)

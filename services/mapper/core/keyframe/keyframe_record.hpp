@@ -3,16 +3,18 @@
 
 #include <memory>
 
+#include "common/dynamic_segmentation/depth_grid.hpp"
 #include "services/mapper/core/config/mapper_config.hpp"
 #include "services/mapper/core/keyframe/keyframe_input.hpp"
 #include "services/mapper/core/keyframe/pixel_class.hpp"
 
 namespace rds::mapper {
 
-/// Rays (x, y, 1) of the sampled pixels of a camera, row by row.
+/// What is made once for a camera: rays (x, y, 1) of its sampled pixels, row by row, and the cells in which
+/// movable things are looked for, each of one or more sampled pixels.
 class SampledRays {
  public:
-  SampledRays(const geometry::CameraModel& camera, int stride_px);
+  SampledRays(const geometry::CameraModel& camera, const SamplingConfig& config);
 
   const Eigen::Vector3f& operator[](std::size_t pixel) const { return rays_[pixel]; }
   /// False at the edge of a fisheye, where points are farther than kMaxObliqueness × their depth: they are
@@ -20,6 +22,7 @@ class SampledRays {
   [[nodiscard]] bool is_used(std::size_t pixel) const { return are_all_used_ || is_used(rays_[pixel]); }
   /// Around x and y of the rays that are used, and of the optical axis.
   [[nodiscard]] const Eigen::AlignedBox2f& extent() const { return extent_; }
+  [[nodiscard]] const segmentation::GridGeometry& cells() const { return cells_; }
 
  private:
   static constexpr float kMaxObliqueness = 2;
@@ -28,6 +31,7 @@ class SampledRays {
   }
 
   std::vector<Eigen::Vector3f> rays_;
+  segmentation::GridGeometry cells_;
   Eigen::AlignedBox2f extent_{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
   bool are_all_used_ = true;
 };

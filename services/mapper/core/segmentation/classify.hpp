@@ -12,8 +12,8 @@ namespace rds::mapper {
 //  2. A pixel nearer than min_range_m, or whose depth too few neighbours share (a flying pixel), is invalid.
 //  3. A pixel measured up to max_range_m is static, a farther one far.
 //  4. A pixel on a plane that goes on outside of all boxes of movable objects is static.
-//  5. A static pixel in the depth cut of a movable object is dynamic.
-//  6. A static pixel beside such a cut (rim, small parts of the cut) is unknown, any other there invalid.
+//  5. A static pixel that shows a movable object is dynamic.
+//  6. A static pixel beside one (rim, another depth in the same cell) is unknown, any other there invalid.
 //  7. The same holds in a cell of the picture in which the tracker found motion.
 //  8. A pixel that is static by rule 3 and near something dynamic is doubtful.
 // What an unknown or doubtful one counts is decided where all keyframes come together:

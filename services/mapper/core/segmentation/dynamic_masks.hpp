@@ -9,8 +9,8 @@ namespace rds::mapper {
 
 /// What the boxes of movable objects tell of a keyframe's sampled pixels. All empty without such boxes.
 struct DynamicMasks {
-  std::vector<std::uint8_t> object;      // 1 in the depth cut of an object
-  std::vector<std::uint8_t> beside;      // 1 in the rim around a cut, and in small parts apart from it
+  std::vector<std::uint8_t> object;      // 1 where a movable object shows
+  std::vector<std::uint8_t> beside;      // 1 in the rim around one, and at another depth in its cells
   std::vector<std::uint8_t> background;  // 1 on a plane that goes on outside of all boxes
 
   [[nodiscard]] bool empty() const { return object.empty(); }
@@ -21,7 +21,7 @@ struct DynamicMasks {
   }
 };
 
-/// Cuts movable objects out of their boxes.
+/// Segments a keyframe by the boxes of movable objects, its depth and its colour: segmentation::segment().
 /// @param record  with classes by depth. @param boxes  of all objects; static ones are passed over.
 DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
                              const MapperConfig& config);

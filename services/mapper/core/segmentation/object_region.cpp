@@ -10,11 +10,10 @@ namespace rds::mapper {
 namespace {
 
 constexpr double kInnerShare = 0.6;     // part of the box, about its centre, in which the object surely lies
-constexpr int kStaticMarginPx = 4;      // narrow: nothing may be added to a static object
+constexpr int kMarginPx = 4;            // narrow: nothing may be added to a static object
 constexpr double kStaticBefore = 0.4;   // share of kHalfDepthM: things stand before tables
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 constexpr double kMinInside = 0.05;     // share of a connected part that lies in the box as it was detected
-constexpr double kSmallPart = 0.05;     // parts with a smaller share of the largest may be of other things
 
 struct DepthInterval {
   float min_m;
@@ -82,10 +81,6 @@ float depth_in_box(const geometry::Box2& box_px, const DepthInterval& limits, co
   return inner > 0 ? inner : object_depth(depths_in(sampled_rect(box_px, 0, record), limits, record));
 }
 
-double margin_px(const LabelledBox& box) {
-  return box.movable ? kMovableMarginPx : kStaticMarginPx;
-}
-
 /// How far an object reaches behind its depth [m]: of a large static one mostly the front is seen.
 float reach_behind(const LabelledBox& box, const geometry::Box2& box_px, float depth_m,
                    const KeyframeRecord& record) {
@@ -112,8 +107,8 @@ cv::Mat near_depth(const cv::Rect& rect, float depth_m, float before_m, float be
   return near;
 }
 
-/// Of each connected part of `near`: its size as a share of the largest; 0 where it is not of the object.
-std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside) {
+/// Of each connected part of `near`: whether enough of it lies in the box.
+std::vector<bool> parts_of_object(const cv::Mat& parts, int count, const cv::Rect& inside) {
   std::vector<int> area(static_cast<std::size_t>(count), 0);
   std::vector<int> area_inside(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < parts.rows; ++y)
@@ -122,12 +117,10 @@ std::vector<double> parts_of_object(const cv::Mat& parts, int count, const cv::R
       ++area[part];
       if (inside.contains({x, y})) ++area_inside[part];
     }
-  area[0] = area_inside[0] = 0;  // the background
-  const double largest = *std::ranges::max_element(area_inside);
-  std::vector<double> shares(area.size(), 0);
+  std::vector<bool> of_object(area.size(), false);  // part 0 is the background
   for (std::size_t part = 1; part < area.size(); ++part)
-    if (area_inside[part] >= kMinInside * area[part]) shares[part] = area_inside[part] / largest;
-  return shares;
+    of_object[part] = area_inside[part] > 0 && area_inside[part] >= kMinInside * area[part];
+  return of_object;
 }
 
 }  // namespace
@@ -149,35 +142,31 @@ std::optional<ObjectPlace> object_place(const KeyframeRecord& record, const Labe
   const auto limits = depth_limits(box, record);
   const float depth = depth_in_box(*box_px, limits, record);
   if (depth <= 0) return std::nullopt;
-  const double margin = margin_px(box);
+  const double margin = kMarginPx;
   const bool has_extent = box.box_in_map && !(box.depth_m > 0);
   return ObjectPlace{{box_px->x0 - margin, box_px->y0 - margin, box_px->x1 + margin, box_px->y1 + margin},
                      has_extent ? limits.min_m : depth - reach_before(box),
                      has_extent ? limits.max_m : depth + reach_behind(box, *box_px, depth, record)};
 }
 
-ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box) {
+std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box) {
   const auto box_px = image_box(box, record);
   if (!box_px) return {};
   const float depth = depth_in_box(*box_px, depth_limits(box, record), record);
   if (depth <= 0) return {};
 
-  const cv::Rect wide = sampled_rect(*box_px, margin_px(box), record);
+  const cv::Rect wide = sampled_rect(*box_px, kMarginPx, record);
   cv::Mat parts;
   const int count = cv::connectedComponents(
       near_depth(wide, depth, reach_before(box), reach_behind(box, *box_px, depth, record), record), parts, 8,
       CV_32S);
-  const auto shares = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl());
-  const double smallest = box.movable ? kSmallPart : 0;
-  ObjectRegion region;
+  const auto of_object = parts_of_object(parts, count, sampled_rect(*box_px, 0, record) - wide.tl());
+  std::vector<std::size_t> pixels;
   for (int y = 0; y < wide.height; ++y)
-    for (int x = 0; x < wide.width; ++x) {
-      const double share = shares[static_cast<std::size_t>(parts.at<int>(y, x))];
-      if (share > 0)
-        (share >= smallest ? region.pixels : region.small_parts)
-            .push_back(record.grid.index(wide.x + x, wide.y + y));
-    }
-  return region;
+    for (int x = 0; x < wide.width; ++x)
+      if (of_object[static_cast<std::size_t>(parts.at<int>(y, x))])
+        pixels.push_back(record.grid.index(wide.x + x, wide.y + y));
+  return pixels;
 }
 
 }  // namespace rds::mapper

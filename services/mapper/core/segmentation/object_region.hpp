@@ -12,24 +12,15 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 /// Pixels nearer than this to an object's depth are the object's [m]: a person, arms included, is
 /// about 0.6 m deep.
 inline constexpr double kHalfDepthM = 0.35;
-/// The box of a movable object is widened by this: detectors cut off hands and feet, and nothing of it may be
-/// left out [px].
-inline constexpr int kMovableMarginPx = 24;
 
-/// Sampled pixels of an object, ascending.
-struct ObjectRegion {
-  std::vector<std::size_t> pixels;
-  std::vector<std::size_t> small_parts;  // of a movable object's cut; they may belong to other things
-};
-
-/// Cuts an object out of its image box by depth: what stands behind it in the box is not part of it.
+/// Cuts a static object out of its image box by depth: what stands behind it in the box is not part of it.
 ///
 /// The object's depth is the mean of median and lower third of the depths in the box's inner part (or near
 /// `box.depth_m`, or inside the 3-D box, if given); its pixels are those near that depth in the widened box,
 /// in connected parts that lie in the box.
-/// @return nothing if the box has no usable depth.
+/// @return sampled pixels, ascending; none if the box has no usable depth.
 /// Source: depth mask inside the box (NGD-SLAM); paper §IV-C asks for points inside the 3-D box.
-ObjectRegion object_region(const KeyframeRecord& record, const LabelledBox& box);
+std::vector<std::size_t> object_region(const KeyframeRecord& record, const LabelledBox& box);
 
 /// Where an object is in a keyframe: inside this box of the picture, between these depths.
 struct ObjectPlace {

@@ -56,7 +56,7 @@ StaticObject static_object(const KeyframeRecord& record, const LabelledBox& box,
   const auto place = object_place(record, box);
   if (!place) return {};
   std::vector<std::uint8_t> is_object(record.size(), 0);
-  const auto region = object_region(record, box).pixels;
+  const auto region = object_region(record, box);
   for (const auto i : region) is_object[i] = 1;
   std::vector<Plane> elsewhere;
   for (const auto& segment : segments) {

@@ -28,7 +28,7 @@ std::vector<KeyframeInput> keyframes(std::int64_t later_ns) {
     keyframe.looked_for_objects();
     const cv::Rect body(120, 30, 80, 180);
     if (k >= kArrives) keyframe.rectangle(body, 1.5).box("person", body, true);
-    if (k >= kArrives) keyframe.rectangle({208, 150, 40, 60}, 1.5);
+    if (k >= kArrives) keyframe.rectangle({208, 150, 40, 60}, 1.5, {60, 160, 60});
     made.push_back(keyframe.make());
     made.back().stamp_ns = 2'000'000 * kMs + static_cast<std::int64_t>(k) * 300 * kMs;
     if (k >= kSetBack) made.back().stamp_ns += later_ns;

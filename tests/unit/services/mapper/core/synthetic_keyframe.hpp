@@ -60,7 +60,7 @@ class SyntheticKeyframe {
 
 /// A keyframe with classes by depth alone.
 inline KeyframeRecord measured(const KeyframeInput& input, const SamplingConfig& config = {}) {
-  auto record = make_record(input, config, std::make_shared<SampledRays>(input.camera, config.stride_px));
+  auto record = make_record(input, config, std::make_shared<SampledRays>(input.camera, config));
   classify_by_depth(record, config);
   return record;
 }
@@ -69,7 +69,7 @@ inline KeyframeRecord measured(const KeyframeInput& input, const SamplingConfig&
 inline KeyframeRecord record_of(const KeyframeInput& input, LabelTable& labels,
                                 const MapperConfig& config = {}) {
   auto record = make_record(input, config.sampling,
-                            std::make_shared<SampledRays>(input.camera, config.sampling.stride_px));
+                            std::make_shared<SampledRays>(input.camera, config.sampling));
   interpret(record, input.boxes, config, labels);
   return record;
 }

@@ -12,7 +12,9 @@ using test::SyntheticKeyframe;
 const cv::Rect kTorso(120, 10, 80, 100);
 const cv::Rect kLegs(120, 160, 80, 60);  // below the box and its margin, as behind a table
 const cv::Rect kBody(120, 30, 80, 180);
+const cv::Scalar kGreen(60, 160, 60);  // what has the person's colour would be his
 constexpr double kPersonM = 1.5;
+constexpr double kLegsM = 1.62;  // and a table's; in one plane with the person they would hold it
 constexpr double kBodyM = 1.52;
 constexpr double kWallM = 3.0;
 constexpr std::uint64_t kTwoSeconds = 20;  // keyframes are 0.1 s apart
@@ -20,16 +22,16 @@ constexpr std::uint64_t kTwoSeconds = 20;  // keyframes are 0.1 s apart
 SyntheticKeyframe person_with_legs(std::uint64_t id) {
   return SyntheticKeyframe(id)
       .rectangle(kTorso, kPersonM)
-      .rectangle(kLegs, kPersonM)
+      .rectangle(kLegs, kLegsM, kGreen)
       .box("person", kTorso, true);
 }
 
 SyntheticKeyframe legs_in_cells(std::uint64_t id, const cv::Rect& cells = {120, 160, 80, 20}) {
-  return SyntheticKeyframe(id).rectangle(kLegs, kPersonM).movable_cells(cells);
+  return SyntheticKeyframe(id).rectangle(kLegs, kLegsM, kGreen).movable_cells(cells);
 }
 
 SyntheticKeyframe legs_alone(std::uint64_t id) {
-  return SyntheticKeyframe(id).rectangle(kLegs, kPersonM).looked_for_objects();
+  return SyntheticKeyframe(id).rectangle(kLegs, kLegsM, kGreen).looked_for_objects();
 }
 
 /// The map of some keyframes, settled.
@@ -47,7 +49,7 @@ class SurfaceVerdicts : public testing::Test {
     const float l = log_odds(x_px, y_px, depth_m);
     return l > 0 ? static_cast<int>(std::lround(l / 0.85F)) : 0;
   }
-  [[nodiscard]] int hits_on_legs() const { return hits(160, 190, kPersonM); }
+  [[nodiscard]] int hits_on_legs() const { return hits(160, 190, kLegsM); }
 
   MapperConfig config_;
   SemanticMapper mapper_{config_};
@@ -55,7 +57,7 @@ class SurfaceVerdicts : public testing::Test {
 
 TEST_F(SurfaceVerdicts, WithoutAnythingMovableThereAreNoDoubts) {
   LabelTable labels;
-  const auto record = test::record_of(SyntheticKeyframe(0).rectangle(kLegs, kPersonM), labels);
+  const auto record = test::record_of(SyntheticKeyframe(0).rectangle(kLegs, kLegsM, kGreen), labels);
   EXPECT_EQ(std::ranges::count(record.classes, PixelClass::kDoubtful), 0);
   see(legs_alone(0));
   EXPECT_EQ(hits_on_legs(), 1);
@@ -70,21 +72,21 @@ TEST_F(SurfaceVerdicts, WhatStandsNearAPersonIsNotUsedAndTheWallBehindIs) {
 
 TEST_F(SurfaceVerdicts, NearTheTrackersCellsToo) {
   see(legs_in_cells(0));
-  EXPECT_EQ(hits(160, 170, kPersonM), 0);
-  EXPECT_EQ(hits(160, 210, kPersonM), 0);
+  EXPECT_EQ(hits(160, 170, kLegsM), 0);
+  EXPECT_EQ(hits(160, 210, kLegsM), 0);
   EXPECT_EQ(hits(40, 60, kWallM), 1);
 }
 
 TEST_F(SurfaceVerdicts, InTheTrackersCellsASurfaceStandsIfTheRestOfItDoes) {
   see(legs_alone(0));
   see(legs_in_cells(kTwoSeconds));
-  EXPECT_EQ(hits(160, 170, kPersonM), 2);
+  EXPECT_EQ(hits(160, 170, kLegsM), 2);
 }
 
 TEST_F(SurfaceVerdicts, WhatIsInTheTrackersCellsConfirmsNothing) {
   see(legs_in_cells(0, kLegs));
   see(legs_in_cells(kTwoSeconds, kLegs));
-  EXPECT_EQ(hits(160, 170, kPersonM), 0);
+  EXPECT_EQ(hits(160, 170, kLegsM), 0);
 }
 
 TEST_F(SurfaceVerdicts, WhatIsSeenASecondBeforeStands) {
@@ -110,17 +112,17 @@ TEST_F(SurfaceVerdicts, ASurfaceIsJudgedAsAWhole) {
   const auto table_beside_person = [] {
     return SyntheticKeyframe(kTwoSeconds)
         .rectangle(kTorso, kPersonM)
-        .rectangle({60, 160, 200, 60}, kPersonM)
+        .rectangle({60, 160, 200, 60}, kLegsM, kGreen)
         .box("person", kTorso, true);
   };
-  see(SyntheticKeyframe(0).rectangle({60, 160, 160, 60}, kPersonM).looked_for_objects());
+  see(SyntheticKeyframe(0).rectangle({60, 160, 160, 60}, kLegsM, kGreen).looked_for_objects());
   see(table_beside_person());
-  EXPECT_EQ(hits(250, 190, kPersonM), 1) << "the end that nobody has seen before";
+  EXPECT_EQ(hits(250, 190, kLegsM), 1) << "the end that nobody has seen before";
   SemanticMapper little(config_);
-  little.integrate(SyntheticKeyframe(0).rectangle({60, 160, 20, 60}, kPersonM).looked_for_objects());
+  little.integrate(SyntheticKeyframe(0).rectangle({60, 160, 20, 60}, kLegsM, kGreen).looked_for_objects());
   little.integrate(table_beside_person());
   little.settle({});
-  EXPECT_FALSE(test::is_occupied(little.map().tree(), test::point_at(250, 190, kPersonM)));
+  EXPECT_FALSE(test::is_occupied(little.map().tree(), test::point_at(250, 190, kLegsM)));
 }
 
 TEST_F(SurfaceVerdicts, RadiusZeroIsOff) {

@@ -3,26 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/common/dynamic_segmentation/small_grid.hpp"
+
 namespace rds::segmentation {
 namespace {
 
-const GridGeometry& grid() {
-  static const GridGeometry grid(
-      {.width = 320, .height = 240, .fx = 260, .fy = 260, .cx = 159.5, .cy = 119.5}, {});
-  return grid;
-}
+using test::small_grid;
 
 const MovableRegion kBox{{80, 60, 160, 180}, 1.5F, 2.5F};
 
 /// Cells 3 m away, those of the box at @p object_m.
 cv::Mat1f object_at(float object_m) {
-  cv::Mat1f depth_m(grid().size(), 3.0F);
-  depth_m(cells_of(kBox.box_px, grid())).setTo(object_m);
+  cv::Mat1f depth_m(small_grid().size(), 3.0F);
+  depth_m(cells_of(kBox.box_px, small_grid())).setTo(object_m);
   return depth_m;
 }
 
 cv::Mat1f by(const cv::Mat1f& depth_m, std::vector<MovableRegion> boxes) {
-  return box_log_odds(depth_m, grid(), boxes, EvidenceModel());
+  return box_log_odds(depth_m, small_grid(), boxes, EvidenceModel());
 }
 
 const EvidenceModel kModel;
@@ -37,7 +35,7 @@ TEST(BoxEvidence, OutsideBoxesCellsAreUnseen) {
 
 TEST(BoxEvidence, InABoxItFallsWithTheDistanceFromTheObject) {
   cv::Mat1f depth_m = object_at(1.9F);
-  const cv::Point corner = cells_of(kBox.box_px, grid()).tl();
+  const cv::Point corner = cells_of(kBox.box_px, small_grid()).tl();
   depth_m(corner) = 1.9F + kModel.object_sigma_m;
   depth_m(corner + cv::Point(1, 0)) = 3;
   const cv::Mat1f found = by(depth_m, {kBox});
@@ -49,14 +47,14 @@ TEST(BoxEvidence, InABoxItFallsWithTheDistanceFromTheObject) {
 
 TEST(BoxEvidence, WhatIsBeyondTheLimitsDoesNotMoveTheObject) {
   cv::Mat1f depth_m = object_at(3);
-  const cv::Rect cells = cells_of(kBox.box_px, grid());
+  const cv::Rect cells = cells_of(kBox.box_px, small_grid());
   depth_m(cv::Rect(cells.tl(), cv::Size(5, cells.height))).setTo(2);
   EXPECT_FLOAT_EQ(by(depth_m, {kBox})(cells.tl()), kFilled) << "most of the box shows the wall";
 }
 
 TEST(BoxEvidence, WithoutDepthOnlyTheBoxCounts) {
-  const cv::Mat1f found = by(cv::Mat1f(grid().size(), 0.0F), {kBox});
-  EXPECT_FLOAT_EQ(found(cells_of(kBox.box_px, grid()).tl()), kFilled);
+  const cv::Mat1f found = by(cv::Mat1f(small_grid().size(), 0.0F), {kBox});
+  EXPECT_FLOAT_EQ(found(cells_of(kBox.box_px, small_grid()).tl()), kFilled);
 }
 
 TEST(BoxEvidence, OfSeveralBoxesTheOneThatSaysMostCounts) {
@@ -67,10 +65,10 @@ TEST(BoxEvidence, OfSeveralBoxesTheOneThatSaysMostCounts) {
 }
 
 TEST(BoxEvidence, ABoxThatLeavesThePictureIsCut) {
-  const cv::Rect cells = cells_of({-50, 200, 40, 900}, grid());
+  const cv::Rect cells = cells_of({-50, 200, 40, 900}, small_grid());
   EXPECT_EQ(cells.x, 0);
-  EXPECT_EQ(cells.br().y, grid().size().height);
-  EXPECT_TRUE(cells_of({400, 0, 500, 100}, grid()).empty());
+  EXPECT_EQ(cells.br().y, small_grid().size().height);
+  EXPECT_TRUE(cells_of({400, 0, 500, 100}, small_grid()).empty());
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST(ColourModel, WhatHasTheColourOfMovableThingsIsLikelierMovable) {
 
 TEST(ColourModel, SaysNothingWhereBothSidesHaveTheSameColours) {
   const ColourCells colours = cells_of(halves(kGrey, kGrey));
-  EXPECT_NEAR(cv::norm(colour_ratio(colours, movable_until(kCells.width / 2), EvidenceModel()), cv::NORM_INF), 0,
-              1e-3);
+  const cv::Mat1f ratio = colour_ratio(colours, movable_until(kCells.width / 2), EvidenceModel());
+  EXPECT_NEAR(cv::norm(ratio, cv::NORM_INF), 0, 1e-3);
 }
 
 TEST(ColourModel, SaysLittleWhileNothingIsTakenForMovable) {

@@ -7,14 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/common/dynamic_segmentation/small_grid.hpp"
+
 namespace rds::segmentation {
 namespace {
 
-const GridGeometry& grid() {
-  static const GridGeometry grid(
-      {.width = 320, .height = 240, .fx = 260, .fy = 260, .cx = 159.5, .cy = 119.5}, {});
-  return grid;
-}
+using test::small_grid;
 
 constexpr float kWallM = 3;
 constexpr float kThingM = 1.5F;
@@ -30,8 +28,8 @@ float bulge_m(int column) {
 
 /// Something in front of a wall, each of its own colour.
 PictureCells picture() {
-  PictureCells cells{cv::Mat1f(grid().size(), kWallM), cv::Mat1b(grid().size(), std::uint8_t{0}),
-                     cv::Mat1w(grid().size(), kWallsColour)};
+  PictureCells cells{cv::Mat1f(small_grid().size(), kWallM), cv::Mat1b(small_grid().size(), std::uint8_t{0}),
+                     cv::Mat1w(small_grid().size(), kWallsColour)};
   for (int column = 0; column < kThing.width; ++column)
     cells.depth_m(kThing).col(column).setTo(kThingM + bulge_m(column));
   cells.colours(kThing).setTo(kThingsColour);
@@ -40,7 +38,7 @@ PictureCells picture() {
 
 /// A box around these cells.
 MovableRegion around(const cv::Rect& cells) {
-  const auto cell = static_cast<double>(grid().cell_px());
+  const auto cell = static_cast<double>(small_grid().cell_px());
   return {{cell * cells.x, cell * cells.y, cell * cells.br().x, cell * cells.br().y}, 1, 2};
 }
 
@@ -53,23 +51,23 @@ std::pair<double, double> shares(const Segmentation& found) {
 }
 
 MotionEvidence nothing_moved() {
-  return {cv::Mat1b(grid().size(), std::uint8_t{0}), cv::Mat1b(grid().size(), std::uint8_t{0})};
+  return {cv::Mat1b(small_grid().size(), std::uint8_t{0}), cv::Mat1b(small_grid().size(), std::uint8_t{0})};
 }
 
 TEST(DynamicSegmentation, WithoutEvidenceNothingIsMovable) {
-  EXPECT_EQ(cv::countNonZero(segment(picture(), grid(), {}).log_odds > 0), 0);
+  EXPECT_EQ(cv::countNonZero(segment(picture(), small_grid(), {}).log_odds > 0), 0);
 }
 
 TEST(DynamicSegmentation, ABoxTakesItsThingAndLeavesTheWall) {
   const std::vector boxes{around(kThing + cv::Size(10, 10))};
-  const auto [thing, rest] = shares(segment(picture(), grid(), {boxes, {}, {}}));
+  const auto [thing, rest] = shares(segment(picture(), small_grid(), {boxes, {}, {}}));
   EXPECT_EQ(thing, 1);
   EXPECT_EQ(rest, 0);
 }
 
 TEST(DynamicSegmentation, AThingIsTakenWholeByABoxOfAPartOfIt) {
   const std::vector boxes{around({kThing.x, kThing.y, kThing.width, kThing.height * 2 / 3})};
-  const auto [thing, rest] = shares(segment(picture(), grid(), {boxes, {}, {}}));
+  const auto [thing, rest] = shares(segment(picture(), small_grid(), {boxes, {}, {}}));
   EXPECT_EQ(thing, 1);
   EXPECT_EQ(rest, 0);
 }
@@ -78,13 +76,13 @@ TEST(DynamicSegmentation, ColourPartsWhatDepthJoins) {
   PictureCells cells = picture();
   cells.depth_m(cv::Rect(kThing.br().x, kThing.y, 60, kThing.height)).setTo(kThingM);  // a shelf beside
   const std::vector boxes{around(kThing + cv::Size(3, 0))};
-  EXPECT_EQ(shares(segment(cells, grid(), {boxes, {}, {}})).second, 0);
+  EXPECT_EQ(shares(segment(cells, small_grid(), {boxes, {}, {}})).second, 0);
 }
 
 TEST(DynamicSegmentation, WhatHasAppearedNeedsNoBox) {
   MotionEvidence motion = nothing_moved();
   motion.appeared(kThing).setTo(255);
-  const auto [thing, rest] = shares(segment(picture(), grid(), {{}, motion, {}}));
+  const auto [thing, rest] = shares(segment(picture(), small_grid(), {{}, motion, {}}));
   EXPECT_EQ(thing, 1);
   EXPECT_EQ(rest, 0);
 }
@@ -93,13 +91,13 @@ TEST(DynamicSegmentation, StablePointsHoldAThing) {
   PictureCells cells = picture();
   cells.stable(kThing).setTo(255);
   const std::vector boxes{around(kThing)};
-  EXPECT_EQ(shares(segment(cells, grid(), {boxes, {}, {}})).first, 0);
+  EXPECT_EQ(shares(segment(cells, small_grid(), {boxes, {}, {}})).first, 0);
 }
 
 TEST(DynamicSegmentation, WhatWasMovableStaysSoWithoutItsBox) {
   const std::vector boxes{around(kThing)};
-  const Segmentation before = segment(picture(), grid(), {boxes, {}, {}});
-  EXPECT_EQ(shares(segment(picture(), grid(), {{}, nothing_moved(), before.presence})).first, 1);
+  const Segmentation before = segment(picture(), small_grid(), {boxes, {}, {}});
+  EXPECT_EQ(shares(segment(picture(), small_grid(), {{}, nothing_moved(), before.presence})).first, 1);
 }
 
 TEST(DynamicSegmentation, PresenceFadesToWhatIsKnownOfAnyCell) {

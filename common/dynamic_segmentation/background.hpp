@@ -12,8 +12,8 @@ namespace rds::segmentation {
 /// one by one, as few of them matter. Picture and grid must outlive it.
 class Background {
  public:
-  /// @param unknown  not 0 where something movable may show. Planes are fitted to the other cells, and to stable
-  /// ones.
+  /// @param unknown  not 0 where something movable may show. Planes are fitted to the other cells, and to
+  /// stable ones.
   Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& unknown);
 
   [[nodiscard]] bool shows_at(const cv::Point& cell) const;

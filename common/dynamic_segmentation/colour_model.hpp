@@ -13,7 +13,8 @@ namespace rds::segmentation {
 /// Of each cell its colour, as the number of one of some hundred that are told apart.
 using ColourCells = cv::Mat1w;
 
-/// Mean of four pixels of every cell, as far as it has more than one. @param size  of the cells, cell_px wide and high.
+/// Mean of four pixels of every cell, as far as it has more than one.
+/// @param size  of the cells, cell_px wide and high.
 ColourCells colours_in_cells(const image::ColorImage& picture, const cv::Size& size, int cell_px);
 
 /// Of each cell log(P(its colour | movable) / P(its colour | static)), by the colours that movable and static

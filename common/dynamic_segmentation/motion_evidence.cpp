@@ -17,7 +17,7 @@ constexpr int kWitnesses = 2;       // earlier pictures
 // is ten times and more what noise makes (docs/decisions/depth-noise.md).
 constexpr float kStepM = 0.1F;
 constexpr float kSameShare = 0.4F;  // of kStepM: so near is the same surface
-constexpr double kMaxShare = 0.4;  // of what can be judged; more is an error of the pose
+constexpr double kMaxShare = 0.4;   // of what can be judged; more is an error of the pose
 
 /// Depth [m] of what an earlier picture saw, where it shows now; kNothing elsewhere.
 cv::Mat1f seen_from_here(const SeenCells& past, const GridGeometry& grid,

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "common/geometry/pose.hpp"
 #include "common/dynamic_segmentation/depth_grid.hpp"
+#include "common/geometry/pose.hpp"
 
 namespace rds::segmentation {
 

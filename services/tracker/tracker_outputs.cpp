@@ -102,11 +102,11 @@ void TrackerOutputs::publish(const FrameReport& report) {
   if (has_pose(report.result.state))
     odometry_.publish(report.frame.stamp_ns, report.result, camera_frame(report));
   publish_boxes(report);
+  publish_obstacles(report);
+  publish_features(report);
   std::optional<PublishedKeyframe> keyframe;
   if (report.result.keyframe) keyframe = publish_keyframe(report);
   publish_state(report);
-  publish_obstacles(report);
-  publish_features(report);
   if (keyframe) share(*std::move(keyframe));
 }
 

@@ -53,8 +53,8 @@ class TrackerOutputs {
  public:
   TrackerOutputs(service::ServiceContext& context, const FramesConfig& frames, std::uint64_t map_epoch);
 
-  /// Odometry, tf, boxes, keyframe, and then the tracking state, which acknowledges the frame; after it what
-  /// only onlookers read.
+  /// Odometry, tf, boxes, obstacles, features, keyframe, and last the tracking state, which acknowledges the
+  /// frame and tells how long all of it took.
   void publish(const FrameReport& report);
 
   /// Keyframe poses (source LOCAL), with the next revision: of all of them those that are new or have moved

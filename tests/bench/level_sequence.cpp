@@ -35,7 +35,8 @@ int run(const std::string& folder, std::size_t every) {
     if (!frame) throw std::runtime_error(frame.error());
     const Pose pose = rds::geometry::interpolate(*dataset->ground_truth(), frame->stamp_ns);
     const Eigen::Vector3d up = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
-    const cv::Mat1f depth_m = rds::segmentation::depth_in_cells(frame->depth, grid, DepthConfig{}.max_depth_m);
+    const double farthest_m = DepthConfig{}.max_depth_m;
+    const cv::Mat1f depth_m = rds::segmentation::depth_in_cells(frame->depth, grid, farthest_m);
     const UpDirection found = find_up(plane_normals({&grid, depth_m, {}}));
     errors_deg.push_back(degrees_between(found.up, up));
     largest_tilt_deg = std::max(largest_tilt_deg, degrees_between(up, -Eigen::Vector3d::UnitY()));

@@ -15,7 +15,6 @@ from tracker_run import DOMAIN, Comparison, TrackerRun
 
 RATE = "2.0"  # of a recording at 15 Hz
 MOST_RATIO = 1.05
-MOST_SHARE = 0.1  # of a core
 
 
 def cpu_s(pid):

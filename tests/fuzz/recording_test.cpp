@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spoiled bags, as files: what opens a recording or copies a bag does not crash, whatever is in them, and what it
-// takes is bounded.
+// Spoiled bags, as files: what opens a recording or copies a bag does not crash, whatever is in them, and
+// what it takes is bounded.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -67,7 +67,7 @@ TEST_P(Bags, OfAnyone) {
   const test::TemporaryFolder folder;
   const fs::path file = folder / (std::string("a.") + GetParam());
   feed(10, bag_seeds(folder.path(), GetParam()), bound, [&](const Bytes& bytes) {
-    fs::remove(file);  // a file system may write at once what takes the place of a file that is cut to nothing
+    fs::remove(file);  // a file system may write at once what takes the place of a file cut to nothing
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     copy(file);

@@ -17,8 +17,8 @@ namespace {
 using segmentation::MovableRegion;
 using segmentation::PictureCells;
 
-/// Boxes are of this very picture. Outside them movable is what a detector misses: one in twenty of what fills
-/// a fifth of the picture.
+/// Boxes are of this very picture. Outside them movable is what a detector misses: one in twenty of what
+/// fills a fifth of the picture.
 constexpr segmentation::EvidenceModel kModel{.unseen = 0.01F};
 
 /// Five standard deviations across the axis: depth is laid on colour with an error of a pixel or two. What is
@@ -101,16 +101,17 @@ DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const Label
   const PictureCells cells = cells_of(record);
   const cv::Mat1f log_odds =
       segmentation::segment(cells, record.grid.rays->cells(), {regions, {}, {}}, kModel).log_odds;
-  DynamicMasks masks{
-      std::vector<std::uint8_t>(record.size()), {}, background_of(record, regions, config.sampling.depth_noise)};
+  const geometry::DepthNoise& noise = config.sampling.depth_noise;
+  DynamicMasks masks{std::vector<std::uint8_t>(record.size()), {}, background_of(record, regions, noise)};
   std::vector<std::uint8_t> other(record.size());
   for_each_pixel(record.grid, [&](std::size_t pixel, const cv::Point& cell) {
     if (!(log_odds(cell) > 0)) return;
     const float cells_m = cells.depth_m(cell);
-    const bool shows = cells_m == 0 || segmentation::one_surface(record.depth_m(pixel), cells_m, kSurfaceStepM);
+    const bool shows =
+        cells_m == 0 || segmentation::one_surface(record.depth_m(pixel), cells_m, kSurfaceStepM);
     (shows ? masks.object : other)[pixel] = 1;
   });
-  masks.beside = grown(masks.object, rim_px(config.sampling.depth_noise), record);
+  masks.beside = grown(masks.object, rim_px(noise), record);
   for (std::size_t i = 0; i < other.size(); ++i) masks.beside[i] |= other[i];
   return masks;
 }

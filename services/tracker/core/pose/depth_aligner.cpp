@@ -79,7 +79,8 @@ Sums compare(const EarlierView& before, const geometry::Pose& here_from_before,
 }  // namespace
 
 std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::Mat1f& depth_m,
-                                          const segmentation::GridGeometry& grid, const geometry::Pose& guess) {
+                                          const segmentation::GridGeometry& grid,
+                                          const geometry::Pose& guess) {
   const segmentation::SurfaceCells now{depth_m, grid};
   const geometry::Pose start = guess * before.fixed.map_from_camera;
   Twist prior;  // information of the guess

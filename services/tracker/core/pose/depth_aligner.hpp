@@ -24,7 +24,8 @@ struct EarlierView {
 /// @return camera_from_map; nullopt where too little of what was seen shows again, or its surfaces leave the
 /// camera free to move in some direction, as a single wall does.
 std::optional<geometry::Pose> align_depth(const EarlierView& before, const cv::Mat1f& depth_m,
-                                          const segmentation::GridGeometry& grid, const geometry::Pose& guess);
+                                          const segmentation::GridGeometry& grid,
+                                          const geometry::Pose& guess);
 
 /// A depth picture in the cells of a grid. Shared, not copied.
 struct DepthView {

@@ -49,8 +49,8 @@ struct PredictedObject {
 
 /// A predicted object in the picture of one frame.
 struct PredictedBox {
-  geometry::Box2 box;    // clipped to the picture [px]
-  segmentation::MovableRegion region;  // the box with its margin, and the depths that may belong to the object
+  geometry::Box2 box;                  // clipped to the picture [px]
+  segmentation::MovableRegion region;  // the box with its margin, and depths that may belong to the object
 };
 
 }  // namespace rds::tracker::prediction

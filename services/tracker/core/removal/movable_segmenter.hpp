@@ -15,8 +15,8 @@ namespace rds::tracker {
 
 /// Segments each picture into cells that show something movable, and others.
 ///
-/// It keeps what the evidence needs of earlier pictures: their depth, and what was movable in the last one. The
-/// decision is segmentation::segment()'s. For one thread at a time.
+/// It keeps what the evidence needs of earlier pictures: their depth, and what was movable in the last one.
+/// The decision is segmentation::segment()'s. For one thread at a time.
 class MovableSegmenter {
  public:
   using GridGeometry = segmentation::GridGeometry;

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_services.py TRACKER MAPPER [reset | lifecycle | managed | shutdown]: what an ordinary ROS 2 node is told by the services of our nodes, as one line of JSON.
+"""ros_services.py TRACKER MAPPER (look N M | reset | lifecycle | managed | shutdown): what an ordinary ROS 2 node is told by
+the services of our nodes, as one line of JSON.
 
-TRACKER, MAPPER  full names ("/rds_tracker"). With `reset` it asks the mapper for that alone: whoever looks at the grid meanwhile finds it empty. With `lifecycle`
-it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `managed` it brings one up that begins
-unconfigured; with `shutdown` it ends it.
+TRACKER, MAPPER  full names ("/rds_tracker"). With `look` it reads all that they tell, once it has heard of N services of the tracker and M of the mapper (ROS
+hears of a node's endpoints one by one, after the node has answered the first requests already). With `reset` it asks the mapper for that alone: whoever looks at
+the grid meanwhile finds it empty. With `lifecycle` it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `managed` it brings
+one up that begins unconfigured; with `shutdown` it ends it.
 """
 
 import json
 import sys
+import time
 
 import rclpy
 from lifecycle_msgs.msg import Transition, TransitionEvent
@@ -50,9 +53,17 @@ class Asker:
                 "refusals": [[r.successful, r.reason] for r in (self.ask(SetParameters, f"{of}/set_parameters", parameters=one).results[0],
                                                                 self.ask(SetParametersAtomically, f"{of}/set_parameters_atomically", parameters=one).result)]}
 
-    def services(self, of):
+    def services(self, of, number):
+        """Of the node, once `number` of them are known. @raise TimeoutError for fewer after 20 s."""
         above, _, name = of.rpartition("/")
-        return dict(self.node.get_service_names_and_types_by_node(name, above or "/"))
+        end = time.monotonic() + LIMIT_S
+        while time.monotonic() < end:
+            if (name, above or "/") in self.node.get_node_names_and_namespaces():
+                known = dict(self.node.get_service_names_and_types_by_node(name, above or "/"))
+                if len(known) >= number:
+                    return known
+            time.sleep(0.1)
+        raise TimeoutError(f"fewer than {number} services of {of}")
 
 
 class Life:
@@ -104,11 +115,11 @@ def reset(asker, mapper):
     return asker.ask(Trigger, f"{mapper}/reset").success
 
 
-def look(asker, tracker, mapper):
+def look(asker, tracker, mapper, numbers):
     told = {of: asker.parameters(of) for of in (tracker, mapper)}
-    for of in (tracker, mapper):
+    for of, number in zip((tracker, mapper), numbers, strict=True):
         told[of]["state"] = asker.ask(GetState, f"{of}/get_state").current_state.label
-        told[of]["services"] = asker.services(of)
+        told[of]["services"] = asker.services(of, number)
     grid = asker.ask(GetMap, f"{mapper}/map").map
     told["grid"] = {"frame": grid.header.frame_id, "width": grid.info.width, "height": grid.info.height, "occupied": sum(c == 100 for c in grid.data)}
     told["commands"] = [asker.ask(SetBool, f"{tracker}/pause", data=data).message for data in (True, False)]
@@ -120,10 +131,10 @@ def main():
     rclpy.init()
     node = rclpy.create_node("asker")
     asker = Asker(node)
-    wanted = {"reset": lambda: reset(asker, mapper), "lifecycle": lambda: lifecycle(asker, tracker), "managed": lambda: managed(asker, tracker),
+    wanted = {"look": lambda: look(asker, tracker, mapper, [int(number) for number in sys.argv[4:]]), "reset": lambda: reset(asker, mapper),
+              "lifecycle": lambda: lifecycle(asker, tracker), "managed": lambda: managed(asker, tracker),
               "shutdown": lambda: asker.ask(ChangeState, f"{tracker}/change_state", transition=Transition(id=Transition.TRANSITION_ACTIVE_SHUTDOWN)).success}
-    told = wanted[sys.argv[3]]() if sys.argv[3:] else look(asker, tracker, mapper)
-    print(json.dumps(told), flush=True)
+    print(json.dumps(wanted[sys.argv[3]]()), flush=True)
     node.destroy_node()
     rclpy.shutdown()
 

@@ -35,6 +35,16 @@ def python_of(distribution):
     return ROOT / f".venv-{distribution}" / "bin" / "python"
 
 
+def services_of(node):
+    services = {f"{node}/{name}": [f"rcl_interfaces/srv/{kind}"] for name, kind in OF_EVERY_NODE.items()}
+    services |= {f"{node}/{name}": [f"lifecycle_msgs/srv/{kind}"] for name, kind in LIFECYCLE.items()}
+    services |= {f"{node}/pause": ["std_srvs/srv/SetBool"], f"{node}/reset": ["std_srvs/srv/Trigger"]}
+    if node == MAPPER:
+        services |= {f"{node}/map": ["nav_msgs/srv/GetMap"], "/robot1/octomap_binary": ["octomap_msgs/srv/GetOctomap"],
+                     "/robot1/octomap_full": ["octomap_msgs/srv/GetOctomap"]}
+    return services
+
+
 class RosServices(unittest.TestCase):
     def setUp(self):
         for distribution in DISTRIBUTIONS:
@@ -85,13 +95,7 @@ class RosServices(unittest.TestCase):
 
     def check_graph(self, told):
         for node in (TRACKER, MAPPER):
-            services = {f"{node}/{name}": [f"rcl_interfaces/srv/{kind}"] for name, kind in OF_EVERY_NODE.items()}
-            services |= {f"{node}/{name}": [f"lifecycle_msgs/srv/{kind}"] for name, kind in LIFECYCLE.items()}
-            services |= {f"{node}/pause": ["std_srvs/srv/SetBool"], f"{node}/reset": ["std_srvs/srv/Trigger"]}
-            if node == MAPPER:
-                services |= {f"{node}/map": ["nav_msgs/srv/GetMap"], "/robot1/octomap_binary": ["octomap_msgs/srv/GetOctomap"],
-                             "/robot1/octomap_full": ["octomap_msgs/srv/GetOctomap"]}
-            self.assertEqual(told[node]["services"], services)
+            self.assertEqual(told[node]["services"], services_of(node))
 
     def check_map_and_commands(self, told):
         self.assertEqual(told["grid"]["frame"], "robot1/map")
@@ -120,7 +124,8 @@ class RosServices(unittest.TestCase):
         self.start("rds-mapper", *own, "-p", "expect_boxes:=false", "--")
         self.start("rds", "play", RECORDING)
         self.wait_for_a_map()
-        askers = {distribution: self.ask(distribution) for distribution in DISTRIBUTIONS}
+        numbers = [str(len(services_of(node))) for node in (TRACKER, MAPPER)]
+        askers = {distribution: self.ask(distribution, "look", *numbers) for distribution in DISTRIBUTIONS}
         answers = {distribution: asker.communicate()[0] for distribution, asker in askers.items()}
         for distribution, answer in answers.items():
             with self.subTest(distribution):

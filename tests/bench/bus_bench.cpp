@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Latency from write() to the callback in another process over 127.0.0.1, for every pair of vendors that
-// hear each other, and for each bus on a secured domain.
+// hear each other, for each bus on a secured domain, and for Zenoh in shared memory.
 // The reader runs as a child process, because Cyclone DDS takes a short cut between participants of one
 // process.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -129,10 +133,30 @@ std::string secured_folder() {
   return made ? folder.string() : throw std::runtime_error(made.error());
 }
 
-void deliver(benchmark::State& state, Vendor writer, Vendor reader, bool is_secured) {
+enum class Way { kOpen, kSecured, kSharedMemory };
+
+/// While it lives, sessions of Zenoh that begin in this process and its children share memory.
+class SharedMemory {
+ public:
+  SharedMemory() {
+    std::ofstream(settings_) << "{transport: {shared_memory: {enabled: true}}}";
+    setenv("ZENOH_CONFIG", settings_.c_str(), 1);
+  }
+  ~SharedMemory() { unsetenv("ZENOH_CONFIG"); }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+
+ private:
+  test::TemporaryFolder folder_;
+  std::filesystem::path settings_ = folder_ / "settings.json5";
+};
+
+void deliver(benchmark::State& state, Vendor writer, Vendor reader, Way way) {
+  std::optional<SharedMemory> shared_memory;
+  if (way == Way::kSharedMemory) shared_memory.emplace();
   const bus::DomainLock lock;
   const int domain = lock.domain();
-  const std::string secured = is_secured ? secured_folder() : "";
+  const std::string secured = way == Way::kSecured ? secured_folder() : "";
   const ReaderProcess process(reader, domain, secured);
   Answers answers;
   auto participant = join(writer, domain, secured, "player");
@@ -171,22 +195,23 @@ void deliver(benchmark::State& state, Vendor writer, Vendor reader, bool is_secu
   state.counters["reader_cpu_ms"] = 1e3 * (answers.reader_cpu_s - reader_cpu) / count;
 }
 
-#define RDS_BUS_BENCHMARK(name, writer, reader, secured)    \
-  BENCHMARK_CAPTURE(deliver, name, writer, reader, secured) \
-      ->Arg(100)                                            \
-      ->Arg(1'500'000)                                      \
-      ->Iterations(300)                                     \
-      ->UseManualTime()                                     \
+#define RDS_BUS_BENCHMARK(name, writer, reader, way)    \
+  BENCHMARK_CAPTURE(deliver, name, writer, reader, way) \
+      ->Arg(100)                                        \
+      ->Arg(1'500'000)                                  \
+      ->Iterations(300)                                 \
+      ->UseManualTime()                                 \
       ->Unit(benchmark::kMillisecond)
 
-RDS_BUS_BENCHMARK(fastdds_to_fastdds, Vendor::kFastDds, Vendor::kFastDds, false);
-RDS_BUS_BENCHMARK(fastdds_to_cyclonedds, Vendor::kFastDds, Vendor::kCycloneDds, false);
-RDS_BUS_BENCHMARK(cyclonedds_to_fastdds, Vendor::kCycloneDds, Vendor::kFastDds, false);
-RDS_BUS_BENCHMARK(cyclonedds_to_cyclonedds, Vendor::kCycloneDds, Vendor::kCycloneDds, false);
-RDS_BUS_BENCHMARK(zenoh_to_zenoh, Vendor::kZenoh, Vendor::kZenoh, false);
-RDS_BUS_BENCHMARK(fastdds_secured, Vendor::kFastDds, Vendor::kFastDds, true);
-RDS_BUS_BENCHMARK(cyclonedds_secured, Vendor::kCycloneDds, Vendor::kCycloneDds, true);
-RDS_BUS_BENCHMARK(zenoh_secured, Vendor::kZenoh, Vendor::kZenoh, true);
+RDS_BUS_BENCHMARK(fastdds_to_fastdds, Vendor::kFastDds, Vendor::kFastDds, Way::kOpen);
+RDS_BUS_BENCHMARK(fastdds_to_cyclonedds, Vendor::kFastDds, Vendor::kCycloneDds, Way::kOpen);
+RDS_BUS_BENCHMARK(cyclonedds_to_fastdds, Vendor::kCycloneDds, Vendor::kFastDds, Way::kOpen);
+RDS_BUS_BENCHMARK(cyclonedds_to_cyclonedds, Vendor::kCycloneDds, Vendor::kCycloneDds, Way::kOpen);
+RDS_BUS_BENCHMARK(zenoh_to_zenoh, Vendor::kZenoh, Vendor::kZenoh, Way::kOpen);
+RDS_BUS_BENCHMARK(fastdds_secured, Vendor::kFastDds, Vendor::kFastDds, Way::kSecured);
+RDS_BUS_BENCHMARK(cyclonedds_secured, Vendor::kCycloneDds, Vendor::kCycloneDds, Way::kSecured);
+RDS_BUS_BENCHMARK(zenoh_secured, Vendor::kZenoh, Vendor::kZenoh, Way::kSecured);
+RDS_BUS_BENCHMARK(zenoh_shared_memory, Vendor::kZenoh, Vendor::kZenoh, Way::kSharedMemory);
 
 }  // namespace
 }  // namespace rds::bus

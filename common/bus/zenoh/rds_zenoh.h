@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define RDS_ZENOH_VERSION 3 /* of this file; the crate has the same number */
+#define RDS_ZENOH_VERSION 4 /* of this file; the crate has the same number */
 
 typedef struct RdsZenohSession RdsZenohSession;
 typedef struct RdsZenohPublisher RdsZenohPublisher;
@@ -68,8 +68,9 @@ typedef struct {
   RdsZenohPublisher* (*declare_publisher)(const RdsZenohSession* session, const char* key,
                                           const RdsZenohPublisherOptions* options, char* error, size_t capacity);
   void (*undeclare_publisher)(RdsZenohPublisher* publisher);
-  /* Memory to write a message into. */
-  RdsZenohBuffer* (*make_buffer)(size_t size, uint8_t** data);
+  /* Memory to write a message into; shared with the other processes of the machine, if the session's settings allow
+   * it, the message is large and not `kept` after it was sent. */
+  RdsZenohBuffer* (*make_buffer)(const RdsZenohSession* session, size_t size, uint8_t kept, uint8_t** data);
   void (*free_buffer)(RdsZenohBuffer* buffer);
   /* Takes the buffer, whatever comes of it. May wait for a link that is full, as long as its settings say. */
   int (*put)(const RdsZenohPublisher* publisher, RdsZenohBuffer* buffer, const uint8_t* attachment,
@@ -80,6 +81,9 @@ typedef struct {
                                             void* object, RdsZenohRelease release, char* error, size_t capacity);
   void (*undeclare_subscriber)(RdsZenohSubscriber* subscriber);
   void (*view)(const RdsZenohSample* sample, RdsZenohView* view);
+  /* 0: what view() has shown may have been another message already (shared memory of which a reader that was frozen
+   * has lost its hold). Asked for after it was read. */
+  int (*intact)(const RdsZenohSample* sample);
   void (*gather)(const RdsZenohSample* sample, uint8_t* data); /* room for the whole payload */
   void (*free_sample)(RdsZenohSample* sample);
 

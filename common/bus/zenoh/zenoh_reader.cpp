@@ -55,6 +55,7 @@ void ZenohReader::read(const RdsZenohSample& received, Sample& sample) {
     view.data = gathered_.data();
   }
   sample.decode(view.data, view.size);
+  sample.decoded = sample.decoded && zenoh_library().intact(&received) != 0;
 }
 
 /// Its token tells; where it is not known yet, the session that Zenoh names.

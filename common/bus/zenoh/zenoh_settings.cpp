@@ -23,6 +23,9 @@ constexpr int kWaitBeforeCloseUs = 10'000'000;
 /// while.
 constexpr int kPictureBatches = 16;
 constexpr int kLargestMessage = 256 << 20;  // bytes
+/// What a process that shares memory takes of /dev/shm for its messages on their way [bytes].
+constexpr int kSharedMemory = 16 << 20;
+constexpr int kLeastShared = 64 << 10;  // bytes of a message: less is faster through a link
 /// What the kernel may hold of a link to other machines [bytes]: that cannot be overtaken any more, and its
 /// own choice, megabytes, takes a second on a link of 20 Mbit/s.
 constexpr int kSendBuffer = 32 << 10;
@@ -68,11 +71,21 @@ json link_settings() {
           {"rx", {{"max_message_size", kLargestMessage}}}};
 }
 
+/// Off unless the user's settings say `enabled`: a process that is killed leaves its memory until another one
+/// begins.
+json shared_memory_settings() {
+  return {{"enabled", false},
+          {"transport_optimization",
+           {{"pool_size", kSharedMemory},
+            {"message_size_threshold", kLeastShared},
+            {"messages", {"put"}}}}};
+}
+
 /// What a router and a participant have in common.
 /// @param elsewhere  whether there are links to other machines.
 json common_settings(const ZenohAccess* access, bool elsewhere) {
   json settings{{"timestamping", {{"enabled", true}}},
-                {"transport", {{"link", link_settings()}, {"shared_memory", {{"enabled", false}}}}}};
+                {"transport", {{"link", link_settings()}, {"shared_memory", shared_memory_settings()}}}};
   if (elsewhere)
     for (const char* kind : {"tcp", "tls"}) settings["transport"]["link"][kind]["so_sndbuf"] = kSendBuffer;
   if (access == nullptr) return settings;

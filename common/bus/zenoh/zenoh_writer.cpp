@@ -34,14 +34,17 @@ std::size_t queue_depth(const Qos& qos) {
       std::max(history_depth(qos), are_datagrams(qos) ? kDatagramQueue : kShortestQueue));
 }
 
+bool keeps(const Qos& qos) {
+  return qos.transient_local || recovers(qos);
+}
+
 RdsZenohPublisherOptions publisher_options(const Qos& qos) {
-  const bool keeps = qos.transient_local || recovers(qos);
   return {.priority = priority_of(qos.urgency),
           .express = qos.urgency <= Urgency::kBoxes,
           .reliable = qos.reliable,
           .droppable = are_datagrams(qos),
           .latched = qos.transient_local,
-          .cache = keeps ? static_cast<std::size_t>(history_depth(qos)) : 0,
+          .cache = keeps(qos) ? static_cast<std::size_t>(history_depth(qos)) : 0,
           .heartbeat_ms = recovers(qos) ? kHeartbeatMs : 0};
 }
 
@@ -56,6 +59,7 @@ ZenohWriter::ZenohWriter(ZenohNode& node, const std::string& topic, const TypeOp
       topic_(topic),
       type_(type),
       depth_(queue_depth(qos)),
+      keeps_(keeps(qos)),
       token_(node.new_endpoint(topic, type, qos, true)),
       gid_(gid_of_token(token_)),
       publisher_(
@@ -75,7 +79,7 @@ ZenohWriter::~ZenohWriter() {
 bool ZenohWriter::write(const void* message) {
   const std::size_t size = type_.encoded_size(message);
   std::uint8_t* bytes = nullptr;
-  ZenohBuffer buffer(zenoh_library().make_buffer(size, &bytes));
+  ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, keeps_, &bytes));
   if (type_.encode(message, bytes, size) == 0) return false;
   {
     const std::lock_guard lock(mutex_);

@@ -39,6 +39,7 @@ class ZenohWriter final : public BackendWriter {
   std::string topic_;
   const TypeOps& type_;
   std::size_t depth_;
+  bool keeps_;  // what was sent, for those who come later or have lost it
   std::string token_;
   Guid gid_;
   ZenohPublisher publisher_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One process on the bus, for the tests in Python; it stays until its standard input closes.
-//   bus_peer reader VENDOR DOMAIN                says the name (frame_id) of each picture it gets
+//   bus_peer reader VENDOR DOMAIN                says the name (frame_id) of each picture it gets, "torn" of one
+//   that is made of several
 //   bus_peer talker VENDOR DOMAIN                writes ten small pictures a second, named "VENDOR NUMBER"
 //   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at
 //                                                30 Hz, then says {"refused": n, "slowest_ms": t}
@@ -16,6 +17,7 @@
 // --secure FOLDER IDENTITY before these: in a secured domain.
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -44,11 +46,16 @@ void stay() {
   }
 }
 
+/// All bytes of a picture are the same.
+bool is_torn(const std::vector<std::uint8_t>& data) {
+  return !data.empty() && std::memcmp(data.data(), data.data() + 1, data.size() - 1) != 0;
+}
+
 void read(Participant& participant) {
-  auto subscription = participant.subscribe<Image>("picture", rds::bus::kSensor,
-                                                   [](const std::shared_ptr<const Image>& image) {
-                                                     std::cout << image->header().frame_id() << std::endl;
-                                                   });
+  auto subscription = participant.subscribe<Image>(
+      "picture", rds::bus::kSensor, [](const std::shared_ptr<const Image>& image) {
+        std::cout << (is_torn(image->data()) ? "torn" : image->header().frame_id()) << std::endl;
+      });
   stay();
 }
 
@@ -56,11 +63,12 @@ void write(Participant& participant, int readers, int count) {
   auto publisher = participant.advertise<Image>("picture", rds::bus::kSensor);
   while (publisher.matched() < readers) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   Image image;
-  image.data().assign(1'500'000, 1);
+  constexpr std::size_t kSize = 1'500'000;
   int refused = 0;
   double slowest_s = 0;
   for (int i = 0; i < count; ++i) {
     image.header().frame_id(std::to_string(i));
+    image.data().assign(kSize, static_cast<std::uint8_t>(i));
     const auto start = Clock::now();
     refused += publisher.write(image) ? 0 : 1;
     slowest_s = std::max(slowest_s, seconds_since(start));

@@ -46,7 +46,7 @@ class Stranger {
   void put(const std::vector<std::uint8_t>& payload, const std::vector<std::uint8_t>& attachment) {
     const RdsZenohApi& zenoh = detail::zenoh_library();
     std::uint8_t* data = nullptr;
-    RdsZenohBuffer* buffer = zenoh.make_buffer(payload.size(), &data);
+    RdsZenohBuffer* buffer = zenoh.make_buffer(session_.get(), payload.size(), false, &data);
     std::ranges::copy(payload, data);
     zenoh.put(publisher_.get(), buffer, attachment.data(), attachment.size());
   }

@@ -33,7 +33,7 @@ pub struct Api {
     declare_publisher:
         unsafe extern "C" fn(*const Session, Text, *const PublisherOptions, Error, usize) -> *mut Publisher,
     undeclare_publisher: unsafe extern "C" fn(*mut Publisher),
-    make_buffer: unsafe extern "C" fn(usize, *mut *mut u8) -> *mut Buffer,
+    make_buffer: unsafe extern "C" fn(*const Session, usize, u8, *mut *mut u8) -> *mut Buffer,
     free_buffer: unsafe extern "C" fn(*mut Buffer),
     put: unsafe extern "C" fn(*const Publisher, *mut Buffer, *const u8, usize) -> c_int,
     declare_subscriber: unsafe extern "C" fn(
@@ -48,6 +48,7 @@ pub struct Api {
     ) -> *mut Subscriber,
     undeclare_subscriber: unsafe extern "C" fn(*mut Subscriber),
     view: unsafe extern "C" fn(*const Sample, *mut View),
+    intact: unsafe extern "C" fn(*const Sample) -> c_int,
     gather: unsafe extern "C" fn(*const Sample, *mut u8),
     free_sample: unsafe extern "C" fn(*mut Sample),
     declare_queryable:
@@ -76,7 +77,7 @@ pub struct Api {
 }
 
 static API: Api = Api {
-    version: 3,
+    version: 4,
     open: session::open,
     close: session::close,
     id: session::id,
@@ -88,6 +89,7 @@ static API: Api = Api {
     declare_subscriber: subscriber::declare_subscriber,
     undeclare_subscriber: border::give_back::<Subscriber>,
     view: subscriber::view,
+    intact: subscriber::intact,
     gather: subscriber::gather,
     free_sample: border::give_back::<Sample>,
     declare_queryable: queryable::declare_queryable,

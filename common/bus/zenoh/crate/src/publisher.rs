@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 use std::ffi::{c_char, c_int};
+use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::time::Duration;
 
 use zenoh::bytes::ZBytes;
 use zenoh::qos::{CongestionControl, Priority, Reliability};
+use zenoh::shm::{Defragment, ZShmMut};
 use zenoh::Wait;
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig, RepliesConfig};
 
@@ -22,7 +24,29 @@ pub struct PublisherOptions {
 }
 
 pub type Publisher = AdvancedPublisher<'static>;
-pub type Buffer = Vec<u8>;
+/// A message of this size or more goes into shared memory, if the session has any: less is faster as it is.
+const LARGE: usize = 64 << 10;
+
+pub enum Buffer {
+    Own(Vec<u8>),
+    Shared(ZShmMut),
+}
+
+impl Buffer {
+    pub unsafe fn into_bytes(buffer: *mut Buffer) -> ZBytes {
+        match *Box::from_raw(buffer) {
+            Buffer::Own(bytes) => bytes.into(),
+            Buffer::Shared(bytes) => bytes.into(),
+        }
+    }
+}
+
+/// None where the session has no shared memory, not yet, or none left.
+fn shared(session: &Session, size: usize) -> Option<ZShmMut> {
+    let provider = session.session.get_shm_provider().into_option()?;
+    provider.garbage_collect(); // what was read is still in the processor's cache
+    provider.alloc(size).with_policy::<Defragment>().wait().ok()
+}
 
 pub unsafe extern "C" fn declare_publisher(
     session: *const Session,
@@ -72,13 +96,35 @@ pub unsafe extern "C" fn declare_publisher(
     })
 }
 
-pub unsafe extern "C" fn make_buffer(size: usize, data: *mut *mut u8) -> *mut Buffer {
-    let mut buffer = Vec::<u8>::with_capacity(size);
-    // The caller writes all of it: to clear it first costs as much as the message's copy.
-    #[allow(clippy::uninit_vec)]
-    buffer.set_len(size);
-    *data = buffer.as_mut_ptr();
+pub unsafe extern "C" fn make_buffer(
+    session: *const Session,
+    size: usize,
+    kept: u8,
+    data: *mut *mut u8,
+) -> *mut Buffer {
+    let memory = match kept {
+        0 if size >= LARGE => catch_unwind(AssertUnwindSafe(|| shared(&*session, size)))
+            .ok()
+            .flatten(),
+        _ => None,
+    };
+    let mut buffer = match memory {
+        Some(memory) => Buffer::Shared(memory),
+        None => Buffer::Own(uncleared(size)),
+    };
+    *data = match &mut buffer {
+        Buffer::Own(bytes) => bytes.as_mut_ptr(),
+        Buffer::Shared(bytes) => bytes.as_mut().as_mut_ptr(),
+    };
     Box::into_raw(Box::new(buffer))
+}
+
+/// The caller writes all of it: to clear it first costs as much as the message's copy.
+#[allow(clippy::uninit_vec)]
+unsafe fn uncleared(size: usize) -> Vec<u8> {
+    let mut bytes = Vec::<u8>::with_capacity(size);
+    bytes.set_len(size);
+    bytes
 }
 
 pub unsafe extern "C" fn put(
@@ -87,7 +133,7 @@ pub unsafe extern "C" fn put(
     attachment: *const u8,
     attachment_size: usize,
 ) -> c_int {
-    let payload = ZBytes::from(*Box::from_raw(buffer));
+    let payload = Buffer::into_bytes(buffer);
     let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
     c_int::from(done(|| (*publisher).put(payload).attachment(attachment).wait()))
 }

@@ -57,7 +57,7 @@ pub unsafe extern "C" fn reply(
     attachment: *const u8,
     attachment_size: usize,
 ) -> c_int {
-    let payload = ZBytes::from(*Box::from_raw(buffer));
+    let payload = Buffer::into_bytes(buffer);
     let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
     let query = &*query;
     c_int::from(done(|| {
@@ -80,7 +80,7 @@ pub unsafe extern "C" fn get(
     object: *mut c_void,
     release: Release,
 ) -> c_int {
-    let payload = ZBytes::from(*Box::from_raw(buffer));
+    let payload = Buffer::into_bytes(buffer);
     let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
     let object = Object::new(object, release);
     c_int::from(done(|| {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-use std::ffi::{c_char, c_void};
+use std::ffi::{c_char, c_int, c_void};
 use std::time::Duration;
 
 use zenoh::bytes::ZBytes;
 use zenoh::sample::{Sample, SourceInfo};
+use zenoh::shm::ShmBuf;
 use zenoh::Wait;
 use zenoh_ext::{AdvancedSubscriber, AdvancedSubscriberBuilderExt, HistoryConfig, RecoveryConfig};
 
@@ -118,6 +119,12 @@ pub unsafe extern "C" fn view(sample: *const Sample, view: *mut View) {
         s.attachment(),
         s.source_info(),
     );
+}
+
+/// Whether what view() has shown is still the message: memory that is shared goes back to its writer when a
+/// reader stands still.
+pub unsafe extern "C" fn intact(sample: *const Sample) -> c_int {
+    c_int::from(!matches!((*sample).payload().as_shm(), Some(memory) if !memory.is_valid()))
 }
 
 pub unsafe extern "C" fn gather(sample: *const Sample, data: *mut u8) {

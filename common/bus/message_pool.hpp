@@ -10,7 +10,8 @@
 namespace rds::bus::detail {
 
 /// Messages to decode into. A message that its last user has let go of is used again, with the memory of its
-/// sequences: a stream of pictures neither allocates nor clears memory. Messages may outlive the pool.
+/// sequences: a stream of pictures neither allocates nor clears memory. Messages may outlive the pool and its
+/// type.
 class MessagePool {
  public:
   explicit MessagePool(const TypeOps& type) : shelf_(std::make_shared<Shelf>(type)) {}
@@ -25,18 +26,18 @@ class MessagePool {
   static constexpr std::size_t kKept = 2;
 
   struct Shelf {
-    explicit Shelf(const TypeOps& ops) : type(ops) {}
+    explicit Shelf(const TypeOps& type) : create(type.create), destroy(type.destroy) {}
     Shelf(const Shelf&) = delete;
     Shelf& operator=(const Shelf&) = delete;
     ~Shelf() { clear(); }
     void clear() {
       const std::lock_guard lock(mutex);
-      for (void* message : unused) type.destroy(message);
+      for (void* message : unused) destroy(message);
       unused.clear();
     }
     void* take() {
       const std::lock_guard lock(mutex);
-      if (unused.empty()) return type.create();
+      if (unused.empty()) return create();
       void* message = unused.back();
       unused.pop_back();
       return message;
@@ -46,10 +47,11 @@ class MessagePool {
       if (unused.size() < kKept) {
         unused.push_back(message);
       } else {
-        type.destroy(message);
+        destroy(message);
       }
     }
-    const TypeOps& type;
+    void* (*create)();
+    void (*destroy)(void*);
     std::mutex mutex;
     std::vector<void*> unused;
   };

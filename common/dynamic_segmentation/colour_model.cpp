@@ -19,8 +19,8 @@ constexpr int kColours = kLumas * kChromas * kChromas;
 using Histogram = std::vector<float>;  // kColours; luma, then one difference, then the other
 
 int chroma(float difference) {
-  return std::clamp(static_cast<int>(std::lround(difference / kChromaStep)), -kStrongest, kStrongest) +
-         kStrongest;
+  constexpr float kEnd = kStrongest;
+  return static_cast<int>(std::clamp(difference / kChromaStep, -kEnd, kEnd) + kEnd + 0.5F);
 }
 
 std::uint16_t colour_of(float red, float green, float blue) {

@@ -66,7 +66,7 @@ class GridGeometry {
 
   [[nodiscard]] int index_at(int x, int y) const {
     if (x < 0 || y < 0 || x >= table_size_.width || y >= table_size_.height) return -1;
-    if (!cell_table_.empty()) return cell_table_(y, x);
+    if (cell_table_.data != nullptr) return cell_table_(y, x);
     const int column = column_table_[static_cast<std::size_t>(x)];
     const int row = row_table_[static_cast<std::size_t>(y)];
     return column < 0 || row < 0 ? -1 : row * size_.width + column;

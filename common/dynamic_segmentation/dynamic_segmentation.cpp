@@ -1,36 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/dynamic_segmentation/dynamic_segmentation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/dynamic_segmentation/background.hpp"
 #include "common/dynamic_segmentation/box_evidence.hpp"
 #include "common/dynamic_segmentation/colour_model.hpp"
-#include "common/dynamic_segmentation/markov_field.hpp"
+#include "common/dynamic_segmentation/couplings.hpp"
 
 namespace rds::segmentation {
 namespace {
-
-float coupling(float depth_a_m, float depth_b_m, const geometry::DepthNoise& noise,
-               const EvidenceModel& model) {
-  constexpr float kSlantedFromM = 1;  // nearer, a slanted surface's steps are longer than noise
-  if (depth_a_m == 0 || depth_b_m == 0) return model.hole_coupling;
-  const float sigma_m = noise.sigma_m(std::max(kSlantedFromM, std::min(depth_a_m, depth_b_m)));
-  const float steps = (depth_a_m - depth_b_m) / (model.step_sigmas * sigma_m);
-  return model.coupling * std::exp(-steps * steps / 2);
-}
-
-Couplings couple(const cv::Mat1f& depth_m, const geometry::DepthNoise& noise, const EvidenceModel& model) {
-  Couplings couplings{cv::Mat1f(depth_m.size(), 0.0F), cv::Mat1f(depth_m.size(), 0.0F)};
-  for (int r = 0; r < depth_m.rows; ++r)
-    for (int c = 0; c < depth_m.cols; ++c) {
-      const float z = depth_m(r, c);
-      if (c + 1 < depth_m.cols) couplings.right(r, c) = coupling(z, depth_m(r, c + 1), noise, model);
-      if (r + 1 < depth_m.rows) couplings.below(r, c) = coupling(z, depth_m(r + 1, c), noise, model);
-    }
-  return couplings;
-}
 
 /// Not 0 in boxes, where something has appeared, and where something was movable: no plane is fitted there.
 cv::Mat1b unknown_cells(const GridGeometry& grid, const Evidence& evidence, const EvidenceModel& model) {

@@ -1,67 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/dynamic_segmentation/markov_field.hpp"
 
-#include <algorithm>
+#include "common/dynamic_segmentation/cell_rows.hpp"
 
 namespace rds::segmentation {
 namespace {
 
 constexpr int kRounds = 2;
 
-/// What a cell has been told by its neighbours.
+/// What the cells of a grid have been told by their neighbours in one direction.
 struct Messages {
-  explicit Messages(const cv::Size& size)
-      : left(size, 0.0F), right(size, 0.0F), above(size, 0.0F), below(size, 0.0F) {}
-  cv::Mat1f left;  // by the cell left of it
-  cv::Mat1f right;
-  cv::Mat1f above;
-  cv::Mat1f below;
+  explicit Messages(const cv::Size& size) : down(size, 0.0F), up(size, 0.0F) {}
+  cv::Mat1f down;  // by the row before
+  cv::Mat1f up;    // by the row after
 };
 
-float held(float message, float coupling) {
-  return std::clamp(message, -coupling, coupling);
+/// From one row to the next to it. @param told  what came so far in this direction.
+void pass(const cv::Mat1f& beliefs, const cv::Mat1f& couplings, int coupling, int from, int to,
+          cv::Mat1f& told) {
+  const auto held = row_of(couplings, coupling);
+  row_of(told, to) = (row_of(beliefs, from) + row_of(told, from)).max(-held).min(held);
 }
 
-void sweep_rows(const cv::Mat1f& own, const cv::Mat1f& couplings, Messages& told) {
-  for (int r = 0; r < own.rows; ++r) {
-    const float* u = own[r];
-    const float* above = told.above[r];
-    const float* below = told.below[r];
-    const float* k = couplings[r];
-    float* left = told.left[r];
-    float* right = told.right[r];
-    for (int c = 1; c < own.cols; ++c)
-      left[c] = held(u[c - 1] + above[c - 1] + below[c - 1] + left[c - 1], k[c - 1]);
-    for (int c = own.cols - 2; c >= 0; --c)
-      right[c] = held(u[c + 1] + above[c + 1] + below[c + 1] + right[c + 1], k[c]);
-  }
-}
-
-/// @param from, to  rows, next to each other. @param along  what came so far in this direction.
-void pass(const cv::Mat1f& own, const float* couplings, int from, int to, const Messages& told,
-          cv::Mat1f& along) {
-  const float* u = own[from];
-  const float* left = told.left[from];
-  const float* right = told.right[from];
-  const float* before = along[from];
-  float* after = along[to];
-  for (int c = 0; c < own.cols; ++c) after[c] = held(u[c] + left[c] + right[c] + before[c], couplings[c]);
-}
-
-void sweep_columns(const cv::Mat1f& own, const cv::Mat1f& couplings, Messages& told) {
-  for (int r = 1; r < own.rows; ++r) pass(own, couplings[r - 1], r - 1, r, told, told.above);
-  for (int r = own.rows - 2; r >= 0; --r) pass(own, couplings[r], r + 1, r, told, told.below);
+/// From row to row and back: a whole row at a time.
+/// @param beliefs  of each cell, without what it was told in these directions.
+void sweep(const cv::Mat1f& beliefs, const cv::Mat1f& couplings, Messages& told) {
+  for (int r = 1; r < beliefs.rows; ++r) pass(beliefs, couplings, r - 1, r - 1, r, told.down);
+  for (int r = beliefs.rows - 2; r >= 0; --r) pass(beliefs, couplings, r, r + 1, r, told.up);
 }
 
 }  // namespace
 
 cv::Mat1f propagate(const cv::Mat1f& log_odds, const Couplings& couplings) {
-  Messages told(log_odds.size());
+  const cv::Mat1f turned_couplings(couplings.right.t());  // rows are the picture's columns
+  Messages across(turned_couplings.size());
+  Messages along(log_odds.size());
+  cv::Mat1f from_sides;
+  cv::Mat1f believed = log_odds;  // without what the cells beside it say
   for (int round = 0; round < kRounds; ++round) {
-    sweep_rows(log_odds, couplings.right, told);
-    sweep_columns(log_odds, couplings.below, told);
+    sweep(cv::Mat1f(believed.t()), turned_couplings, across);
+    from_sides = cv::Mat(across.down + across.up).t();
+    sweep(cv::Mat1f(log_odds + from_sides), couplings.below, along);
+    believed = cv::Mat1f(log_odds + along.down + along.up);  // not into the memory of `log_odds`
   }
-  return cv::Mat1f(log_odds + told.left + told.right + told.above + told.below);
+  return cv::Mat1f(believed + from_sides);
 }
 
 }  // namespace rds::segmentation

@@ -41,7 +41,7 @@ class ZenohCaller {
 
   bool send(const std::vector<std::uint8_t>& request) {
     std::uint8_t* data = nullptr;
-    RdsZenohBuffer* buffer = zenoh().make_buffer(session_.get(), request.size(), true, &data);
+    RdsZenohBuffer* buffer = zenoh().make_buffer(session_.get(), request.size(), false, &data);
     std::ranges::copy(request, data);
     const auto attachment = bus::detail::to_bytes({++sequence_, 0, gid_});
     constexpr std::uint64_t kTimeoutMs = 10'000;

@@ -68,9 +68,9 @@ typedef struct {
   RdsZenohPublisher* (*declare_publisher)(const RdsZenohSession* session, const char* key,
                                           const RdsZenohPublisherOptions* options, char* error, size_t capacity);
   void (*undeclare_publisher)(RdsZenohPublisher* publisher);
-  /* Memory to write a message into; shared with the other processes of the machine, if the session's settings allow
-   * it, the message is large and not `kept` after it was sent. */
-  RdsZenohBuffer* (*make_buffer)(const RdsZenohSession* session, size_t size, uint8_t kept, uint8_t** data);
+  /* Memory to write a message into; to `share` with the other processes of the machine, if the session's settings
+   * allow it. */
+  RdsZenohBuffer* (*make_buffer)(const RdsZenohSession* session, size_t size, uint8_t share, uint8_t** data);
   void (*free_buffer)(RdsZenohBuffer* buffer);
   /* Takes the buffer, whatever comes of it. May wait for a link that is full, as long as its settings say. */
   int (*put)(const RdsZenohPublisher* publisher, RdsZenohBuffer* buffer, const uint8_t* attachment,

@@ -101,7 +101,7 @@ bool ZenohService::reply(const Caller& caller, const void* response) {
   if (query == nullptr || node_.graph().has_left(caller.client)) return false;
   const std::size_t size = response_.encoded_size(response);
   std::uint8_t* bytes = nullptr;
-  ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, true, &bytes));
+  ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, false, &bytes));
   if (response_.encode(response, bytes, size) == 0) return false;
   replies_->push(std::move(query), std::move(buffer), {caller.request, now_ns(), caller.client});
   return true;

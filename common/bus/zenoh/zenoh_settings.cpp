@@ -25,7 +25,6 @@ constexpr int kPictureBatches = 16;
 constexpr int kLargestMessage = 256 << 20;  // bytes
 /// What a process that shares memory takes of /dev/shm for its messages on their way [bytes].
 constexpr int kSharedMemory = 16 << 20;
-constexpr int kLeastShared = 64 << 10;  // bytes of a message: less is faster through a link
 /// What the kernel may hold of a link to other machines [bytes]: that cannot be overtaken any more, and its
 /// own choice, megabytes, takes a second on a link of 20 Mbit/s.
 constexpr int kSendBuffer = 32 << 10;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "common/bus/zenoh/zenoh_access.hpp"
 
 namespace rds::bus::detail {
+
+/// Bytes from which a message goes through shared memory, where there is any: less is faster through a link.
+inline constexpr std::size_t kLeastShared = 64 << 10;
 
 // A session's configuration in Zenoh's own form; common/bus/zenoh/README.md explains it.
 

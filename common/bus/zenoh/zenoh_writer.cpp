@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/bus/zenoh/zenoh_settings.hpp"
+
 namespace rds::bus::detail {
 namespace {
 
@@ -79,7 +81,8 @@ ZenohWriter::~ZenohWriter() {
 bool ZenohWriter::write(const void* message) {
   const std::size_t size = type_.encoded_size(message);
   std::uint8_t* bytes = nullptr;
-  ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, keeps_, &bytes));
+  const bool share = !keeps_ && size >= kLeastShared;
+  ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, share, &bytes));
   if (type_.encode(message, bytes, size) == 0) return false;
   {
     const std::lock_guard lock(mutex_);

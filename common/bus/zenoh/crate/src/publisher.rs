@@ -24,8 +24,6 @@ pub struct PublisherOptions {
 }
 
 pub type Publisher = AdvancedPublisher<'static>;
-/// A message of this size or more goes into shared memory, if the session has any: less is faster as it is.
-const LARGE: usize = 64 << 10;
 
 pub enum Buffer {
     Own(Vec<u8>),
@@ -99,14 +97,14 @@ pub unsafe extern "C" fn declare_publisher(
 pub unsafe extern "C" fn make_buffer(
     session: *const Session,
     size: usize,
-    kept: u8,
+    share: u8,
     data: *mut *mut u8,
 ) -> *mut Buffer {
-    let memory = match kept {
-        0 if size >= LARGE => catch_unwind(AssertUnwindSafe(|| shared(&*session, size)))
+    let memory = match share {
+        0 => None,
+        _ => catch_unwind(AssertUnwindSafe(|| shared(&*session, size)))
             .ok()
             .flatten(),
-        _ => None,
     };
     let mut buffer = match memory {
         Some(memory) => Buffer::Shared(memory),

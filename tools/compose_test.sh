@@ -114,7 +114,7 @@ try_vendor() {
   compose up --detach --wait --wait-timeout 180 "${services[@]}" >"$log" 2>&1 ||
     { cat "$log" >&2; compose logs --tail 20 >&2; fail "$RDS_BUS: the services did not become healthy"; }
   say "$RDS_BUS: healthy after $((SECONDS - started)) s"
-  status || fail "$RDS_BUS: not seen from outside the containers"
+  status --wait 20 || fail "$RDS_BUS: not seen from outside the containers"
   local service
   for service in "${services[@]}"; do check_confinement "$service"; done
   say "$RDS_BUS: playing"

@@ -16,7 +16,7 @@ if(RDS_SANITIZE)
   add_link_options(-fsanitize=${RDS_SANITIZE})
 endif()
 if(RDS_SANITIZE MATCHES address)
-  # As everywhere else on Linux, and as PCL and Ceres were built: what Eigen allocates there is freed here.
+  # As everywhere else on Linux, and as Ceres was built: what Eigen allocates there is freed here.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 set(RDS_SLOWDOWN 1)  # of a test's time limit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace rds::segmentation {
 namespace {
@@ -11,24 +12,21 @@ constexpr int kStride = 2;  // cells, between those that are asked for planes
 
 }  // namespace
 
-Background::Background(const PictureCells& picture, const GridGeometry& grid, const cv::Mat1b& unknown)
-    : picture_(picture),
-      surfaces_{picture.depth_m, grid},
-      planes_(fit_planes(samples_outside(unknown), grid.noise())) {}
-
-std::vector<SurfaceSample> Background::samples_outside(const cv::Mat1b& unknown) const {
-  const cv::Mat1f& depth_m = picture_.depth_m;
+std::vector<BackgroundPlane> background_planes(const PictureCells& picture, const GridGeometry& grid,
+                                               const cv::Mat1b& unknown) {
+  const cv::Mat1f& depth_m = picture.depth_m;
+  const SurfaceCells surfaces{depth_m, grid};
   std::vector<SurfaceSample> samples;
   samples.reserve(depth_m.total() / (kStride * kStride));
   for (int r = 0; r < depth_m.rows; r += kStride)
     for (int c = 0; c < depth_m.cols; c += kStride)
-      if (depth_m(r, c) > 0 && (unknown(r, c) == 0 || picture_.stable(r, c) != 0))
-        samples.push_back({surfaces_.point(c, r), surfaces_.normal(c, r)});
-  return samples;
+      if (depth_m(r, c) > 0 && (unknown(r, c) == 0 || picture.stable(r, c) != 0))
+        samples.push_back({surfaces.point(c, r), surfaces.normal(c, r)});
+  return fit_planes(std::move(samples), grid.noise());
 }
 
 bool Background::shows_at(const cv::Point& cell) const {
-  if (!(picture_.depth_m(cell) > 0)) return false;
+  if (!(surfaces_.depth_m(cell) > 0)) return false;
   const Eigen::Vector3f p = surfaces_.point(cell.x, cell.y);
   std::optional<Eigen::Vector3f> normal;
   return std::ranges::any_of(planes_, [&](const BackgroundPlane& plane) {

@@ -27,10 +27,10 @@ float depth_of(const MovableRegion& box, const cv::Mat1f& depth_m) {
 
 /// Log-odds by the box of the cells in it: the farther from the object in depth, the less likely a cell is a
 /// part of it. Where a cell has more already, that stays.
-void add_box(const cv::Mat1f& depth_m, float object_m, const EvidenceModel& model, cv::Mat1f log_odds) {
+void add_box(const cv::Mat1f& depth_m, float object_m, float sigma_m, const EvidenceModel& model, cv::Mat1f log_odds) {
   for (int r = 0; r < depth_m.rows; ++r) {
     const auto z = row_of(depth_m, r);
-    const Eigen::ArrayXf near = (-0.5F * ((z - object_m) / model.object_sigma_m).square()).exp();
+    const Eigen::ArrayXf near = (-0.5F * ((z - object_m) / sigma_m).square()).exp();
     const Eigen::ArrayXf p = model.unseen + (model.filled - model.unseen) * (z > 0).select(near, 1.0F);
     row_of(log_odds, r) = row_of(log_odds, r).max((p / (1 - p)).log());
   }
@@ -52,7 +52,7 @@ cv::Mat1f box_log_odds(const cv::Mat1f& depth_m, const GridGeometry& grid,
   cv::Mat1f result(grid.size(), log_odds_of(model.unseen));
   for (const MovableRegion& box : boxes) {
     const cv::Rect cells = cells_of(box.box_px, grid);
-    add_box(depth_m(cells), depth_of(box, depth_m(cells)), model, result(cells));
+    add_box(depth_m(cells), depth_of(box, depth_m(cells)), box.sigma_m, model, result(cells));
   }
   return result;
 }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "common/dynamic_segmentation/background.hpp"
 #include "common/dynamic_segmentation/box_evidence.hpp"
 #include "common/dynamic_segmentation/colour_model.hpp"
 #include "common/dynamic_segmentation/couplings.hpp"
@@ -21,9 +20,8 @@ cv::Mat1b unknown_cells(const GridGeometry& grid, const Evidence& evidence, cons
 }
 
 /// Adds what the background says, where a cell may yet be movable.
-void add_background(const PictureCells& picture, const GridGeometry& grid, const Evidence& evidence,
-                    const EvidenceModel& model, cv::Mat1f& log_odds) {
-  const Background background(picture, grid, unknown_cells(grid, evidence, model));
+void add_background(const PictureCells& picture, const Background& background, const EvidenceModel& model,
+                    cv::Mat1f& log_odds) {
   const float asked = log_odds_of(model.unseen);
   for (int r = 0; r < log_odds.rows; ++r)
     for (int c = 0; c < log_odds.cols; ++c) {
@@ -45,14 +43,16 @@ float lasting_presence(float presence, double passed_s, const EvidenceModel& mod
 
 Segmentation segment(const PictureCells& picture, const GridGeometry& grid, const Evidence& evidence,
                      const EvidenceModel& model) {
-  Segmentation result{box_log_odds(picture.depth_m, grid, evidence.boxes, model), {}};
+  Segmentation result{box_log_odds(picture.depth_m, grid, evidence.boxes, model),
+                      {},
+                      background_planes(picture, grid, unknown_cells(grid, evidence, model))};
   const bool has_motion = !evidence.motion.appeared.empty();
   if (has_motion) cv::add(result.presence, model.appeared, result.presence, evidence.motion.appeared);
   if (!evidence.carried.empty())
     evidence.carried.copyTo(result.presence, evidence.carried > result.presence);
   cv::Mat1f own = result.presence.clone();
   if (has_motion) cv::add(own, model.unchanged, own, evidence.motion.unchanged);
-  add_background(picture, grid, evidence, model, own);
+  add_background(picture, Background(picture.depth_m, grid, result.planes), model, own);
   const Couplings couplings = couple(picture.depth_m, grid.noise(), model);
   result.log_odds = propagate(own, couplings);
   if (picture.colours.empty()) return result;

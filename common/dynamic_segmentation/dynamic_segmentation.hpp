@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "common/dynamic_segmentation/background.hpp"
 #include "common/dynamic_segmentation/evidence_model.hpp"
 #include "common/dynamic_segmentation/motion_evidence.hpp"
 #include "common/dynamic_segmentation/movable_region.hpp"
@@ -20,6 +21,7 @@ struct Evidence {
 struct Segmentation {
   cv::Mat1f presence;  // by what tells of movable things only, each cell for itself
   cv::Mat1f log_odds;  // by all that is known, neighbours included; above 0 what is more likely movable
+  std::vector<BackgroundPlane> planes;  // that go on outside what may be movable
 };
 
 /// What of a picture is movable, as EvidenceModel says. The same evidence gives the same bytes.

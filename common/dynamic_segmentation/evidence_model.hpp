@@ -12,7 +12,6 @@ struct EvidenceModel {
   // A cell is movable with this probability …
   float unseen = 0.1F;  // where no box is: people come before their boxes do
   float filled = 0.8F;  // in a box, at the depth of its object
-  float object_sigma_m = 0.25F;  // of a person's surface in depth, from its middle
   // … and these ratios are added.
   float appeared = 10;      // nearer than what stood there before
   float unchanged = -1.2F;  // the same surface as before

@@ -11,6 +11,7 @@ struct MovableRegion {
   geometry::Box2 box_px;  // in the picture as the camera gives it (with distortion)
   float min_depth_m = 0;
   float max_depth_m = 0;
+  float sigma_m = 0.25F;  // standard deviation of its surface in depth, from its middle: a person's
 };
 
 }  // namespace rds::segmentation

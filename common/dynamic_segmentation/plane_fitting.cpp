@@ -43,7 +43,7 @@ std::optional<BackgroundPlane> plane_through(const std::array<Eigen::Vector3f, 3
   const Eigen::Vector3f normal = a.cross(b);
   if (!(normal.norm() > kMinSine * a.norm() * b.norm())) return std::nullopt;
   const Eigen::Vector3f unit = normal.normalized();
-  return BackgroundPlane{unit, unit.dot(p[0])};
+  return BackgroundPlane{unit, unit.dot(p[0]), 0};
 }
 
 /// The plane that fits best; nullopt for a strip, which an arm or a leg can be.
@@ -56,9 +56,9 @@ std::optional<BackgroundPlane> fit(const std::vector<SurfaceSample>& samples) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(scatter);
   const Eigen::Vector3f normal = solver.eigenvectors().col(0);
-  const float variance = solver.eigenvalues()(1) / static_cast<float>(samples.size());
-  if (variance < kNarrowM * kNarrowM) return std::nullopt;
-  return BackgroundPlane{normal, normal.dot(mean)};
+  const float narrow_m = std::sqrt(solver.eigenvalues()(1) / static_cast<float>(samples.size()));
+  if (narrow_m < kNarrowM) return std::nullopt;
+  return BackgroundPlane{normal, normal.dot(mean), narrow_m};
 }
 
 /// Every so many of the samples that agree with the plane; fewer if they cannot be more than `most`.

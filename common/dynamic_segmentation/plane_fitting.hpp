@@ -14,6 +14,7 @@ namespace rds::segmentation {
 struct BackgroundPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float distance = 0;
+  float narrow_m = 0;  // standard deviation of its samples along its narrower side
 };
 
 /// Where a surface is, camera frame [m], and which way it faces: a vector of any length, zero if not known.

@@ -31,7 +31,6 @@ constexpr std::size_t kTwoEmptyTrees = 1'280'000;        // OctoMap reserves 0.6
 struct Examples {
   Examples() {
     mapper::MapperConfig config;
-    config.segmentation.enabled = false;
     config.octree.resolution_m = 0.5;
     mapper::SemanticMapper mapper(config, 1);
     mapper::test::RandomKeyframes keyframes(3);

@@ -21,10 +21,6 @@ void read(ConfigReader& r, ConfirmationConfig& c) {
   r.value("radius_m", c.radius_m, 0.0, 5.0, "m");
 }
 
-void read(ConfigReader& r, SegmentationConfig& c) {
-  r.value("enabled", c.enabled);
-}
-
 void read(ConfigReader& r, ObjectConfig& c) {
   r.value("min_observations", c.min_observations, 1, 100);
   r.value("min_score_sum", c.min_score_sum, 0.0, 100.0);
@@ -65,7 +61,6 @@ void read(ConfigReader& reader, MapperConfig& config) {
   labels::read(reader, config.objects.labels);
   read(reader.section("sampling"), config.sampling);
   read(reader.section("confirmation"), config.confirmation);
-  read(reader.section("segmentation"), config.segmentation);
   read(reader.section("objects"), config.objects);
   read(reader.section("octree"), config.octree);
   read(reader.section("correction"), config.correction);

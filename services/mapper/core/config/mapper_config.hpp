@@ -30,13 +30,6 @@ struct ConfirmationConfig {
   bool operator==(const ConfirmationConfig&) const = default;
 };
 
-struct SegmentationConfig {
-  bool enabled = true;
-  int stride = 2;  // not read: of the sampled points that are clustered
-
-  bool operator==(const SegmentationConfig&) const = default;
-};
-
 struct ObjectConfig {
   labels::Table labels;          // radius within which two sightings are one object; what is movable is none
   int min_observations = 2;      // an object is reported from here on …
@@ -78,7 +71,6 @@ struct GridConfig {
 struct MapperConfig {
   SamplingConfig sampling;
   ConfirmationConfig confirmation;
-  SegmentationConfig segmentation;
   ObjectConfig objects;
   OctreeConfig octree;
   CorrectionConfig correction;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "services/mapper/core/segmentation/static_object.hpp"
+#include "services/mapper/core/segmentation/object_place.hpp"
+#include "services/mapper/core/segmentation/static_objects.hpp"
 
 namespace rds::mapper {
 namespace {
@@ -43,13 +44,13 @@ void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> b
     if (!box.movable) still.push_back(&box);
   if (still.empty()) return;
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
-  const auto segments =
-      config.segmentation.enabled ? segment(record, config) : std::vector<Segment>{};
+  auto objects = segment_static(record, still);
   record.objects.labels.assign(record.size(), 0);
-  for (const auto* box : still) {
+  for (std::size_t k = 0; k < still.size(); ++k) {
+    const LabelledBox* box = still[k];
     const auto box_px = image_box(*box, record);
     if (!box_px) continue;
-    auto [pixels, flush] = static_object(record, *box, segments, config);
+    auto& [pixels, flush] = objects[k];
     if (flush && box->score < config.objects.flush_min_score) continue;
     std::erase_if(
         pixels, [&](std::size_t i) { return record.objects.labels[i] != 0; });  // of what is surer, or nearer

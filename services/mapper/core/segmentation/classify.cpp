@@ -7,13 +7,12 @@
 namespace rds::mapper {
 namespace {
 
-/// Rules 4 to 7.
+/// Rules 4 to 6.
 PixelClass class_of(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks) {
   const PixelClass by_depth = record.classes[pixel];
   const bool is_measured = by_depth == PixelClass::kStatic;
-  if (masks.is_background(pixel)) return PixelClass::kStatic;              // rule 4
-  if (masks.is_object(pixel) && is_measured) return PixelClass::kDynamic;  // rule 5
-  if (masks.is_beside(pixel) || is_in_movable_cell(record, pixel))         // rules 6 and 7
+  if (masks.is_object(pixel) && is_measured) return PixelClass::kDynamic;  // rule 4
+  if (masks.is_beside(pixel) || is_in_movable_cell(record, pixel))         // rules 5 and 6
     return is_measured ? PixelClass::kUnknown : PixelClass::kInvalid;
   return by_depth;
 }
@@ -30,7 +29,7 @@ std::vector<Eigen::Vector3f> dynamic_points(const KeyframeRecord& record, const 
   return points;
 }
 
-/// Rule 8.
+/// Rule 7.
 void doubt_near_dynamic(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
   if (!(config.confirmation.radius_m > 0)) return;
   const auto dynamic = dynamic_points(record, config.sampling);
@@ -60,7 +59,7 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
 }
 
 void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
-  if (masks.empty() && record.movable.pixels.empty()) return;  // rules 4 to 8 have nothing to say
+  if (masks.empty() && record.movable.pixels.empty()) return;  // rules 4 to 7 have nothing to say
   for (std::size_t i = 0; i < record.size(); ++i) record.classes[i] = class_of(i, record, masks);
   doubt_near_dynamic(record, masks, config);
 }

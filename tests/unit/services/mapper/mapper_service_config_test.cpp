@@ -19,15 +19,15 @@ TEST(MapperServiceConfig, TakesTheDepthNoiseOfThePresetUnlessItIsSet) {
   EXPECT_EQ(noise_by("{camera_preset: azure_kinect, depth_noise: xtion}"), "xtion");
 }
 
-TEST(MapperServiceConfig, RefusesWhatTheDepthNoiseHasReplaced) {
-  config::ConfigReader reader(YAML::Load("{segmentation: {plane_noise: 0.006}}"), "mapper.yaml");
+TEST(MapperServiceConfig, RefusesSettingsOfAMethodThatIsGone) {
+  config::ConfigReader reader(YAML::Load("{segmentation: {enabled: false}}"), "mapper.yaml");
   MapperServiceConfig config;
   read(reader, config);
   try {
     reader.finish();
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
-    EXPECT_THAT(e.what(), ::testing::HasSubstr("segmentation.plane_noise: unknown key"));
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("segmentation: unknown key"));
   }
 }
 

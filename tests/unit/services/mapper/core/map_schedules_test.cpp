@@ -55,7 +55,6 @@ class Schedule {
  private:
   static MapperConfig config_for(unsigned seed) {
     MapperConfig config;
-    config.segmentation.enabled = false;
     config.octree.resolution_m = 0.15;
     config.octree.color_by_label = seed % 2 == 0;
     config.correction.max_keyframes = seed % 3 == 0 ? 5 : 1000;

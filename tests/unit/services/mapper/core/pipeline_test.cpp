@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "services/mapper/core/segmentation/object_region.hpp"
+#include "services/mapper/core/segmentation/object_place.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -133,12 +133,11 @@ TEST(Pipeline, NewBoxesReplaceEarlierOnes) {
   EXPECT_EQ(class_at(record, 160, 120), PixelClass::kStatic);
 }
 
-TEST(Pipeline, ABoxWithoutDepthHasNoRegion) {
+TEST(Pipeline, ABoxWithoutDepthHasNoPlace) {
   LabelTable labels;
   const auto record =
       record_of(SyntheticKeyframe(0).rectangle({100, 50, 100, 100}, 0).looked_for_objects().make(), labels);
   const LabelledBox box{"person", 1.0F, {110, 60, 190, 140}, std::nullopt, 0.0F, true};
-  EXPECT_TRUE(object_region(record, box).empty());
   EXPECT_FALSE(object_place(record, box).has_value());
 }
 

@@ -16,7 +16,6 @@ constexpr std::size_t kKeyframes = 8;
 
 MapperConfig coarse() {
   MapperConfig config;
-  config.segmentation.enabled = false;
   config.octree.resolution_m = 0.1;
   config.sampling.stride_px = 4;
   return config;

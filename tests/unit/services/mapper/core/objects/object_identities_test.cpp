@@ -25,7 +25,6 @@ const std::array<Thing, 3> kThings{
 
 MapperConfig coarse() {
   MapperConfig config;
-  config.segmentation.enabled = false;
   config.sampling.stride_px = 4;
   config.octree.resolution_m = 0.1;
   return config;

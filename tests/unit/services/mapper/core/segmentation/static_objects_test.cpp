@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/mapper/core/segmentation/static_object.hpp"
+#include "services/mapper/core/segmentation/static_objects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +21,11 @@ SyntheticKeyframe over_surface(double depth_below_m) {
 }
 
 StaticObject object_of(const KeyframeInput& input, const cv::Rect& px, float depth_m) {
-  MapperConfig config;
-  config.segmentation.stride = 1;
-  const auto record = test::measured(input, config.sampling);
-  const auto segments = segment(record, config);
+  const auto record = test::measured(input, SamplingConfig{});
   const LabelledBox box{"chair", 0.9F,    {double(px.x), double(px.y), double(px.br().x), double(px.br().y)},
                         {},      depth_m, false};
-  return static_object(record, box, segments, config);
+  const LabelledBox* boxes = &box;
+  return segment_static(record, {&boxes, 1}).front();
 }
 
 /// Pixels of the full picture that a box's object has, as a mask of the sampled ones.

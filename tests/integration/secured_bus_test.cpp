@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "common/geometry/trajectory.hpp"
 #include "services/mapper/reader/map_follower.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
@@ -19,6 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 constexpr const char* kDomain = "28";
@@ -195,14 +197,23 @@ TEST_P(SecuredDds, AForeignClientHearsNothing) {
   expect_all_alive();
 }
 
+/// With what a robot senses beside pictures: an IMU that lies still, and odometry that follows the truth.
 TEST_P(SecuredBus, ARunGivesTheSameBytesAsOnAnOpenBus) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   make_excerpt(shared() / "data/7scenes_kitchen", place_ / "kitchen", 60);
+  const auto stamps = geometry::read_trajectory(place_ / "kitchen/groundtruth.txt").value();
+  std::string imu;
+  for (const auto& pose : stamps) imu += fmt::format("{:.6f} 0 -9.81 0 0 0 0\n", 1e-9 * static_cast<double>(pose.stamp_ns));
+  write_text(place_ / "kitchen/imu.txt", imu);
   for (const auto& [out, secure] : {std::pair<std::string, std::vector<std::string>>{"open", {}},
                                     {"secured_run", {"--secure", secured_}}}) {
     const ProcessResult done =
-        run(place_ / "kitchen", place_ / out, std::vector<std::string>{"--rate", "max", "--bus", GetParam()} + secure);
+        run(place_ / "kitchen", place_ / out,
+            std::vector<std::string>{"--rate", "max", "--bus", GetParam(), "--imu",
+                                     "--odometry=" + (place_ / "kitchen/groundtruth.txt").string()} +
+                secure);
     ASSERT_EQ(done.status, 0) << done.standard_error;
+    EXPECT_THAT(read_text(place_ / out / "log/rds-tracker.log"), Not(HasSubstr("has come on")));
   }
   for (const char* file : {"trajectory.txt", "detections.jsonl", "predictions.jsonl", "objects.json", "map.ot"})
     EXPECT_TRUE(read_text(place_ / "open" / file) == read_text(place_ / "secured_run" / file)) << file;

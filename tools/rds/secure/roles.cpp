@@ -41,28 +41,32 @@ Topics besides(const Topics& camera_topics) {
 
 }  // namespace
 
-std::vector<Role> roles(const Topics& camera_topics) {
+std::vector<Role> roles(const RobotTopics& robot) {
+  const Topics& camera_topics = robot.camera;
   const Topics diagnostics{topics::kDiagnostics.name};
-  const Topics transforms{topics::kTransforms.name, topics::kStaticTransforms.name};
+  const Topics mounting{topics::kStaticTransforms.name};
+  const Topics transforms = Topics{topics::kTransforms.name} + mounting;
+  const Topics played = camera_topics + mounting + robot.sensors;
   const Topics poses{topics::kOdometry.name, topics::kTransforms.name, topics::kTrackingState.name,
                      topics::kTrajectory.name};
   return {
-      service("tracker", topics::kTracker, besides(camera_topics) + transforms),
+      service("tracker", topics::kTracker, besides(camera_topics) + transforms + robot.sensors),
       service("detector", topics::kDetector),
       service("transformer", topics::kTransformer, camera_topics),
       service("mapper", topics::kMapper),
       service("loop-closer", topics::kLoopCloser),
-      service("viewer", topics::kViewer, Topics{topics::kTransforms.name, "tf_static"} + camera_topics),
+      service("viewer", topics::kViewer, transforms + camera_topics),
       {"operator",
        Topics{topics::kCommand.name, topics::kRunRequest.name, topics::kRunReply.name,
               topics::kMapRequests.name} +
-           camera_topics,
-       Topics{"rds/*", topics::kTransforms.name} + diagnostics + camera_topics},
+           played,
+       Topics{"rds/*", topics::kTransforms.name} + diagnostics + played},
       {"reader",
        {topics::kMapRequests.name},  // asks for what it lacks, where the mapper is on another machine
        Topics{"rds/map/*", topics::kBoxes.name, topics::kServiceStatus.name} + poses + diagnostics},
-      {"player", camera_topics, {topics::kTrackingState.name, topics::kServiceStatus.name}},
-      {"camera", camera_topics, {}},
+      {"player", played, {topics::kTrackingState.name, topics::kServiceStatus.name}},
+      {"camera", camera_topics + mounting, {}},
+      {"robot", transforms + robot.sensors, transforms + Topics{topics::kOdometry.name}},
       {"router", {}, {}, true},
   };
 }

@@ -14,11 +14,14 @@ struct Role {
   bool relays = false;  // on Zenoh, passes on what others may write and read
 };
 
+/// Topics of a domain that are no names of ours, with '*' for any text.
+struct RobotTopics {
+  std::vector<std::string> camera{"camera/*"};                      // all of the camera
+  std::vector<std::string> sensors{"odom", "imu", "initialpose"};  // what else the robot senses or is told
+};
+
 /// The services; and the kinds of outsiders: an operator, who alone commands, a reader of maps, a player of
-/// recordings, a camera's driver and a
-/// router of Zenoh.
-///
-/// @param camera_topics  all topics of the camera.
-std::vector<Role> roles(const std::vector<std::string>& camera_topics);
+/// recordings, a camera's driver, the robot's other nodes and a router of Zenoh.
+std::vector<Role> roles(const RobotTopics& topics);
 
 }  // namespace rds::secure

@@ -35,8 +35,12 @@ void add_secure_command(CLI::App& rds) {
   const auto options = std::make_shared<InitOptions>();
   command->add_option("folder", options->folder, "The folder to make")->required();
   command
-      ->add_option("--camera-topics", options->options.camera_topics,
+      ->add_option("--camera-topics", options->options.topics.camera,
                    "All topics of the camera, * for any text; as many as there are")
+      ->capture_default_str();
+  command
+      ->add_option("--sensor-topics", options->options.topics.sensors,
+                   "Topics of the robot's odometry, IMU and initial pose, as the tracker's inputs name them")
       ->capture_default_str();
   command->add_flag("--force", options->options.force, "Replace such a folder: its certificates are void");
   command->callback([options] { init(*options); });

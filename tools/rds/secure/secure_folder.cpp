@@ -12,7 +12,6 @@
 
 #include "common/bus/security.hpp"
 #include "common/bus/zenoh/zenoh_access.hpp"
-#include "tools/rds/secure/roles.hpp"
 #include "tools/rds/secure/security_documents.hpp"
 
 namespace rds::secure {
@@ -43,8 +42,8 @@ void write_file(const fs::path& file, mode_t mode, const std::string& text) {
 std::vector<std::string> fill(const fs::path& folder, const FolderOptions& options) {
   const CertificateAuthority authority(options.validity);
   write_file(folder / bus::kCaFile, kPublic, authority.certificate());
-  write_file(folder / bus::kGovernanceFile, kPublic, authority.sign(governance(options.camera_topics)));
-  const std::vector<Role> all = roles(options.camera_topics);
+  write_file(folder / bus::kGovernanceFile, kPublic, authority.sign(governance(options.topics.camera)));
+  const std::vector<Role> all = roles(options.topics);
   write_file(folder / bus::kAccessFile, kPublic, authority.sign(access_list(all)));
   std::vector<std::string> names;
   for (const Role& role : all) {

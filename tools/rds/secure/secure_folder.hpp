@@ -8,11 +8,12 @@
 #include <tl/expected.hpp>
 
 #include "tools/rds/secure/certificate_authority.hpp"
+#include "tools/rds/secure/roles.hpp"
 
 namespace rds::secure {
 
 struct FolderOptions {
-  std::vector<std::string> camera_topics{"camera/*"};
+  RobotTopics topics{};
   Validity validity;
   bool force = false;
 };

@@ -7,16 +7,31 @@
 namespace rds::geometry {
 namespace {
 
-Pose interpolated(const std::deque<std::pair<std::int64_t, Pose>>& poses, std::int64_t stamp_ns) {
-  const auto after = std::ranges::lower_bound(poses, stamp_ns, {}, &std::pair<std::int64_t, Pose>::first);
-  if (after == poses.begin()) return poses.front().second;
-  if (after == poses.end()) return poses.back().second;
+using StampedPoses = std::deque<std::pair<std::int64_t, Pose>>;
+
+/// @param after  one of `poses`, but not the first. @param stamp_ns  may lie beyond it.
+Pose on_line_to(StampedPoses::const_iterator after, std::int64_t stamp_ns) {
   const auto& [first_ns, first] = *std::prev(after);
   const auto& [second_ns, second] = *after;
   const double share = static_cast<double>(stamp_ns - first_ns) / static_cast<double>(second_ns - first_ns);
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond(first.linear()).slerp(share, Eigen::Quaterniond(second.linear()));
   return make_pose((1 - share) * first.translation() + share * second.translation(), turn);
+}
+
+Pose beyond_last(const StampedPoses& poses, std::int64_t stamp_ns) {
+  if (poses.size() == 1) return poses.back().second;
+  const auto last = std::prev(poses.end());
+  const std::int64_t interval_ns = last->first - std::prev(last)->first;
+  if (interval_ns > TransformTree::kSteadyNs) return last->second;
+  return on_line_to(last, std::min(stamp_ns, last->first + interval_ns));
+}
+
+Pose pose_at(const StampedPoses& poses, std::int64_t stamp_ns) {
+  const auto after = std::ranges::lower_bound(poses, stamp_ns, {}, &StampedPoses::value_type::first);
+  if (after == poses.begin()) return poses.front().second;
+  if (after == poses.end()) return beyond_last(poses, stamp_ns);
+  return on_line_to(after, stamp_ns);
 }
 
 }  // namespace
@@ -68,7 +83,7 @@ std::vector<std::string> TransformTree::ancestry(const std::string& frame, std::
 Pose TransformTree::root_from(const std::vector<std::string>& ancestry, std::int64_t stamp_ns) const {
   Pose pose = Pose::Identity();
   for (std::size_t i = 0; i + 1 < ancestry.size(); ++i)
-    pose = interpolated(by_child_.at(ancestry[i]).poses, stamp_ns) * pose;
+    pose = pose_at(by_child_.at(ancestry[i]).poses, stamp_ns) * pose;
   return pose;
 }
 

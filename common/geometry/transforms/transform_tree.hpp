@@ -22,6 +22,7 @@ class TransformTree {
  public:
   static constexpr std::int64_t kKeptNs = 2'000'000'000;
   static constexpr std::int64_t kForgottenNs = 5'000'000'000;
+  static constexpr std::int64_t kSteadyNs = 100'000'000;  // between transforms of something that moves
   static constexpr std::size_t kMaxFrames = 1000;  // more are not taken in
   static constexpr std::size_t kDeepest = 64;
 
@@ -35,7 +36,8 @@ class TransformTree {
   [[nodiscard]] std::string root_of(const std::string& frame, std::int64_t stamp_ns) const {
     return ancestry(frame, stamp_ns).back();
   }
-  /// Where `source` is in `target` at that time: interpolated, beyond the newest transform as it was last.
+  /// Where `source` is in `target` at that time: interpolated; beyond the newest transform as it was last,
+  /// or where they come at least every kSteadyNs, as it has moved last, for at most as long as between two.
   /// @return target_from_source; nullopt if no path joins them.
   [[nodiscard]] std::optional<Pose> lookup(const std::string& target, const std::string& source,
                                            std::int64_t stamp_ns) const;

@@ -37,13 +37,20 @@ Matrix6 covariance_in_child(const Matrix6& in_camera, const geometry::Pose& chil
   return (covariance + covariance.transpose()) / 2;
 }
 
+geometry::Pose Odometry::camera_on_body_at_rest(const RobotFrames& frames) const {
+  if (frames.body != body_) return odom_from_camera_;
+  return odom_from_camera_ * body_from_camera_.inverse() * frames.body_from_camera;
+}
+
 OdometryStep Odometry::step(const TrackedPose& pose, const RobotFrames& frames) {
   if (!pose.is_continuous || joins_) {
-    map_from_odom_ = pose.map_from_camera * odom_from_camera_.inverse();
+    map_from_odom_ = pose.map_from_camera * camera_on_body_at_rest(frames).inverse();
     speed_.reset();
   }
   joins_ = false;
   odom_from_camera_ = map_from_odom_.inverse() * pose.map_from_camera;
+  body_ = frames.body;
+  body_from_camera_ = frames.body_from_camera;
   OdometryStep step;
   step.is_in_map = frames.odom_from_camera.has_value();
   if (frames.map_to_odom_is_ours && pose.is_placed)

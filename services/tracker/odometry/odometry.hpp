@@ -47,8 +47,13 @@ class Odometry {
   void begin_map() { joins_ = true; }
 
  private:
+  /// In odom, if the body has stayed where it was: the camera may have turned on it since the last frame.
+  [[nodiscard]] geometry::Pose camera_on_body_at_rest(const RobotFrames& frames) const;
+
   geometry::Pose map_from_odom_ = geometry::Pose::Identity();
   geometry::Pose odom_from_camera_ = geometry::Pose::Identity();  // of the last frame
+  std::string body_;                                               // likewise, …
+  geometry::Pose body_from_camera_ = geometry::Pose::Identity();   // … and where the camera was on it
   bool joins_ = false;
   std::string child_;
   TwistFilter speed_;

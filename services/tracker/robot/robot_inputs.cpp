@@ -147,16 +147,17 @@ std::optional<Eigen::Vector3d> RobotInputs::up_in_camera(std::int64_t stamp_ns) 
 std::optional<Eigen::Quaterniond> RobotInputs::turn_of_camera(std::int64_t from_ns, std::int64_t to_ns) {
   const auto turn_of_imu = turn_rates_.turn(from_ns, to_ns);
   if (!turn_of_imu) return std::nullopt;
-  const auto camera_from_imu = look_up_(camera_frame_, imu_frame_, to_ns);
+  const auto mounted_before = look_up_(camera_frame_, imu_frame_, from_ns);
+  const auto mounted_after = look_up_(camera_frame_, imu_frame_, to_ns);
   set_fault(imu_fault_,
-            camera_from_imu
+            mounted_after
                 ? ""
                 : fmt::format("{} tells of a frame that no tf joins with the camera's: publish on tf_static "
                               "how the unit is mounted",
                               topics_.imu));
-  if (!camera_from_imu) return std::nullopt;
-  const Eigen::Quaterniond mounting(camera_from_imu->linear());
-  return mounting * *turn_of_imu * mounting.conjugate();
+  if (!mounted_before || !mounted_after) return std::nullopt;
+  return Eigen::Quaterniond(mounted_before->linear()) * *turn_of_imu *
+         Eigen::Quaterniond(mounted_after->linear()).conjugate();
 }
 
 void RobotInputs::set_fault(std::string& of, const std::string& fault) {

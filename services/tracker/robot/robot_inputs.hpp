@@ -47,7 +47,8 @@ class RobotInputs {
   [[nodiscard]] std::optional<OdometryPose> odometry_at(std::int64_t stamp_ns);
   /// Which way is up in the camera's frame, as long as the robot's IMU stands still.
   [[nodiscard]] std::optional<Eigen::Vector3d> up_in_camera(std::int64_t stamp_ns) const;
-  /// The camera's turn between two times, earlier_from_later, by the robot's gyroscope.
+  /// The camera's turn between two times, earlier_from_later, by the robot's gyroscope
+  /// and by how the camera has turned on the robot meanwhile.
   [[nodiscard]] std::optional<Eigen::Quaterniond> turn_of_camera(std::int64_t from_ns, std::int64_t to_ns);
   /// Where somebody has said since the last call that the camera is.
   std::optional<SoughtPlace> take_sought_place();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <future>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <thread>
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/messages/conversions.hpp"
@@ -12,6 +14,7 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "tests/integration/camera/camera_driver.hpp"
+#include "tests/support/shared_data.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
 /// The tree of frames that a tracker makes with what others publish.
@@ -23,6 +26,8 @@ using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
 constexpr int kDomain = 143;
+constexpr std::int64_t kMastNs = 20'000'000;
+constexpr double kDeg = 180 / std::numbers::pi;
 const std::string kOptical = "camera_color_optical_frame";
 
 Pose base_from_link() {  // mounted 40 cm above the base, tilted by 20°
@@ -39,6 +44,12 @@ geometry_msgs::msg::TransformStamped transform(const std::string& parent, const 
   message.header(messages::make_header(stamp_ns, parent));
   message.child_frame_id(child);
   message.transform(messages::to_transform_message(pose));
+  return message;
+}
+
+tf2_msgs::msg::TFMessage tree_of(const geometry_msgs::msg::TransformStamped& transform) {
+  tf2_msgs::msg::TFMessage message;
+  message.transforms().push_back(transform);
   return message;
 }
 
@@ -65,6 +76,7 @@ class Frames : public ::testing::TestWithParam<bus::Vendor> {
         bus.subscribe<nav_msgs::msg::Odometry>("rds/odometry", bus::kStream, [this](const auto& m) {
           const std::lock_guard lock(mutex_);
           odometry_ = *m;
+          told_.push_back(messages::to_pose(m->pose().pose()).value());
         }));
   }
   void publish_robot() {
@@ -73,6 +85,12 @@ class Frames : public ::testing::TestWithParam<bus::Vendor> {
     tree.transforms().push_back(transform("camera_link", kOptical, link_from_optical()));
     static_.write(tree);
     std::this_thread::sleep_for(500ms);  // the tracker has read it before the first frame
+  }
+  /// The child's poses of all odometry.
+  std::vector<Pose> told() {
+    std::this_thread::sleep_for(100ms);
+    const std::lock_guard lock(mutex_);
+    return told_;
   }
   Tree seen() {
     const std::lock_guard lock(mutex_);
@@ -91,6 +109,7 @@ class Frames : public ::testing::TestWithParam<bus::Vendor> {
   Tree seen_;
   Pose map_from_odom_ = Pose::Identity();
   nav_msgs::msg::Odometry odometry_;
+  std::vector<Pose> told_;
   std::vector<bus::Subscription> subscriptions_;
 };
 
@@ -113,6 +132,42 @@ TEST_P(Frames, OfARobotWithItsOwnTreeHangTheBaseBelowOdom) {
   }
 }
 
+/// A mast turns and moves the camera as the recording's has moved, and tf tells of it 50 times a second, each
+/// time before the picture of a later time: the base stands.
+TEST_P(Frames, OfACameraThatMovesOnItsRobotLeaveTheBaseInItsPlace) {
+  start({});
+  static_.write(tree_of(transform("camera_link", kOptical, link_from_optical())));
+  const auto truth = TrackerWithDriver::truth();
+  const auto& frames = TrackerWithDriver::frames();
+  const auto base_from_camera = [&, first = geometry::interpolate(truth, frames[0].stamp_ns)](auto stamp_ns) {
+    return base_from_link() * link_from_optical() * first.inverse() * geometry::interpolate(truth, stamp_ns);
+  };
+  double moved_rad = 0;
+  for (std::int64_t i = 0, ns = frames[0].stamp_ns - kMastNs; i < std::ssize(frames); ++i) {
+    const auto& frame = frames[static_cast<std::size_t>(i)];
+    for (; ns < frame.stamp_ns; ns += kMastNs)
+      wheels_.write(tree_of(transform("base_link", "camera_link",
+                                      base_from_camera(ns) * link_from_optical().inverse(), ns)));
+    std::this_thread::sleep_for(i == 0 ? 500ms : 10ms);  // as long as a camera takes; the tracker has read it
+    driver_->track(static_cast<std::size_t>(i));
+    const Pose moved = base_from_camera(frame.stamp_ns) * base_from_camera(frames[0].stamp_ns).inverse();
+    moved_rad = std::max(moved_rad, geometry::rotation_angle_rad(moved.linear()));
+  }
+  const std::vector<Pose> bases = told();
+  ASSERT_GE(bases.size(), frames.size());
+  double off_m = 0, off_rad = 0;
+  for (const Pose& base : bases) {
+    off_m = std::max(off_m, (base.translation() - bases[0].translation()).norm());
+    off_rad = std::max(off_rad, geometry::rotation_angle_rad(bases[0].linear().transpose() * base.linear()));
+  }
+  fmt::print("the camera has turned by {:.1f} deg, the base by {:.2f} deg and {:.1f} mm\n", moved_rad * kDeg,
+             off_rad * kDeg, 1e3 * off_m);
+  const TestRecording recording = recording_of_a_room();
+  EXPECT_GT(moved_rad * kDeg, recording.bound(5, 1));
+  EXPECT_LT(off_m, recording.bound(0.03, 0.02));
+  EXPECT_LT(off_rad * kDeg, recording.bound(3, 1)) << "the recorded truth is itself wrong by 2 degrees";
+}
+
 /// What does not depend on the vendor.
 class FramesBesideFastDds : public Frames {};
 
@@ -126,10 +181,8 @@ TEST_P(FramesBesideFastDds, LeaveOdomToWheelOdometry) {
   start({});
   publish_robot();
   const Pose odom_from_base = geometry::make_pose({3, 1, 0}, Eigen::Quaterniond::Identity());
-  tf2_msgs::msg::TFMessage wheels;
-  wheels.transforms().push_back(
-      transform("odom", "base_link", odom_from_base, TrackerWithDriver::frames()[0].stamp_ns));
-  wheels_.write(wheels);
+  wheels_.write(
+      tree_of(transform("odom", "base_link", odom_from_base, TrackerWithDriver::frames()[0].stamp_ns)));
   std::this_thread::sleep_for(300ms);
   track();
   EXPECT_THAT(seen(), UnorderedElementsAre(Pair("map", "odom")));

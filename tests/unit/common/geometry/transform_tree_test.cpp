@@ -38,6 +38,15 @@ TEST(TransformTree, InterpolatesInTime) {
   EXPECT_TRUE(tree.lookup("odom", "base", 0)->isApprox(at(0, 0, 0), 1e-12));
 }
 
+/// A picture may be tracked before the transform of its time has come.
+TEST(TransformTree, GoesOnForOneIntervalWhereTransformsComeSteadily) {
+  TransformTree tree;
+  tree.set("mast", "camera", 1 * kS, at(0, 0, 0, 0.1));
+  tree.set("mast", "camera", 1 * kS + 20 * kS / 1000, at(0, 0, 0, 0.12));
+  EXPECT_TRUE(tree.lookup("mast", "camera", 1 * kS + 30 * kS / 1000)->isApprox(at(0, 0, 0, 0.13), 1e-12));
+  EXPECT_TRUE(tree.lookup("mast", "camera", 2 * kS)->isApprox(at(0, 0, 0, 0.14), 1e-12)) << "not for ever";
+}
+
 TEST(TransformTree, ForgetsWhatIsNotRepeatedUnlessItIsStatic) {
   TransformTree tree;
   tree.set("odom", "base", 1 * kS, at(1, 0, 0));

@@ -99,6 +99,20 @@ TEST(Odometry, OdomIsContinuousOverALoopAndARelocalisation) {
   EXPECT_TRUE(next_map.odom_from_body->isApprox(*after_loop.odom_from_body, 1e-9));
 }
 
+TEST(Odometry, ARobotStaysWhereItWasUnderACameraThatTurnedOnItWhileItWasLost) {
+  const auto pan = [](double rad) {
+    geometry::TransformTree tree;
+    tree.set("base_link", "optical", 0, at(0.2, 0, 0.5, rad));
+    return frames_of(tree);
+  };
+  Odometry odometry;
+  const OdometryStep before = odometry.step(pose(0, at(1, 0, 0)), pan(0));
+  const OdometryStep found = odometry.step(pose(3000, at(5, 0, 0, 0.8), false), pan(0.8));
+  EXPECT_TRUE(found.odom_from_body->isApprox(*before.odom_from_body, 1e-9));
+  EXPECT_TRUE((*found.map_from_odom * *found.odom_from_body * pan(0.8).body_from_camera)
+                  .isApprox(at(5, 0, 0, 0.8), 1e-9));
+}
+
 TEST(Odometry, GoesOnInASubmapThatHasNoPlaceInTheMap) {
   const RobotFrames frames = frames_of(robot_with_a_camera());
   Odometry odometry;

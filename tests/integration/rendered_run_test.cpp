@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "common/geometry/trajectory.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/disturbed_dataset.hpp"
+#include "tests/support/grid/grid_walls.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -61,6 +63,9 @@ TEST_P(RenderedRun, KeepsPeopleOutOfPoseAndMap) {
   EXPECT_LE(map_tilt_deg(dataset, place / "out"), 1.5);
   EXPECT_GE(figures["static_recall"].get<double>(), expected.min_static_recall);
   EXPECT_GE(figures["map_precision"].get<double>(), 0.97);
+  const double walls = walls_over_occupied(rendered_recording(expected.name + "_empty"), place / "out");
+  fmt::print("{}: {:.3f} of the walls' points over occupied cells\n", expected.name, walls);
+  EXPECT_GE(walls, 0.97);
 }
 
 INSTANTIATE_TEST_SUITE_P(Path, RenderedRun,

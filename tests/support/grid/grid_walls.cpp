@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/grid/grid_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "common/geometry/trajectory.hpp"
+#include "common/image/tum_dataset.hpp"
+
+namespace rds::test {
+namespace {
+
+constexpr int kStep = 6;  // px between neighbours that a normal is made of
+constexpr double kMaxDepthM = 3.5;
+constexpr double kMaxEdgeM = 0.1;  // between such neighbours
+constexpr double kMaxUp = 0.17;     // of a wall's normal: 10 degrees
+constexpr double kMaxHeightM = 0.4;  // above and below the first camera: within the grid's band of heights
+
+/// As map_server reads it.
+class Grid {
+ public:
+  explicit Grid(const std::filesystem::path& folder) {
+    const YAML::Node about = YAML::LoadFile(folder / "grid.yaml");
+    resolution_m_ = about["resolution"].as<double>();
+    origin_ = {about["origin"][0].as<double>(), about["origin"][1].as<double>()};
+    std::ifstream file(folder / "grid.pgm", std::ios::binary);
+    std::string line;
+    std::getline(file, line);  // P5
+    std::getline(file, line);  // a comment
+    int most = 0;
+    file >> width_ >> height_ >> most;
+    file.get();
+    cells_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    if (!file.read(cells_.data(), std::ssize(cells_))) throw std::runtime_error("grid.pgm is no whole picture");
+  }
+  [[nodiscard]] bool is_occupied(const Eigen::Vector3d& point) const {
+    const int x = static_cast<int>(std::floor((point.x() - origin_.x()) / resolution_m_));
+    const int y = height_ - 1 - static_cast<int>(std::floor((point.y() - origin_.y()) / resolution_m_));
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) return false;
+    return cells_[static_cast<std::size_t>(y * width_ + x)] == 0;
+  }
+
+ private:
+  double resolution_m_ = 0;
+  Eigen::Vector2d origin_;
+  int width_ = 0, height_ = 0;
+  std::vector<char> cells_;  // 0: occupied
+};
+
+/// Point and normal at a pixel, in the camera's frame; nullopt at edges and where nothing is measured.
+std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> surface_at(const image::DepthImage& depth,
+                                                                      const geometry::CameraModel& camera,
+                                                                      int x, int y) {
+  const double here_m = depth.at(x, y);
+  const auto point = [&](int column, int row) {
+    const double z = depth.at(column, row);
+    const bool is_near = z > 0 && std::abs(z - here_m) < kMaxEdgeM;
+    return Eigen::Vector3d((is_near ? z : std::nan("")) * camera.ray({column, row}));
+  };
+  if (here_m <= 0 || here_m > kMaxDepthM) return std::nullopt;
+  const Eigen::Vector3d normal = (point(x + kStep, y) - point(x - kStep, y))
+                                     .cross(point(x, y + kStep) - point(x, y - kStep))
+                                     .normalized();
+  if (!normal.allFinite()) return std::nullopt;
+  return std::pair{point(x, y), normal};
+}
+
+}  // namespace
+
+double walls_over_occupied(const std::filesystem::path& dataset, const std::filesystem::path& out) {
+  const auto recording = image::TumDataset::open(dataset).value();
+  const Grid grid(out);
+  int all = 0, over = 0;
+  const auto keyframes = geometry::read_trajectory(out / "keyframes.txt").value();
+  for (std::size_t i = 0; i < keyframes.size(); i += 3) {
+    const geometry::Pose& map_from_camera = keyframes[i].map_from_camera;
+    const auto frame =
+        std::ranges::lower_bound(recording.frames(), keyframes[i].stamp_ns, {}, &image::FrameRef::stamp_ns);
+    const auto depth = recording.load_depth(frame->depth.value()).value();
+    for (int y = kStep; y < depth.values.rows - kStep; y += kStep)
+      for (int x = kStep; x < depth.values.cols - kStep; x += kStep) {
+        const auto surface = surface_at(depth, recording.camera(), x, y);
+        if (!surface || std::abs((map_from_camera.linear() * surface->second).z()) > kMaxUp) continue;
+        const Eigen::Vector3d point = map_from_camera * surface->first;
+        if (std::abs(point.z()) > kMaxHeightM) continue;
+        ++all;
+        over += grid.is_occupied(point) ? 1 : 0;
+      }
+  }
+  return static_cast<double>(over) / all;
+}
+
+}  // namespace rds::test

@@ -203,7 +203,8 @@ TEST_P(SecuredBus, ARunGivesTheSameBytesAsOnAnOpenBus) {
   make_excerpt(shared() / "data/7scenes_kitchen", place_ / "kitchen", 60);
   const auto stamps = geometry::read_trajectory(place_ / "kitchen/groundtruth.txt").value();
   std::string imu;
-  for (const auto& pose : stamps) imu += fmt::format("{:.6f} 0 -9.81 0 0 0 0\n", 1e-9 * static_cast<double>(pose.stamp_ns));
+  for (const auto& pose : stamps)
+    imu += fmt::format("{:.6f} 0 -9.81 0 0 0 0\n", 1e-9 * static_cast<double>(pose.stamp_ns));
   write_text(place_ / "kitchen/imu.txt", imu);
   for (const auto& [out, secure] : {std::pair<std::string, std::vector<std::string>>{"open", {}},
                                     {"secured_run", {"--secure", secured_}}}) {

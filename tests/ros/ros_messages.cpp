@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ros_messages FOLDER: FOLDER/TYPE is a message of rds_msgs as it came, FOLDER/TYPE.OTHER the same as somebody else
-// wrote it. Reads each with the C++ types that ROS 2's generators make, and says whether what these write then is
-// FOLDER/TYPE, byte for byte. Built by rds_msgs_package.py, which makes headers.inc, and messages.inc:
-// MESSAGE(TYPE) for each type.
+// ros_messages FOLDER: FOLDER/TYPE is a message of rds_msgs as it came, FOLDER/TYPE.OTHER the same as
+// somebody else wrote it. Reads each with the C++ types that ROS 2's generators make, and says whether what these
+// write then is FOLDER/TYPE, byte for byte. Built by rds_msgs_package.py, which makes headers.inc, and
+// messages.inc: MESSAGE(TYPE) for each type.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -65,7 +65,8 @@ bool is_same(const std::string& type, const std::filesystem::path& file) {
 }  // namespace
 
 int main(int, char** arguments) {
-  for (const auto& entry : std::filesystem::directory_iterator(arguments[1]))
-    std::cout << entry.path().filename().string() << ' ' << is_same(entry.path().stem().string(), entry.path())
-              << '\n';
+  for (const auto& entry : std::filesystem::directory_iterator(arguments[1])) {
+    const std::filesystem::path& file = entry.path();
+    std::cout << file.filename().string() << ' ' << is_same(file.stem().string(), file) << '\n';
+  }
 }

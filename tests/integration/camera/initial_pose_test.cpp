@@ -29,14 +29,16 @@ class InitialPose : public testing::Test {
     return driver_.publish_until([&] { return driver_.log().find(words) != std::string::npos; });
   }
 
-  TrackerWithDriver driver_{bus::Vendor::kFastDds, test_domain(), {}, "{inputs: {initial_pose: initialpose}}"};
+  TrackerWithDriver driver_{
+      bus::Vendor::kFastDds, test_domain(), {}, "{inputs: {initial_pose: initialpose}}"};
   bus::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped> told_;
 };
 
 TEST_F(InitialPose, IsNotUsedByACameraThatIsNotLost) {
   ASSERT_TRUE(driver_.publish_until([&] { return driver_.tracked() >= 5; })) << driver_.log();
   tell("map");
-  EXPECT_TRUE(is_said("an initial pose at (1.00, 2.00) is not used: the camera is not lost")) << driver_.log();
+  EXPECT_TRUE(is_said("an initial pose at (1.00, 2.00) is not used: the camera is not lost"))
+      << driver_.log();
 }
 
 TEST_F(InitialPose, InAnotherFrameIsRefused) {

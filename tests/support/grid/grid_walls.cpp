@@ -39,7 +39,8 @@ class Grid {
     file >> width_ >> height_ >> most;
     file.get();
     cells_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    if (!file.read(cells_.data(), std::ssize(cells_))) throw std::runtime_error("grid.pgm is no whole picture");
+    if (!file.read(cells_.data(), std::ssize(cells_)))
+      throw std::runtime_error("grid.pgm is no whole picture");
   }
   [[nodiscard]] bool is_occupied(const Eigen::Vector3d& point) const {
     const int x = static_cast<int>(std::floor((point.x() - origin_.x()) / resolution_m_));

@@ -27,7 +27,8 @@ float depth_of(const MovableRegion& box, const cv::Mat1f& depth_m) {
 
 /// Log-odds by the box of the cells in it: the farther from the object in depth, the less likely a cell is a
 /// part of it. Where a cell has more already, that stays.
-void add_box(const cv::Mat1f& depth_m, float object_m, float sigma_m, const EvidenceModel& model, cv::Mat1f log_odds) {
+void add_box(const cv::Mat1f& depth_m, float object_m, float sigma_m, const EvidenceModel& model,
+             cv::Mat1f log_odds) {
   for (int r = 0; r < depth_m.rows; ++r) {
     const auto z = row_of(depth_m, r);
     const Eigen::ArrayXf near = (-0.5F * ((z - object_m) / sigma_m).square()).exp();

@@ -11,7 +11,8 @@ void interpret(KeyframeRecord& record, std::optional<std::span<const LabelledBox
                const MapperConfig& config, LabelTable& labels) {
   // Segment: what is movable, by boxes, depth and colour.
   classify_by_depth(record, config.sampling);
-  const DynamicMasks masks = boxes ? segment_dynamic(record, *boxes, config.sampling.depth_noise) : DynamicMasks{};
+  const geometry::DepthNoise& noise = config.sampling.depth_noise;
+  const DynamicMasks masks = boxes ? segment_dynamic(record, *boxes, noise) : DynamicMasks{};
 
   // Classify: every pixel is static, doubtful, unknown, dynamic or no evidence.
   classify(record, masks, config);

@@ -22,7 +22,7 @@ using Clock = service::Peers::Clock;
 struct StatusOptions {
   BusOptions bus;
   std::vector<std::string> services;
-  double wait_s = 5;  // who missed the first announcements of a new participant hears the next after 3 s (Fast DDS)
+  double wait_s = 5;  // who has missed a participant's first announcements hears the next after 3 s
   bool json = false;
 };
 

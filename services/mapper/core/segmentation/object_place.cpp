@@ -8,10 +8,10 @@ namespace rds::mapper {
 namespace {
 
 constexpr double kInnerShare = 0.6;     // part of the box, about its centre, in which the object surely lies
-constexpr float kPersonM = 0.35F;        // a person's surface lies so near to his depth
-constexpr float kThingM = 0.5F;          // how far a small static object reaches behind its depth
-constexpr float kBeforeM = 0.14F;        // and before it, where its depth is looked for: things stand before tables
-constexpr float kSigmaPerSide = 0.4F;    // standard deviation of a static object's depths, by its larger side
+constexpr float kPersonM = 0.35F;       // a person's surface lies so near to his depth
+constexpr float kThingM = 0.5F;         // how far a small static object reaches behind its depth
+constexpr float kBeforeM = 0.14F;       // and before it, for its depth: things stand before tables
+constexpr float kSigmaPerSide = 0.4F;   // standard deviation of a static object's depths, by its larger side
 constexpr float kLeastSigmaM = 0.15F;
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 
@@ -92,7 +92,8 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
 }
 
-std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& record, const LabelledBox& box) {
+std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& record,
+                                                        const LabelledBox& box) {
   const auto px = image_box(box, record);
   if (!px) return std::nullopt;
   const auto limits = depth_limits(box, record);
@@ -101,7 +102,8 @@ std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& re
   const bool has_extent = box.box_in_map && !(box.depth_m > 0);
   if (box.movable && has_extent) return segmentation::MovableRegion{*px, limits.min_m, limits.max_m};
   if (box.movable) return segmentation::MovableRegion{*px, depth - kPersonM, depth + kPersonM};
-  const float side_m = static_cast<float>(std::max(px->width(), px->height()) / record.grid.camera.fx) * depth;
+  const double side_px = std::max(px->width(), px->height());
+  const float side_m = static_cast<float>(side_px / record.grid.camera.fx) * depth;
   const float sigma_m = std::max(kLeastSigmaM, kSigmaPerSide * side_m);
   if (has_extent) return segmentation::MovableRegion{*px, limits.min_m, limits.max_m, sigma_m};
   return segmentation::MovableRegion{*px, depth - kBeforeM, depth + std::max(kThingM, side_m / 2), sigma_m};

@@ -36,7 +36,7 @@ TEST(BoxEvidence, OutsideBoxesCellsAreUnseen) {
 TEST(BoxEvidence, InABoxItFallsWithTheDistanceFromTheObject) {
   cv::Mat1f depth_m = object_at(1.9F);
   const cv::Point corner = cells_of(kBox.box_px, small_grid()).tl();
-  depth_m(corner) = 1.9F + kModel.object_sigma_m;
+  depth_m(corner) = 1.9F + kBox.sigma_m;
   depth_m(corner + cv::Point(1, 0)) = 3;
   const cv::Mat1f found = by(depth_m, {kBox});
   EXPECT_FLOAT_EQ(found(corner + cv::Point(5, 5)), kFilled) << "at the object's own depth, not its limits'";

@@ -5,6 +5,7 @@
 
 #include <ceres/ceres.h>
 
+#include "services/tracker/core/adjustment/bundle_solver.hpp"
 #include "services/tracker/core/mapping/mapping_scene.hpp"
 #include "services/tracker/core/motion/se3.hpp"
 #include "services/tracker/core/pose/observation_model.hpp"
@@ -102,51 +103,24 @@ class StopCallback final : public ceres::IterationCallback {
 /// The same bits every time: one thread, no threaded BLAS, no time limit.
 ceres::Solver::Options solver_options(const BundleOptions& bundle) {
   ceres::Solver::Options options;
-  options.linear_solver_type = bundle.is_sparse ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
-  if (bundle.is_sparse) options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = bundle.iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;
 }
 
-class Bundle {
+class Adjuster {
  public:
-  explicit Bundle(MappingScene& scene) : scene_(scene) {
+  explicit Adjuster(MappingScene& scene) : scene_(scene) {
     for (const MappingKeyframe& k : scene.job().keyframes) {
       poses_.push_back(to_block(k.map_from_camera.inverse()));
       models_.emplace_back(known_camera(k, scene.job()));
     }
   }
 
-  void optimize(const BundleOptions& bundle, bool robust) {
-    ceres::Problem::Options ownership;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(ownership);
-    auto* ordering = new ceres::ParameterBlockOrdering;
-    for (auto& point : scene_.points()) {
-      if (!is_adjusted(point)) continue;
-      for (const auto& o : point.observations) {
-        const Measurement m = measurement(o);
-        ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
-        problem.AddResidualBlock(new ReprojectionCost(cost(o)), loss, poses_[o.keyframe].data(),
-                                 point.position.data());
-      }
-      ordering->AddElementToGroup(point.position.data(), 0);
-    }
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
-      if (!problem.HasParameterBlock(poses_[k].data())) continue;
-      problem.SetManifold(poses_[k].data(), &manifold_);
-      if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
-      ordering->AddElementToGroup(poses_[k].data(), 1);
-    }
-    ceres::Solver::Options options = solver_options(bundle);
-    options.linear_solver_ordering.reset(ordering);
-    StopCallback stop(bundle.stop);
-    options.callbacks.push_back(&stop);
-    ceres::Solver::Summary summary;
-    if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
+  void optimize(const BundleOptions& options, bool robust) {
+    options.is_sparse ? optimize_sparse(options, robust) : optimize_dense(options, robust);
   }
 
   /// Removes observations of points that lie behind their camera: the solver could not even begin.
@@ -197,6 +171,54 @@ class Bundle {
     return point.alive && point.observations.size() >= 2;
   }
 
+  void optimize_dense(const BundleOptions& bundle, bool robust) {
+    ceres::Problem::Options ownership;
+    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ownership);
+    auto* ordering = new ceres::ParameterBlockOrdering;
+    for (auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      for (const auto& o : point.observations) {
+        const Measurement m = measurement(o);
+        ceres::LossFunction* loss = !robust ? nullptr : m.disparity_weight > 0 ? &huber_3d_ : &huber_2d_;
+        problem.AddResidualBlock(new ReprojectionCost(cost(o)), loss, poses_[o.keyframe].data(),
+                                 point.position.data());
+      }
+      ordering->AddElementToGroup(point.position.data(), 0);
+    }
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      if (!problem.HasParameterBlock(poses_[k].data())) continue;
+      problem.SetManifold(poses_[k].data(), &manifold_);
+      if (scene_.job().keyframes[k].fixed) problem.SetParameterBlockConstant(poses_[k].data());
+      ordering->AddElementToGroup(poses_[k].data(), 1);
+    }
+    ceres::Solver::Options options = solver_options(bundle);
+    options.linear_solver_ordering.reset(ordering);
+    StopCallback stop(bundle.stop);
+    options.callbacks.push_back(&stop);
+    ceres::Solver::Summary summary;
+    if (problem.NumResidualBlocks() > 0) ceres::Solve(options, &problem, &summary);
+  }
+
+  void optimize_sparse(const BundleOptions& options, bool robust) {
+    Bundle bundle;
+    const auto& keyframes = scene_.job().keyframes;
+    for (std::size_t k = 0; k < poses_.size(); ++k)
+      bundle.cameras.push_back({to_pose(poses_[k].data()), models_[k], keyframes[k].fixed});
+    for (const auto& point : scene_.points()) {
+      if (!is_adjusted(point)) continue;
+      BundlePoint& adjusted = bundle.points.emplace_back(BundlePoint{point.position, {}});
+      for (const auto& o : point.observations)
+        adjusted.observations.push_back({o.keyframe, measurement(o), shift(o)});
+    }
+    solve_bundle(bundle, {options.iterations, robust, options.stop});
+    for (std::size_t k = 0; k < poses_.size(); ++k) poses_[k] = to_block(bundle.cameras[k].camera_from_map);
+    auto adjusted = bundle.points.begin();
+    for (auto& point : scene_.points())
+      if (is_adjusted(point)) point.position = (adjusted++)->position;
+  }
+
   /// Removes the observations that are not good.
   template <class Good>
   void keep(LocalMappingResult& result, const Good& good) {
@@ -237,9 +259,13 @@ class Bundle {
   }
 
   /// What a feature was compensated for is made good with the readout time that is known by now.
-  [[nodiscard]] ReprojectionCost cost(const MappingScene::SceneObservation& o) const {
+  [[nodiscard]] Eigen::Vector3d shift(const MappingScene::SceneObservation& o) const {
     const double late = scene_.job().readout_s - scene_.job().keyframes[o.keyframe].motion.readout_s;
-    return {models_[o.keyframe], measurement(o), late * by_readout(o)};
+    return late * by_readout(o);
+  }
+
+  [[nodiscard]] ReprojectionCost cost(const MappingScene::SceneObservation& o) const {
+    return {models_[o.keyframe], measurement(o), shift(o)};
   }
 
   [[nodiscard]] ObservationDerivatives derivatives(const MappingScene::SceneObservation& o,
@@ -271,7 +297,7 @@ class Bundle {
 }  // namespace
 
 ImagingEstimate adjust_bundle(MappingScene& scene, const BundleOptions& options, LocalMappingResult& result) {
-  Bundle bundle(scene);
+  Adjuster bundle(scene);
   bundle.remove_impossible(result);
   bundle.optimize(options, true);
   if (options.stop.stop_requested()) return {};

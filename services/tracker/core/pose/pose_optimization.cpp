@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "services/tracker/core/motion/se3.hpp"
+#include "services/tracker/core/pose/robust_loss.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -26,19 +27,6 @@ struct NormalEquations {
   Twist gradient = Twist::Zero();
   double cost = 0;
 };
-
-/// Huber's weight and cost for a squared residual.
-struct Loss {
-  double weight;
-  double cost;
-};
-
-Loss loss(double squared, double bound, bool robust) {
-  if (!robust || squared <= bound) return {1, squared};
-  const double norm = std::sqrt(squared);
-  const double delta = std::sqrt(bound);
-  return {delta / norm, 2 * delta * norm - bound};
-}
 
 class PoseProblem {
  public:
@@ -60,7 +48,7 @@ class PoseProblem {
       Eigen::Matrix<double, 3, 6> j;
       j.leftCols<3>() = model_.jacobian(p, m);
       j.rightCols<3>() = -j.leftCols<3>() * skew(p);  // d(exp(ξ) p) / dω = −[p]×
-      Loss l = loss(r.squaredNorm(), bound, robust);
+      RobustLoss l = robust_loss(r.squaredNorm(), bound, robust);
       l.weight *= observations_[i].weight;
       l.cost *= observations_[i].weight;
       sum.hessian.noalias() += l.weight * j.transpose() * j;

@@ -139,14 +139,15 @@ PoseEstimate Localizer::match(const TrackingContext& context, State before,
     if (!can_begin_map(frame)) return found;
     begin_map(context, found);
   } else {
-    found.state = estimate(context, before, keyframes, frame);
+    found.state = estimate(context, before, keyframes, found);
   }
   return found;
 }
 
 /// By the last frame and the keyframes; where that does not do by depth, by relocalisation.
 State Localizer::estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
-                          TrackedFrame& frame) {
+                          PoseEstimate& found) {
+  TrackedFrame& frame = found.frame;
   const bool was_lost = before == State::kLost;
   const int inliers = features_.track(context, frame);
   const bool jumped = context.motion.is_jump(frame.camera_from_map);
@@ -162,6 +163,8 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
   const double weak_s = static_cast<double>(frame.time_ns - weak_since_ns_) / kNsPerSecond;
   const bool weak_is_right = !was_lost && !by_depth && weak_s <= kWeakS && !jumped;
   if (weak_is_right && inliers >= kMinInliersWeak) return State::kWeak;
+  if (follow_expected(context, by_depth.value_or(context.motion.camera_from_map()), found))
+    return was_lost ? State::kRelocalised : State::kTracking;
   if (relocalize(context, frame)) return State::kRelocalised;
   if (!by_depth) return State::kLost;
   frame.camera_from_map = *by_depth;
@@ -186,6 +189,24 @@ bool Localizer::find_carried(const TrackingContext& context, const KeyframeSelec
   frame = std::move(found);
   features_.refine(context, frame, FeatureTracker::kUsualWindow);
   return frame.static_matches() >= Relocalizer::kMinInliers;
+}
+
+/// Follows the points of the map from where the camera should be by now. Where a pattern repeats, features are
+/// mistaken for each other, and patches that are looked for in their place are not.
+bool Localizer::follow_expected(const TrackingContext& context, const Pose& expected, PoseEstimate& lost) {
+  if (!follows_points_ || context.motion.gap_s() > kByDepthS) return false;
+  TrackingContext around = context;
+  around.local = features_.local_map_around(context);
+  if (around.local.reference == kNoId) return false;
+  auto followed = follower_.follow(around, expected);
+  if (!followed) return false;
+  follower_.count_found(context.map, followed->expected, followed->frame);
+  if (!sees_enough(followed->frame)) return false;
+  features_.set_reference(around.local.reference);
+  lost.extracted = lost.frame.features;
+  lost.frame = std::move(followed->frame);
+  lost.is_followed = true;
+  return true;
 }
 
 bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {

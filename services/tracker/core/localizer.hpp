@@ -75,7 +75,8 @@ class Localizer {
   void begin_map(const TrackingContext& context, PoseEstimate& first) const;
   PoseEstimate match(const TrackingContext& context, State before, const KeyframeSelector& keyframes);
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
-                 TrackedFrame& frame);
+                 PoseEstimate& found);
+  bool follow_expected(const TrackingContext& context, const Pose& expected, PoseEstimate& lost);
   bool relocalize(const TrackingContext& context, TrackedFrame& frame);
   bool find_carried(const TrackingContext& context, const KeyframeSelector& keyframes, TrackedFrame& frame);
   bool find_near(const TrackingContext& context, const Pose& by_depth, const KeyframeSelector& keyframes,

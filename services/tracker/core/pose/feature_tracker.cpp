@@ -110,6 +110,18 @@ LocalMap FeatureTracker::local_map_of_last(const TrackingContext& context) {
   return all;
 }
 
+LocalMap FeatureTracker::local_map_around(const TrackingContext& context) const {
+  const Keyframe* reference = std::as_const(context.map).keyframe(reference_);
+  if (reference == nullptr) return {};
+  std::vector<PointId> seen = reference->points;
+  for (const CovisibleKeyframe& c : reference->covisible)
+    std::ranges::copy(std::as_const(context.map).keyframe(c.id)->points, std::back_inserter(seen));
+  std::erase(seen, kNoId);
+  std::ranges::sort(seen);
+  seen.erase(std::ranges::unique(seen).begin(), seen.end());
+  return {{}, std::move(seen), reference_};
+}
+
 void FeatureTracker::replace_points(const std::map<PointId, PointId>& replaced) {
   if (!last_) return;
   for (PointId& point : last_->frame.points)

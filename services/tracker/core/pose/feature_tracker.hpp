@@ -35,6 +35,8 @@ class FeatureTracker {
   void associate(const TrackingContext& context, TrackedFrame& frame);
   /// The last frame's points that are still there, and those of the map around them.
   LocalMap local_map_of_last(const TrackingContext& context);
+  /// The points of the reference keyframe and of all that share points with it.
+  [[nodiscard]] LocalMap local_map_around(const TrackingContext& context) const;
 
   /// The keyframe that shares most map points with the camera's view; kNoId before the first.
   [[nodiscard]] KeyframeId reference() const { return reference_; }

@@ -27,9 +27,12 @@ class PointFollower {
   [[nodiscard]] Pose align(const TrackingContext& context, const LastFrame& last) const;
   /// The search for the local map's points around where this pose projects them.
   [[nodiscard]] PointSearch search(const TrackingContext& context, const Pose& camera_from_map) const;
-  /// The better supported of the poses around the guess and, if that has too large an innovation, around the
-  /// alignment. @return nullopt where too few points agree.
+  /// The pose around the guess; if that is not convincing, the better supported of it and the one around the
+  /// other guess: the alignment where there is one, else the prediction. @return nullopt where too few points
+  /// agree.
   std::optional<FollowedFrame> estimate(TrackingContext& context) const;
+  /// The pose around another guess. @return nullopt where too few points agree.
+  [[nodiscard]] std::optional<FollowedFrame> follow(const TrackingContext& context, const Pose& guess) const;
   /// Counts what was expected and found in the map's points, and the share found in the frame.
   void count_found(SlamMap& map, const std::vector<PointId>& expected, TrackedFrame& frame);
   /// True if that support cannot come from something that moves.
@@ -39,6 +42,7 @@ class PointFollower {
  private:
   [[nodiscard]] std::optional<FollowedFrame> follow(const TrackingContext& context, PointSearch& search,
                                                     const Pose& guess) const;
+  [[nodiscard]] bool is_convincing(const TrackingContext& context, const FollowedFrame& followed) const;
 
   int points_;
   Executor executor_;

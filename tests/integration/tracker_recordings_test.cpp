@@ -93,7 +93,8 @@ TEST(TrackerRecordings, PeopleInARoomKnownWithEveryFrame) {
   EXPECT_LE(f.ate_final_m, room.bound(0.08, 0.010));
 }
 
-/// Two thirds of the features have no depth.
+/// Two thirds of the features have no depth. Points without depth keep the camera; where it is not lost without
+/// them either, they must not cost accuracy.
 TEST(TrackerRecordings, MostOfARoomBeyondTheSensorsRange) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const auto room = shared() / "data/7scenes_kitchen";
@@ -101,8 +102,8 @@ TEST(TrackerRecordings, MostOfARoomBeyondTheSensorsRange) {
   const Figures without = figures_within(room, 1.5, false);
   EXPECT_EQ(with.tracked, 1);
   EXPECT_GE(with.tracked, without.tracked);
-  EXPECT_LE(with.ate_live_m, 0.13);
-  EXPECT_LT(with.ate_live_m, without.ate_live_m);
+  EXPECT_LE(with.ate_live_m, 0.10);
+  EXPECT_LE(with.ate_live_m, 1.1 * without.ate_live_m);
 }
 
 TEST(TrackerRecordings, SameBytesTwice) {

@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t kEnoughToAlign = 40;  // points of the last frame
 constexpr int kMinFollowed = 50;            // points that must agree on a pose; else features are matched
 constexpr double kMinInlierShare = 0.5;     // of the points found, that must agree
-constexpr double kUsualShare = 0.65;        // of the usual share of expected points, at least
 constexpr int kSurePoints = 3;              // times kMinFollowed: support that no moving thing has
 
 }  // namespace
@@ -67,20 +66,12 @@ std::optional<FollowedFrame> PointFollower::follow(const TrackingContext& contex
 std::optional<FollowedFrame> PointFollower::estimate(TrackingContext& context) const {
   if (!context.search) return std::nullopt;
   auto best = follow(context, *context.search, *context.guess);
-  if (best && is_convincing(context, *best)) return best;
-  auto other = follow(context, context.alignment.value_or(context.motion.camera_from_map()));
-  const bool other_counts = other && (context.alignment || is_convincing(context, *other));
+  if (!context.alignment || (best && context.motion.innovation(best->frame.camera_from_map) <= 1))
+    return best;
+  auto other = follow(context, *context.alignment);
   const bool other_is_better =
-      other_counts && (!best || support(other->frame, context.motion) > support(best->frame, context.motion));
+      other && (!best || support(other->frame, context.motion) > support(best->frame, context.motion));
   return other_is_better ? std::move(other) : std::move(best);
-}
-
-/// Two guesses may be far apart, on the background and on something that moves; and where a pattern repeats
-/// the alignment may be one repetition beside: then fewer points than usual are found.
-bool PointFollower::is_convincing(const TrackingContext& context, const FollowedFrame& followed) const {
-  if (context.alignment) return context.motion.innovation(followed.frame.camera_from_map) <= 1;
-  const auto expected = static_cast<int>(followed.expected.size());
-  return found_share_.relative(expected, followed.frame.matches()) >= kUsualShare;
 }
 
 void PointFollower::count_found(SlamMap& map, const std::vector<PointId>& expected, TrackedFrame& frame) {

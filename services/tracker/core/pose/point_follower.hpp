@@ -27,9 +27,8 @@ class PointFollower {
   [[nodiscard]] Pose align(const TrackingContext& context, const LastFrame& last) const;
   /// The search for the local map's points around where this pose projects them.
   [[nodiscard]] PointSearch search(const TrackingContext& context, const Pose& camera_from_map) const;
-  /// The pose around the guess; if that is not convincing, the better supported of it and the one around the
-  /// other guess: the alignment where there is one, else the prediction. @return nullopt where too few points
-  /// agree.
+  /// The better supported of the poses around the guess and, if that has too large an innovation, around the
+  /// alignment. @return nullopt where too few points agree.
   std::optional<FollowedFrame> estimate(TrackingContext& context) const;
   /// The pose around another guess. @return nullopt where too few points agree.
   [[nodiscard]] std::optional<FollowedFrame> follow(const TrackingContext& context, const Pose& guess) const;
@@ -42,7 +41,6 @@ class PointFollower {
  private:
   [[nodiscard]] std::optional<FollowedFrame> follow(const TrackingContext& context, PointSearch& search,
                                                     const Pose& guess) const;
-  [[nodiscard]] bool is_convincing(const TrackingContext& context, const FollowedFrame& followed) const;
 
   int points_;
   Executor executor_;

@@ -14,7 +14,7 @@ namespace {
 
 /// Depth of an object: the median of what is measured in its box between its limits; their middle if nothing
 /// is.
-float depth_of(const MovableRegion& box, const cv::Mat1f& depth_m) {
+float depth_of(const ObjectRegion& box, const cv::Mat1f& depth_m) {
   std::vector<float> measured;
   for (int r = 0; r < depth_m.rows; ++r)
     std::copy_if(depth_m[r], depth_m[r] + depth_m.cols, std::back_inserter(measured),
@@ -49,9 +49,9 @@ cv::Rect cells_of(const geometry::Box2& box, const GridGeometry& grid) {
 }
 
 cv::Mat1f box_log_odds(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                       std::span<const MovableRegion> boxes, const EvidenceModel& model) {
+                       std::span<const ObjectRegion> boxes, const EvidenceModel& model) {
   cv::Mat1f result(grid.size(), log_odds_of(model.unseen));
-  for (const MovableRegion& box : boxes) {
+  for (const ObjectRegion& box : boxes) {
     const cv::Rect cells = cells_of(box.box_px, grid);
     add_box(depth_m(cells), depth_of(box, depth_m(cells)), box.sigma_m, model, result(cells));
   }

@@ -5,7 +5,7 @@
 
 #include "common/dynamic_segmentation/depth_grid.hpp"
 #include "common/dynamic_segmentation/evidence_model.hpp"
-#include "common/dynamic_segmentation/movable_region.hpp"
+#include "common/dynamic_segmentation/object_region.hpp"
 
 namespace rds::segmentation {
 
@@ -14,7 +14,7 @@ namespace rds::segmentation {
 /// boxes the one that says most counts.
 /// @param depth_m  of the cells; 0 where nothing was measured: there only the box is known.
 cv::Mat1f box_log_odds(const cv::Mat1f& depth_m, const GridGeometry& grid,
-                       std::span<const MovableRegion> boxes, const EvidenceModel& model);
+                       std::span<const ObjectRegion> boxes, const EvidenceModel& model);
 
 /// The cells of a box, inside the picture.
 cv::Rect cells_of(const geometry::Box2& box, const GridGeometry& grid);

@@ -14,7 +14,7 @@ namespace {
 cv::Mat1b unknown_cells(const GridGeometry& grid, const Evidence& evidence, const EvidenceModel& model) {
   cv::Mat1b unknown = evidence.motion.appeared.empty() ? cv::Mat1b(grid.size(), std::uint8_t{0})
                                                        : evidence.motion.appeared.clone();
-  for (const MovableRegion& box : evidence.boxes) unknown(cells_of(box.box_px, grid)).setTo(255);
+  for (const ObjectRegion& box : evidence.boxes) unknown(cells_of(box.box_px, grid)).setTo(255);
   if (!evidence.carried.empty()) unknown.setTo(255, evidence.carried > log_odds_of(model.unseen));
   return unknown;
 }

@@ -6,13 +6,13 @@
 #include "common/dynamic_segmentation/background.hpp"
 #include "common/dynamic_segmentation/evidence_model.hpp"
 #include "common/dynamic_segmentation/motion_evidence.hpp"
-#include "common/dynamic_segmentation/movable_region.hpp"
+#include "common/dynamic_segmentation/object_region.hpp"
 
 namespace rds::segmentation {
 
 /// What is known of a picture, besides its depth. All of the grid's size, or empty where nothing is known.
 struct Evidence {
-  std::span<const MovableRegion> boxes;
+  std::span<const ObjectRegion> boxes;
   MotionEvidence motion;
   cv::Mat1f carried;  // Segmentation::presence of earlier pictures, where the same surfaces show
 };

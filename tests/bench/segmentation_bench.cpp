@@ -41,7 +41,7 @@ struct Picture {
   PictureCells cells = {depth_in_cells(depth, grid, 10), cv::Mat1b(grid.size(), std::uint8_t{0}),
                         colours_in_cells(color, grid.size(), grid.cell_px())};
   std::vector<SeenCells> past{2, SeenCells(cells.depth_m, {}, grid, geometry::Pose::Identity())};
-  std::vector<MovableRegion> boxes{{{230, 110, 410, 450}, 1.5F, 2.5F}};
+  std::vector<ObjectRegion> boxes{{{230, 110, 410, 450}, 1.5F, 2.5F}};
 };
 
 void cells(benchmark::State& state) {

@@ -93,8 +93,14 @@ TEST(TrackerRecordings, PeopleInARoomKnownWithEveryFrame) {
   EXPECT_LE(f.ate_final_m, room.bound(0.08, 0.010));
 }
 
-/// Two thirds of the features have no depth. Points without depth keep the camera; where it is not lost without
-/// them either, they must not cost accuracy.
+/// On a floor the room behind a door is farther than this sensor measures.
+TEST(TrackerRecordings, PointsWithoutDepthLeadThroughDoors) {
+  const auto floor = rendered_recording("floor");
+  EXPECT_GE(figures_within(floor, 2.5, true).tracked, 0.95);
+  EXPECT_LE(figures_within(floor, 2.5, false).tracked, 0.5) << "it needs no points without depth";
+}
+
+/// Two thirds of the features have no depth.
 TEST(TrackerRecordings, MostOfARoomBeyondTheSensorsRange) {
   RDS_REQUIRE_SHARED("data/7scenes_kitchen");
   const auto room = shared() / "data/7scenes_kitchen";
@@ -103,7 +109,7 @@ TEST(TrackerRecordings, MostOfARoomBeyondTheSensorsRange) {
   EXPECT_EQ(with.tracked, 1);
   EXPECT_GE(with.tracked, without.tracked);
   EXPECT_LE(with.ate_live_m, 0.10);
-  EXPECT_LE(with.ate_live_m, 1.1 * without.ate_live_m);
+  EXPECT_LE(with.ate_live_m, 1.1 * without.ate_live_m) << "where the camera is not lost without, either";
 }
 
 TEST(TrackerRecordings, SameBytesTwice) {

@@ -18,15 +18,15 @@ namespace rds::test {
 namespace {
 
 using geometry::StampedPose;
-using segmentation::MovableRegion;
+using segmentation::ObjectRegion;
 
 /// Boxes of the people in people.json, by frame.
-std::vector<std::vector<segmentation::MovableRegion>> read_truth_boxes(const std::filesystem::path& dataset) {
+std::vector<std::vector<segmentation::ObjectRegion>> read_truth_boxes(const std::filesystem::path& dataset) {
   constexpr double kMargin = 8;       // px
   constexpr float kHalfDepth = 0.6F;  // m
   std::ifstream file(dataset / "people.json");
   if (!file) throw std::runtime_error((dataset / "people.json").string() + ": cannot be read");
-  std::vector<std::vector<segmentation::MovableRegion>> all;
+  std::vector<std::vector<segmentation::ObjectRegion>> all;
   const auto people = nlohmann::json::parse(file);
   for (const auto& frame : people.at("frames")) {
     auto& regions = all.emplace_back();
@@ -104,7 +104,7 @@ std::vector<std::vector<TrackerSequence::Detected>> TrackerSequence::read_detect
   return all;
 }
 
-std::vector<segmentation::MovableRegion> TrackerSequence::regions(std::size_t i,
+std::vector<segmentation::ObjectRegion> TrackerSequence::regions(std::size_t i,
                                                                   const image::RgbdFrame& frame) const {
   if (options_.truth_boxes) return boxes_.at(i);
   return objects_.regions(frame.stamp_ns, tracker_.expected_camera_from_map(frame.stamp_ns), frame.camera);
@@ -123,13 +123,13 @@ void TrackerSequence::apply_boxes(const DueBoxes& due) {
 }
 
 void TrackerSequence::draw_removal(const image::RgbdFrame& frame, std::size_t i,
-                                   const std::vector<segmentation::MovableRegion>& regions,
+                                   const std::vector<segmentation::ObjectRegion>& regions,
                                    const tracker::FrameResult& result) const {
   cv::Mat picture = frame.color.bgr().clone();
   for (int y = 0; y < picture.rows; ++y)
     for (int x = 0; x < picture.cols; ++x)
       if (result.movable.covers({x, y})) picture.at<cv::Vec3b>(y, x)[2] = 255;
-  for (const segmentation::MovableRegion& r : regions)
+  for (const segmentation::ObjectRegion& r : regions)
     cv::rectangle(picture, cv::Point2d(r.box_px.x0, r.box_px.y0), cv::Point2d(r.box_px.x1, r.box_px.y1),
                   {255, 0, 0}, 2);
   for (const auto& v : result.verdicts)

@@ -87,11 +87,11 @@ class TrackerSequence {
 
   void record(std::size_t i, const tracker::FrameResult& result);
   void draw_removal(const image::RgbdFrame& frame, std::size_t i,
-                    const std::vector<segmentation::MovableRegion>& regions,
+                    const std::vector<segmentation::ObjectRegion>& regions,
                     const tracker::FrameResult& result) const;
   void compare_removal(std::size_t i, const tracker::FrameResult& result);
   void apply_boxes(const DueBoxes& due);
-  [[nodiscard]] std::vector<segmentation::MovableRegion> regions(std::size_t i,
+  [[nodiscard]] std::vector<segmentation::ObjectRegion> regions(std::size_t i,
                                                             const image::RgbdFrame& frame) const;
   void apply_due(std::size_t i);
   void join_submaps();
@@ -101,7 +101,7 @@ class TrackerSequence {
   const image::TumDataset& dataset_;
   tracker::TrackerConfig config_;
   tracker::Tracker tracker_;
-  std::vector<std::vector<segmentation::MovableRegion>> boxes_;  // by frame
+  std::vector<std::vector<segmentation::ObjectRegion>> boxes_;  // by frame
   std::vector<std::vector<Detected>> detections_;           // by frame
   tracker::MovableObjects objects_;
   std::deque<DueBoxes> due_boxes_;

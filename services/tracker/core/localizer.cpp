@@ -202,7 +202,6 @@ bool Localizer::follow_expected(const TrackingContext& context, const Pose& expe
   if (!followed) return false;
   follower_.count_found(context.map, followed->expected, followed->frame);
   if (!sees_enough(followed->frame)) return false;
-  features_.set_reference(around.local.reference);
   lost.extracted = lost.frame.features;
   lost.frame = std::move(followed->frame);
   lost.is_followed = true;

@@ -62,7 +62,7 @@ void Tracker::reset() {
 
 /// The paper's figure 1, "Tracking": prediction and removal of what moves, pose, keyframe decision.
 FrameResult Tracker::track(const image::RgbdFrame& given,
-                           std::span<const segmentation::MovableRegion> regions) {
+                           std::span<const segmentation::ObjectRegion> regions) {
   FrameResult result;
   result.state = state_ == State::kNotInitialized ? State::kNotInitialized : State::kLost;
   localizer_.relocalizer().index_pending(mapper_.map());
@@ -118,7 +118,7 @@ FrameResult Tracker::track(const image::RgbdFrame& given,
 
 /// Fills in what is known before the pose is looked for: time, motion, a guess of the pose, the local map,
 /// what is movable, and the points that were found beside.
-void Tracker::prepare(const image::RgbdFrame& given, std::span<const segmentation::MovableRegion> regions,
+void Tracker::prepare(const image::RgbdFrame& given, std::span<const segmentation::ObjectRegion> regions,
                       TrackingContext& context) {
   const auto [time_ns, went_back] = time_.go_to(given.stamp_ns);
   if (went_back) {  // the camera may be anywhere, and what moved before moves no more
@@ -271,7 +271,7 @@ void Tracker::forget_depth_where_moved(const Pose& last_before) {
 }
 
 void Tracker::retract_movable(std::uint64_t keyframe_id,
-                              std::span<const segmentation::MovableRegion> regions) {
+                              std::span<const segmentation::ObjectRegion> regions) {
   if (const segmentation::PictureCells* cells = mapper_.cells_of(keyframe_id))
     mapper_.retract(keyframe_id, removal_.segment_keyframe(*cells, regions));
 }

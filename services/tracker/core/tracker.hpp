@@ -66,7 +66,7 @@ class Tracker {
   /// first keyframe) and no pose, or state kWeak and the pose that trusted odometry carries on; without a
   /// pose is, with given poses, a frame that none is given for. Pictures that are
   /// empty, of other sizes or types than promised count as pictures without features.
-  FrameResult track(const image::RgbdFrame& given, std::span<const segmentation::MovableRegion> movable);
+  FrameResult track(const image::RgbdFrame& given, std::span<const segmentation::ObjectRegion> movable);
 
   /// Snapshot around the newest keyframe of the map or, after a keyframe for other services only, around its
   /// reference keyframe; nullopt if neither was made since the last call. Also indexes the newest keyframe
@@ -95,7 +95,7 @@ class Tracker {
   /// @return what has been joined; nullopt if nothing has.
   std::optional<JoinedSubmap> join_submaps();
   /// Late boxes of a keyframe: its features in them are taken out of the map.
-  void retract_movable(std::uint64_t keyframe_id, std::span<const segmentation::MovableRegion> regions);
+  void retract_movable(std::uint64_t keyframe_id, std::span<const segmentation::ObjectRegion> regions);
 
   /// Goes on in a saved map: lost until it has found itself there. An empty map is as after reset().
   void start_from(SavedMap&& saved);
@@ -148,7 +148,7 @@ class Tracker {
   void reset();
 
  private:
-  void prepare(const image::RgbdFrame& given, std::span<const segmentation::MovableRegion> regions,
+  void prepare(const image::RgbdFrame& given, std::span<const segmentation::ObjectRegion> regions,
                TrackingContext& context);
   void make_keyframe(KeyframeNeed need, TrackedFrame& frame, FrameResult& result);
   void finish(const TrackingContext& context, TrackedFrame&& frame);

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
+#include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
 #include "common/geometry/trajectory.hpp"
@@ -31,29 +29,19 @@ class Grid {
     const YAML::Node about = YAML::LoadFile(folder / "grid.yaml");
     resolution_m_ = about["resolution"].as<double>();
     origin_ = {about["origin"][0].as<double>(), about["origin"][1].as<double>()};
-    std::ifstream file(folder / "grid.pgm", std::ios::binary);
-    std::string line;
-    std::getline(file, line);  // P5
-    std::getline(file, line);  // a comment
-    int most = 0;
-    file >> width_ >> height_ >> most;
-    file.get();
-    cells_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    if (!file.read(cells_.data(), std::ssize(cells_)))
-      throw std::runtime_error("grid.pgm is no whole picture");
+    cells_ = cv::imread((folder / "grid.pgm").string(), cv::IMREAD_GRAYSCALE);
+    if (cells_.empty()) throw std::runtime_error("grid.pgm is no picture");
   }
   [[nodiscard]] bool is_occupied(const Eigen::Vector3d& point) const {
     const int x = static_cast<int>(std::floor((point.x() - origin_.x()) / resolution_m_));
-    const int y = height_ - 1 - static_cast<int>(std::floor((point.y() - origin_.y()) / resolution_m_));
-    if (x < 0 || y < 0 || x >= width_ || y >= height_) return false;
-    return cells_[static_cast<std::size_t>(y * width_ + x)] == 0;
+    const int y = cells_.rows - 1 - static_cast<int>(std::floor((point.y() - origin_.y()) / resolution_m_));
+    return x >= 0 && y >= 0 && x < cells_.cols && y < cells_.rows && cells_(y, x) == 0;
   }
 
  private:
   double resolution_m_ = 0;
   Eigen::Vector2d origin_;
-  int width_ = 0, height_ = 0;
-  std::vector<char> cells_;  // 0: occupied
+  cv::Mat1b cells_;  // 0: occupied
 };
 
 /// Point and normal at a pixel, in the camera's frame; nullopt at edges and where nothing is measured.

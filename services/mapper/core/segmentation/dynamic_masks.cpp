@@ -9,7 +9,7 @@
 namespace rds::mapper {
 namespace {
 
-using segmentation::MovableRegion;
+using segmentation::ObjectRegion;
 
 /// Boxes are of this very picture. Outside them movable is what a detector misses: one in twenty of what
 /// fills a fifth of the picture.
@@ -35,12 +35,12 @@ std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int by_px, cons
   return rim;
 }
 
-std::vector<MovableRegion> movable_regions(const KeyframeRecord& record, std::span<const LabelledBox> boxes) {
+std::vector<ObjectRegion> movable_regions(const KeyframeRecord& record, std::span<const LabelledBox> boxes) {
   constexpr float kAnyDepthM = 100;
-  std::vector<MovableRegion> regions;
+  std::vector<ObjectRegion> regions;
   for (const LabelledBox& box : boxes) {
     const auto px = box.movable ? image_box(box, record) : std::nullopt;
-    if (px) regions.push_back(object_place(record, box).value_or(MovableRegion{*px, 0, kAnyDepthM}));
+    if (px) regions.push_back(object_place(record, box).value_or(ObjectRegion{*px, 0, kAnyDepthM}));
   }
   return regions;
 }
@@ -49,7 +49,7 @@ std::vector<MovableRegion> movable_regions(const KeyframeRecord& record, std::sp
 
 DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
                              const geometry::DepthNoise& noise) {
-  const std::vector<MovableRegion> regions = movable_regions(record, boxes);
+  const std::vector<ObjectRegion> regions = movable_regions(record, boxes);
   if (regions.empty()) return {};
   const KeyframeCells cells(record);
   segmentation::Segmentation found = cells.segment(regions, kModel);

@@ -28,7 +28,7 @@ KeyframeCells::KeyframeCells(const KeyframeRecord& record)
   cells_.colours = segmentation::colours_in_cells(picture, size, 1);
 }
 
-segmentation::Segmentation KeyframeCells::segment(std::span<const segmentation::MovableRegion> regions,
+segmentation::Segmentation KeyframeCells::segment(std::span<const segmentation::ObjectRegion> regions,
                                                   const segmentation::EvidenceModel& model) const {
   return segmentation::segment(cells_, record_.grid.rays->cells(), {regions, {}, {}}, model);
 }

@@ -16,7 +16,7 @@ class KeyframeCells {
   explicit KeyframeCells(const KeyframeRecord& record);
 
   /// What stands in the regions.
-  [[nodiscard]] segmentation::Segmentation segment(std::span<const segmentation::MovableRegion> regions,
+  [[nodiscard]] segmentation::Segmentation segment(std::span<const segmentation::ObjectRegion> regions,
                                                    const segmentation::EvidenceModel& model) const;
   [[nodiscard]] segmentation::Background background(
       const std::vector<segmentation::BackgroundPlane>& planes) const {

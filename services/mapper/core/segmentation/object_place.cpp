@@ -92,7 +92,7 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
 }
 
-std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& record,
+std::optional<segmentation::ObjectRegion> object_place(const KeyframeRecord& record,
                                                         const LabelledBox& box) {
   const auto px = image_box(box, record);
   if (!px) return std::nullopt;
@@ -100,13 +100,13 @@ std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& re
   const float depth = depth_in_box(*px, limits, record);
   if (depth <= 0) return std::nullopt;
   const bool has_extent = box.box_in_map && !(box.depth_m > 0);
-  if (box.movable && has_extent) return segmentation::MovableRegion{*px, limits.min_m, limits.max_m};
-  if (box.movable) return segmentation::MovableRegion{*px, depth - kPersonM, depth + kPersonM};
+  if (box.movable && has_extent) return segmentation::ObjectRegion{*px, limits.min_m, limits.max_m};
+  if (box.movable) return segmentation::ObjectRegion{*px, depth - kPersonM, depth + kPersonM};
   const double side_px = std::max(px->width(), px->height());
   const float side_m = static_cast<float>(side_px / record.grid.camera.fx) * depth;
   const float sigma_m = std::max(kLeastSigmaM, kSigmaPerSide * side_m);
-  if (has_extent) return segmentation::MovableRegion{*px, limits.min_m, limits.max_m, sigma_m};
-  return segmentation::MovableRegion{*px, depth - kBeforeM, depth + std::max(kThingM, side_m / 2), sigma_m};
+  if (has_extent) return segmentation::ObjectRegion{*px, limits.min_m, limits.max_m, sigma_m};
+  return segmentation::ObjectRegion{*px, depth - kBeforeM, depth + std::max(kThingM, side_m / 2), sigma_m};
 }
 
 }  // namespace rds::mapper

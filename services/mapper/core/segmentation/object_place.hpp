@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "common/dynamic_segmentation/movable_region.hpp"
+#include "common/dynamic_segmentation/object_region.hpp"
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
 
 namespace rds::mapper {
@@ -16,6 +16,6 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
 /// depth (told with the box, else measured in the box's inner part), or in its 3-D box.
 /// A static object is as deep as it is wide; a person, arms included, about 0.6 m.
 /// @return nullopt if the box has no usable depth.
-std::optional<segmentation::MovableRegion> object_place(const KeyframeRecord& record, const LabelledBox& box);
+std::optional<segmentation::ObjectRegion> object_place(const KeyframeRecord& record, const LabelledBox& box);
 
 }  // namespace rds::mapper

@@ -9,7 +9,7 @@
 namespace rds::mapper {
 namespace {
 
-using segmentation::MovableRegion;
+using segmentation::ObjectRegion;
 
 /// Things bound on each other as people seldom do: a chair stands on its floor. So planes outweigh what is
 /// known of depth; and a screen has the colour of the next one, which has no box.
@@ -18,7 +18,7 @@ constexpr segmentation::EvidenceModel kModel{
 /// Share of what shows in the box at the object's depth: with less standing out it is flush.
 constexpr double kStandsOut = 0.3;
 
-StaticObject object_in(const MovableRegion& region, const KeyframeRecord& record, const KeyframeCells& cells,
+StaticObject object_in(const ObjectRegion& region, const KeyframeRecord& record, const KeyframeCells& cells,
                        const cv::Mat1f& log_odds) {
   StaticObject object;
   std::vector<std::size_t> at_its_depth;
@@ -44,7 +44,7 @@ std::vector<StaticObject> segment_static(const KeyframeRecord& record,
                                          std::span<const LabelledBox* const> boxes) {
   std::vector<StaticObject> objects(boxes.size());
   std::vector<std::size_t> places;  // of each region, among the boxes
-  std::vector<MovableRegion> regions;
+  std::vector<ObjectRegion> regions;
   for (std::size_t i = 0; i < boxes.size(); ++i)
     if (const auto region = object_place(record, *boxes[i])) {
       regions.push_back(*region);

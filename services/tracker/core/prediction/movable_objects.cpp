@@ -19,10 +19,10 @@ std::vector<ImageObject> MovableObjects::in_image(std::int64_t stamp_ns,
   return objects;
 }
 
-std::vector<segmentation::MovableRegion> MovableObjects::regions(std::int64_t stamp_ns,
+std::vector<segmentation::ObjectRegion> MovableObjects::regions(std::int64_t stamp_ns,
                                                    const geometry::Pose& camera_from_map,
                                                    const geometry::CameraModel& camera) const {
-  std::vector<segmentation::MovableRegion> regions;
+  std::vector<segmentation::ObjectRegion> regions;
   for (const prediction::PredictedObject& object : predictor_.predict(stamp_ns)) {
     if (!object.movable) continue;
     if (const auto box = prediction::to_image(object.box, camera_from_map, camera))
@@ -31,10 +31,10 @@ std::vector<segmentation::MovableRegion> MovableObjects::regions(std::int64_t st
   return regions;
 }
 
-std::vector<segmentation::MovableRegion> MovableObjects::regions_of(Observations observations,
+std::vector<segmentation::ObjectRegion> MovableObjects::regions_of(Observations observations,
                                                       const geometry::Pose& camera_from_map,
                                                       const geometry::CameraModel& camera) const {
-  std::vector<segmentation::MovableRegion> regions;
+  std::vector<segmentation::ObjectRegion> regions;
   for (const prediction::ObjectObservation& observation : observations) {
     if (!predictor_.config().labels[observation.label].movable ||
         !prediction::is_usable(observation, predictor_.config().min_score) ||

@@ -42,12 +42,12 @@ class MovableObjects {
                                                   const geometry::CameraModel& camera) const;
 
   /// Regions whose features are not to be trusted in a frame: of the movable ones among the objects.
-  [[nodiscard]] std::vector<segmentation::MovableRegion> regions(std::int64_t stamp_ns,
+  [[nodiscard]] std::vector<segmentation::ObjectRegion> regions(std::int64_t stamp_ns,
                                                    const geometry::Pose& camera_from_map,
                                                    const geometry::CameraModel& camera) const;
 
   /// The same for the boxes of a keyframe at its own pose.
-  [[nodiscard]] std::vector<segmentation::MovableRegion> regions_of(Observations observations,
+  [[nodiscard]] std::vector<segmentation::ObjectRegion> regions_of(Observations observations,
                                                       const geometry::Pose& camera_from_map,
                                                       const geometry::CameraModel& camera) const;
 

@@ -9,7 +9,7 @@
 #include "common/geometry/box.hpp"
 #include "common/geometry/camera_model.hpp"
 #include "common/geometry/oriented_box.hpp"
-#include "common/dynamic_segmentation/movable_region.hpp"
+#include "common/dynamic_segmentation/object_region.hpp"
 
 namespace rds::tracker::prediction {
 
@@ -50,7 +50,7 @@ struct PredictedObject {
 /// A predicted object in the picture of one frame.
 struct PredictedBox {
   geometry::Box2 box;                  // clipped to the picture [px]
-  segmentation::MovableRegion region;  // the box with its margin, and depths that may belong to the object
+  segmentation::ObjectRegion region;  // the box with its margin, and depths that may belong to the object
 };
 
 }  // namespace rds::tracker::prediction

@@ -43,7 +43,7 @@ void MovableSegmenter::detect_motion(const geometry::Pose& camera_from_map) {
   if (config_.motion) now_.motion = compare_with_past(now_.cells.depth_m, grid_, camera_from_map, past_);
 }
 
-MovableMask MovableSegmenter::segment(std::span<const MovableRegion> regions,
+MovableMask MovableSegmenter::segment(std::span<const ObjectRegion> regions,
                                       std::span<const Eigen::Vector3f> stable) {
   if (config_.method == "off") return {};
   if (config_.method == "box") return whole_boxes(regions);
@@ -102,15 +102,15 @@ void MovableSegmenter::set_pose(const geometry::Pose& map_from_camera, bool sure
 }
 
 MovableMask MovableSegmenter::segment_keyframe(const PictureCells& picture,
-                                               std::span<const MovableRegion> regions) const {
+                                               std::span<const ObjectRegion> regions) const {
   if (config_.method == "off" || picture.depth_m.size() != grid_.size()) return {};
   if (config_.method == "box") return whole_boxes(regions);
   return widened(segmentation::segment(picture, grid_, {regions, {}, {}}).log_odds);
 }
 
-MovableMask MovableSegmenter::whole_boxes(std::span<const MovableRegion> regions) const {
+MovableMask MovableSegmenter::whole_boxes(std::span<const ObjectRegion> regions) const {
   cv::Mat1b mask(grid_.size(), std::uint8_t{0});
-  for (const MovableRegion& region : regions) mask(cells_of(region.box_px, grid_)).setTo(255);
+  for (const ObjectRegion& region : regions) mask(cells_of(region.box_px, grid_)).setTo(255);
   return {mask, grid_.cell_px()};
 }
 

@@ -20,7 +20,7 @@ namespace rds::tracker {
 class MovableSegmenter {
  public:
   using GridGeometry = segmentation::GridGeometry;
-  using MovableRegion = segmentation::MovableRegion;
+  using ObjectRegion = segmentation::ObjectRegion;
   using PictureCells = segmentation::PictureCells;
 
   MovableSegmenter(const RemovalConfig& config, const DepthConfig& depth) : config_(config), depth_(depth) {}
@@ -32,7 +32,7 @@ class MovableSegmenter {
   void detect_motion(const geometry::Pose& camera_from_map);
   /// @param regions  predicted boxes with their depth intervals.
   /// @param stable   stable map points in the camera frame: surfaces that show them are static.
-  MovableMask segment(std::span<const MovableRegion> regions, std::span<const Eigen::Vector3f> stable);
+  MovableMask segment(std::span<const ObjectRegion> regions, std::span<const Eigen::Vector3f> stable);
   /// Last: the picture's pose. Later pictures are compared only with those whose pose is sure.
   void set_pose(const geometry::Pose& map_from_camera, bool sure);
   /// The picture in cells, as segment_keyframe() needs it when late boxes come.
@@ -42,7 +42,7 @@ class MovableSegmenter {
   [[nodiscard]] const GridGeometry& grid() const { return grid_; }
   /// Movable cells of an earlier picture, by its late boxes.
   [[nodiscard]] MovableMask segment_keyframe(const PictureCells& picture,
-                                             std::span<const MovableRegion> regions) const;
+                                             std::span<const ObjectRegion> regions) const;
   /// The map has moved: earlier pictures say nothing any more.
   void forget();
 
@@ -60,7 +60,7 @@ class MovableSegmenter {
 
   void mark_stable(std::span<const Eigen::Vector3f> stable);
   [[nodiscard]] cv::Mat1f carried() const;
-  [[nodiscard]] MovableMask whole_boxes(std::span<const MovableRegion> regions) const;
+  [[nodiscard]] MovableMask whole_boxes(std::span<const ObjectRegion> regions) const;
   [[nodiscard]] MovableMask widened(const cv::Mat1f& log_odds) const;
 
   RemovalConfig config_;

@@ -10,7 +10,7 @@ namespace {
 
 using test::small_grid;
 
-const MovableRegion kBox{{80, 60, 160, 180}, 1.5F, 2.5F};
+const ObjectRegion kBox{{80, 60, 160, 180}, 1.5F, 2.5F};
 
 /// Cells 3 m away, those of the box at @p object_m.
 cv::Mat1f object_at(float object_m) {
@@ -19,7 +19,7 @@ cv::Mat1f object_at(float object_m) {
   return depth_m;
 }
 
-cv::Mat1f by(const cv::Mat1f& depth_m, std::vector<MovableRegion> boxes) {
+cv::Mat1f by(const cv::Mat1f& depth_m, std::vector<ObjectRegion> boxes) {
   return box_log_odds(depth_m, small_grid(), boxes, EvidenceModel());
 }
 
@@ -58,7 +58,7 @@ TEST(BoxEvidence, WithoutDepthOnlyTheBoxCounts) {
 }
 
 TEST(BoxEvidence, OfSeveralBoxesTheOneThatSaysMostCounts) {
-  const MovableRegion far{kBox.box_px, 2.8F, 3.2F};
+  const ObjectRegion far{kBox.box_px, 2.8F, 3.2F};
   const cv::Mat1f depth_m = object_at(2);
   EXPECT_EQ(cv::norm(by(depth_m, {kBox}), cv::max(by(depth_m, {kBox}), by(depth_m, {far}))), 0);
   EXPECT_EQ(cv::norm(by(depth_m, {kBox, far}), by(depth_m, {far, kBox})), 0);

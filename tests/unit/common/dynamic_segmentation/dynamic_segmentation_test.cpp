@@ -37,7 +37,7 @@ PictureCells picture() {
 }
 
 /// A box around these cells.
-MovableRegion around(const cv::Rect& cells) {
+ObjectRegion around(const cv::Rect& cells) {
   const auto cell = static_cast<double>(small_grid().cell_px());
   return {{cell * cells.x, cell * cells.y, cell * cells.br().x, cell * cells.br().y}, 1, 2};
 }

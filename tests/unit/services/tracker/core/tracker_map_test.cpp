@@ -116,7 +116,7 @@ TrackerConfig whole_boxes() {
 
 TEST(TrackerMap, MakesNoMapPointsOnMovableObjects) {
   Tracker tracker(whole_boxes());
-  const std::vector<segmentation::MovableRegion> left{{{0, 0, 160, 240}, 0.5F, 4}};
+  const std::vector<segmentation::ObjectRegion> left{{{0, 0, 160, 240}, 0.5F, 4}};
   const FrameResult result = step(tracker, 0, left);
   ASSERT_TRUE(result.keyframe.has_value());
   EXPECT_GT(result.dynamic_features, 50U);
@@ -135,7 +135,7 @@ TEST(TrackerMap, TakesBackPointsWhenBoxesComeLate) {
   Tracker tracker(whole_boxes());
   step(tracker, 0);
   const std::size_t before = tracker.map().points().size();
-  tracker.retract_movable(0, std::vector<segmentation::MovableRegion>{{{0, 0, 160, 240}, 0.5F, 4}});
+  tracker.retract_movable(0, std::vector<segmentation::ObjectRegion>{{{0, 0, 160, 240}, 0.5F, 4}});
   EXPECT_LT(tracker.map().points().size(), before * 3 / 4);
   EXPECT_EQ(step(tracker, 1).state, State::kTracking);
 }

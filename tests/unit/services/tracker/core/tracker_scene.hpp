@@ -33,7 +33,7 @@ inline Pose truth(int frame) {
 }
 
 inline FrameResult step(Tracker& tracker, int frame,
-                        std::span<const segmentation::MovableRegion> movable = {}) {
+                        std::span<const segmentation::ObjectRegion> movable = {}) {
   return tracker.track(picture_of_strips(truth(frame), frame * kFrameNs), movable);
 }
 

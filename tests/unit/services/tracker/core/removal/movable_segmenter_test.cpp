@@ -12,7 +12,7 @@ using test::compare;
 using test::region_of;
 using test::room;
 using test::Somebody;
-using segmentation::MovableRegion;
+using segmentation::ObjectRegion;
 using segmentation::PictureCells;
 
 constexpr std::int64_t kFrameNs = 100'000'000;
@@ -20,14 +20,14 @@ constexpr std::int64_t kFrameNs = 100'000'000;
 class MovableSegmenting : public testing::Test {
  protected:
   static MovableMask look(MovableSegmenter& segmenter, const image::RgbdFrame& picture,
-                          const std::vector<MovableRegion>& regions) {
+                          const std::vector<ObjectRegion>& regions) {
     segmenter.set_picture(picture);
     segmenter.detect_motion(Pose::Identity());
     MovableMask mask = segmenter.segment(regions, {});
     segmenter.set_pose(Pose::Identity(), true);
     return mask;
   }
-  MovableMask look(const image::RgbdFrame& picture, const std::vector<MovableRegion>& regions = {}) {
+  MovableMask look(const image::RgbdFrame& picture, const std::vector<ObjectRegion>& regions = {}) {
     return look(segmenter, picture, regions);
   }
 
@@ -52,7 +52,7 @@ TEST_F(MovableSegmenting, ReachesOutOfABoxThatLagsBehind) {
 }
 
 TEST_F(MovableSegmenting, AWallInABoxIsNobody) {
-  const MovableRegion region{{60, 20, 200, 200}, 2.7F, 3.3F};
+  const ObjectRegion region{{60, 20, 200, 200}, 2.7F, 3.3F};
   EXPECT_LT(compare(look(room(), {region}), room()).of_the_rest, 0.02);
 }
 
@@ -151,7 +151,7 @@ TEST_F(MovableSegmenting, SameCallsSameMask) {
   MovableSegmenter other(config, DepthConfig{});
   for (int i = 0; i < 5; ++i) {
     const image::RgbdFrame picture = room({0.1 * i, 1.8}, i * kFrameNs);
-    const std::vector<MovableRegion> regions{region_of(somebody, 5)};
+    const std::vector<ObjectRegion> regions{region_of(somebody, 5)};
     const MovableMask first = look(picture, regions);
     const MovableMask second = look(other, picture, regions);
     EXPECT_EQ(cv::countNonZero(first.cells() != second.cells()), 0);

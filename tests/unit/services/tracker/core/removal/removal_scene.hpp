@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/dynamic_segmentation/depth_grid.hpp"
-#include "common/dynamic_segmentation/movable_region.hpp"
+#include "common/dynamic_segmentation/object_region.hpp"
 #include "tests/unit/services/tracker/core/synthetic_scene.hpp"
 
 namespace rds::tracker::test {
@@ -62,7 +62,7 @@ inline Marked compare(const MovableMask& mask, const image::RgbdFrame& with) {
 }
 
 /// The region that a predicted box of somebody gives, larger by a margin on each side.
-inline segmentation::MovableRegion region_of(const Somebody& somebody, double margin_px = 0) {
+inline segmentation::ObjectRegion region_of(const Somebody& somebody, double margin_px = 0) {
   const geometry::CameraModel camera = small_camera();
   const auto px = [&](double x, double y) { return camera.project({x, y, somebody.z_m}); };
   const Eigen::Vector2d low = px(somebody.x_m - 0.3, -0.6);

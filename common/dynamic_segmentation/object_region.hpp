@@ -5,9 +5,9 @@
 
 namespace rds::segmentation {
 
-/// A part of the picture where something that can move is expected: features inside the box whose depth lies
-/// in the interval, or that have no depth, are not to be trusted.
-struct MovableRegion {
+/// A part of the picture where an object is expected, between these depths: something that can move, whose
+/// features are not to be trusted, or, for the mapper, a static one that is cut out of its box.
+struct ObjectRegion {
   geometry::Box2 box_px;  // in the picture as the camera gives it (with distortion)
   float min_depth_m = 0;
   float max_depth_m = 0;

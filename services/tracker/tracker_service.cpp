@@ -59,7 +59,8 @@ TrackerService::TrackerService(service::ServiceContext& context, const TrackerSe
              look_up()),
       answers_(context, mailbox_, config.lockstep, config.mapping_nice),
       pictures_(config.mapping_nice),
-      map_commands_(mailbox_, config.maps, map_file::kTracker) {
+      map_commands_(mailbox_, config.maps, map_file::kTracker),
+      saved_map_services_(context) {
   subscriptions_.push_back(topics::subscribe(context.bus, topics::kBoxes, topics::kTracker,
                                              [this](BoxesMessage m) { answers_.push(std::move(m)); }));
   subscriptions_.push_back(

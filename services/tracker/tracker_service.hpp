@@ -8,6 +8,7 @@
 
 #include "common/map_commands/map_commands.hpp"
 #include "common/service/service.hpp"
+#include "common/map_commands/saved_map_services.hpp"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/frame_input.hpp"
@@ -80,3 +81,4 @@ class TrackerService : public service::Service {
 };
 
 }  // namespace rds::tracker
+  map_commands::SavedMapServices saved_map_services_;  // of all services

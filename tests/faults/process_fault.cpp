@@ -51,7 +51,7 @@ void FailingDisk::disarm() {
 }
 
 ProcessFault::ProcessFault(const Row& row, const Timing& timing, run::ServiceCommand command,
-                           run::Commander& commander, FailingDisk& disk)
+                           commander::Commander& commander, FailingDisk& disk)
     : row_(row), timing_(timing), command_(std::move(command)), commander_(commander), disk_(disk) {}
 
 void ProcessFault::act(double at_s) {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "common/commander/commander.hpp"
 #include "tests/faults/fault_table.hpp"
-#include "tools/rds/commander/commander.hpp"
 #include "tools/rds/run/services/fleet.hpp"
 
 namespace rds::test {
@@ -33,8 +33,8 @@ class FailingDisk {
 class ProcessFault {
  public:
   /// @param command  how the service is started.
-  ProcessFault(const Row& row, const Timing& timing, run::ServiceCommand command, run::Commander& commander,
-               FailingDisk& disk);
+  ProcessFault(const Row& row, const Timing& timing, run::ServiceCommand command,
+               commander::Commander& commander, FailingDisk& disk);
 
   /// To be called with every frame. @param at_s  since the first frame [s of the recording].
   void act(double at_s);
@@ -52,13 +52,13 @@ class ProcessFault {
   Row row_;
   Timing timing_;
   run::ServiceCommand command_;
-  run::Commander& commander_;
+  commander::Commander& commander_;
   FailingDisk& disk_;
   enum class Phase { kBefore, kDuring, kAfter } phase_ = Phase::kBefore;
   bool killed_again_ = false;
   bool is_stopped_ = false;
   std::optional<run::ChildProcess> twin_;
-  std::future<std::optional<run::CommandReply>> saved_;
+  std::future<std::optional<commander::CommandReply>> saved_;
   std::string missed_;  // a process that was not there
 };
 

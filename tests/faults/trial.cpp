@@ -11,10 +11,10 @@
 
 #include "tests/faults/true_stamps.hpp"
 #include "tests/integration/run_support.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/play/decode_ahead.hpp"
 #include "tools/rds/run/results/run_files.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::test {
 namespace {

@@ -60,7 +60,7 @@ class Trial {
   bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Recorder recorder_;
-  run::Commander commander_;
+  commander::Commander commander_;
   FaultyCamera camera_;
   FailingDisk disk_;
   std::vector<run::ServiceCommand> commands_;

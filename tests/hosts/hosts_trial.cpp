@@ -12,9 +12,9 @@
 #include "common/bus/peer_addresses.hpp"
 #include "common/topics/topics.hpp"
 #include "tests/integration/run_support.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/results/run_files.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::test {
 namespace {

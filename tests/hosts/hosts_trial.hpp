@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "common/bus/domain_lock.hpp"
+#include "common/commander/commander.hpp"
 #include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/figures.hpp"
 #include "tests/hosts/host_routers.hpp"
 #include "tests/hosts/hosts_table.hpp"
 #include "tests/hosts/on_core.hpp"
-#include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/results/recorder.hpp"
 #include "tools/rds/run/services/fleet.hpp"
@@ -57,7 +57,7 @@ class HostsTrial {
   bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   run::Recorder recorder_;
-  run::Commander commander_;
+  commander::Commander commander_;
   Arrivals arrivals_;
   play::Player camera_;
   run::Fleet fleet_;

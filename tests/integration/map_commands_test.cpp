@@ -8,8 +8,8 @@
 #include "common/bus/participant.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/commander/commander.hpp"
-#include "tools/rds/commander/topology.hpp"
+#include "common/commander/commander.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::test {
 namespace {
@@ -49,8 +49,8 @@ class MapCommands : public ::testing::TestWithParam<std::string> {
     }
     ASSERT_TRUE(all_answer());
   }
-  run::CommandReply ask(const std::string& service, const std::string& verb, const std::string& argument) {
-    return commander.ask(service, verb, argument, {}, 10s).value_or(run::CommandReply{false, "no answer"});
+  commander::CommandReply ask(const std::string& service, const std::string& verb, const std::string& argument) {
+    return commander.ask(service, verb, argument, {}, 10s).value_or(commander::CommandReply{false, "no answer"});
   }
   void expect_refused(const std::string& service, const std::string& verb, const std::string& argument) {
     const auto reply = ask(service, verb, argument);
@@ -63,7 +63,7 @@ class MapCommands : public ::testing::TestWithParam<std::string> {
   TemporaryFolder outside;
   std::unique_ptr<bus::Participant> bus = bus::Participant::create(
       {.vendor = bus::vendor_from_name(GetParam()), .domain = kDomain, .node_name = "commander", .loopback_only = true});
-  run::Commander commander{*bus};
+  commander::Commander commander{*bus};
   std::map<std::string, std::unique_ptr<Process>> processes;
 };
 

@@ -10,7 +10,7 @@
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/commander/commander.hpp"
+#include "common/commander/commander.hpp"
 
 namespace rds::test {
 namespace {
@@ -70,7 +70,7 @@ TEST(PausedServices, DoNotHoldALockstepRunUp) {
   Process process({rds(), "run", "--dataset", (place / "data").string(), "--out", (place / "out").string(),
                    "--rate", "max", "--domain", "27"});
   const auto bus = bus::Participant::create({.domain = 27, .node_name = "pauser", .loopback_only = true});
-  run::Commander commander(*bus);
+  commander::Commander commander(*bus);
   ASSERT_TRUE(process.wait_for_output("frame", 60s));
   while (commander.ask_status(kServices.size(), {}, 300ms).size() < kServices.size())
     ASSERT_TRUE(process.running());

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/participant.hpp"
+#include "common/commander/commander.hpp"
 #include "common/messages/conversions.hpp"
 #include "rds_msgs/msg/Command.h"
 #include "rds_msgs/msg/KeyFrameFeatures.h"
@@ -15,7 +16,6 @@
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/rds/commander/commander.hpp"
 
 namespace rds::test {
 namespace {
@@ -132,7 +132,7 @@ TEST(Strangers, ChangeNothingOfALockstepRun) {
   Process disturbed(arguments(place / "data", place / "disturbed"));
   Stranger stranger;
   Impostor impostor(stranger.bus());
-  run::Commander commander(stranger.bus());
+  commander::Commander commander(stranger.bus());
   while (!stranger.is_heard()) {
     ASSERT_TRUE(disturbed.running());
     std::this_thread::sleep_for(10ms);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/commander/commander.hpp"
 #include "common/service/peers/peers.hpp"
 #include "diagnostic_msgs/msg/DiagnosticArray.h"
 #include "rds_msgs/message_fields.hpp"
@@ -26,7 +27,6 @@
 #include "tests/soak/process_sample.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
-#include "tools/rds/commander/commander.hpp"
 #include "vision_msgs/message_fields.hpp"
 #include "vision_msgs/msg/Detection2DArray.h"
 #include "vision_msgs/msg/Detection3DArray.h"
@@ -201,7 +201,7 @@ class Mutations : public ::testing::TestWithParam<const char*> {
                                 .domain = kDomain,
                                 .node_name = "stranger",
                                 .loopback_only = true});
-  run::Commander commander_{*bus_};
+  commander::Commander commander_{*bus_};
   DiagnosticsWatch watch_{*bus_};
 };
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""rds_msgs_package.py SOURCE TARGET: makes a ROS 2 package of SOURCE/msg/*.msg in TARGET, as colcon would, with the generators of ROS 2's own wheels.
+"""rds_msgs_package.py SOURCE TARGET: makes a ROS 2 package of SOURCE/msg/*.msg and SOURCE/srv/*.srv in TARGET, as colcon would, with the generators of ROS 2's own wheels.
 
-Run with the interpreter of .venv-jazzy. TARGET/rds_msgs is the Python package, TARGET/idl/rds_msgs/msg/TYPE.json has the hash of a type; the libraries have to be in
+Run with the interpreter of .venv-jazzy or .venv-kilted. TARGET/rds_msgs is the Python package, TARGET/idl/rds_msgs/{msg,srv}/TYPE.json has the hash of a type; the libraries have to be in
 LD_LIBRARY_PATH. TARGET/ros_messages is ros_messages.cpp with the C++ types.
 """
 
@@ -16,6 +16,7 @@ PREFIX = pathlib.Path(sys.prefix)
 os.environ["AMENT_PREFIX_PATH"] = str(PREFIX)
 import numpy  # noqa: E402
 from rosidl_adapter.msg import convert_msg_to_idl  # noqa: E402
+from rosidl_adapter.srv import convert_srv_to_idl  # noqa: E402
 from rosidl_generator_c.cli import GenerateC  # noqa: E402
 from rosidl_generator_cpp.cli import GenerateCpp  # noqa: E402
 from rosidl_generator_py.cli import GeneratePython  # noqa: E402
@@ -36,10 +37,11 @@ GENERATORS = {"generator_c": GenerateC(""), "generator_cpp": GenerateCpp(""), "t
 def generate(source, target):
     """TARGET/GENERATOR/rds_msgs is what each generator makes, but Python's."""
     idl = target / "idl" / NAME
-    (idl / "msg").mkdir(parents=True)
-    for message in sorted((source / "msg").glob("*.msg")):
-        convert_msg_to_idl(source, NAME, pathlib.Path("msg") / message.name, idl / "msg")
-    given = {"package_name": NAME, "interface_files": [f"{idl}:msg/{file.name}" for file in sorted((idl / "msg").glob("*.idl"))],
+    for kind, convert in (("msg", convert_msg_to_idl), ("srv", convert_srv_to_idl)):
+        (idl / kind).mkdir(parents=True)
+        for file in sorted((source / kind).glob(f"*.{kind}")):
+            convert(source, NAME, file.relative_to(source), idl / kind)
+    given = {"package_name": NAME, "interface_files": [f"{idl}:{file.relative_to(idl)}" for file in sorted(idl.glob("*/*.idl"))],
              "include_paths": [str(PREFIX / "share"), str(idl.parent)]}
     hashes = HashTypeDescription("").generate_type_hashes(**given, output_path=idl)
     for name, generator in GENERATORS.items():
@@ -57,7 +59,7 @@ def sources_of(target):
     sources = {name: sorted((target / name).glob("**/*.c")) for name in GENERATORS} | {"generator_py": sorted((target / NAME).glob("**/*.c"))}
     for name in ("typesupport_c", "typesupport_fastrtps_c", "typesupport_fastrtps_cpp"):
         sources[name] = [write_lines(target / f"{name}.cpp", '#include "{}"', sorted((target / name).glob("**/*.cpp")))]
-    write_lines(target / "messages.inc", "MESSAGE({})", [file.stem for file in sorted((target / "idl").glob("**/*.idl"))])
+    write_lines(target / "messages.inc", "MESSAGE({})", [file.stem for file in sorted((target / "idl" / NAME / "msg").glob("*.idl"))])
     headers = [file for name in ("generator_cpp", "typesupport_fastrtps_cpp") for file in sorted((target / name).glob("**/*.hpp"))]
     write_lines(target / "headers.inc", '#include "{}"', headers)
     sources["ros_messages"] = [pathlib.Path(__file__).with_name("ros_messages.cpp")]
@@ -73,7 +75,7 @@ def compile_one(source, target):
 
 
 def link(made, objects, *options):
-    libraries = [f"{package}__rosidl_{part}" for package in ("std_msgs", "geometry_msgs", "builtin_interfaces", "sensor_msgs") for part in GENERATORS
+    libraries = [f"{package}__rosidl_{part}" for package in ("std_msgs", "geometry_msgs", "builtin_interfaces", "sensor_msgs", "service_msgs") for part in GENERATORS
                  if part != "generator_cpp"]  # of headers alone
     libraries += ["rosidl_runtime_c", "rosidl_typesupport_c", "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_fastrtps_cpp", "rosidl_typesupport_introspection_c",
                   "fastcdr", "rcutils"]

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_messages.py FOLDER TYPES: an ordinary ROS 2 node that reads every topic with a type of rds_msgs, the package in FOLDER, and commands the tracker.
+"""ros_messages.py FOLDER TYPES [MAP]: an ordinary ROS 2 node that reads every topic with a type of rds_msgs, the package in FOLDER, and commands the tracker.
 
 Writes, as one line of JSON, of each type that is announced the hashes that its endpoints tell, and the answer to the command. FOLDER/wire/TYPE is the last message
-of each type, as it came, FOLDER/wire/TYPE.python what the node makes of it again. Ends when messages of so many TYPES have come, after 60 s at most.
+of each type, as it came, FOLDER/wire/TYPE.python what the node makes of it again. Ends when messages of so many TYPES have come, after 60 s at most; with MAP it
+then has the services save their map under that name, load it, and load one that is not there, and writes how that went, too.
 """
 
 import importlib
@@ -18,6 +19,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 FOLDER = pathlib.Path(sys.argv[1])
 sys.path.insert(0, str(FOLDER))
 messages = importlib.import_module("rds_msgs.msg")
+services = importlib.import_module("rds_msgs.srv")
 
 
 class Reader:
@@ -59,12 +61,27 @@ class Reader:
                 rclpy.spin_once(self.node, timeout_sec=0.1)
 
 
+def ask(node, kind, name, argument, limit_s=30):
+    client = node.create_client(kind, name)
+    if not client.wait_for_service(timeout_sec=limit_s):
+        raise TimeoutError(f"no {name}")
+    future = client.call_async(kind.Request(name=argument))
+    rclpy.spin_until_future_complete(node, future, timeout_sec=limit_s)
+    return [future.result().success, future.result().message]
+
+
+def save_and_load(node, name):
+    return {"save": ask(node, services.SaveMap, "/rds_tracker/save_map", name), "load": ask(node, services.LoadMap, "/rds_tracker/load_map", name),
+            "load_another": ask(node, services.LoadMap, "/rds_tracker/load_map", name + "_2")}
+
+
 def main():
     rclpy.init()
     (FOLDER / "wire").mkdir(exist_ok=True)
     reader = Reader(rclpy.create_node("reader"))
     reader.run(int(sys.argv[2]))
-    print(json.dumps({"hashes": {name: sorted(hashes) for name, hashes in reader.hashes.items()},
+    told = save_and_load(reader.node, sys.argv[3]) if sys.argv[3:] else {}
+    print(json.dumps({**told, "hashes": {name: sorted(hashes) for name, hashes in reader.hashes.items()},
                       "answers": [[answer.request_id, answer.service, answer.success] for answer in reader.answers[:1]]}), flush=True)
 
 

@@ -44,6 +44,8 @@ def services_of(node):
                      "/robot1/octomap_full": ["octomap_msgs/srv/GetOctomap"]}
     return services
 
+    else:
+        services |= {f"{node}/{name}_map": [f"rds_msgs/srv/{name.title()}Map"] for name in ("save", "load")}
 
 class RosServices(unittest.TestCase):
     def setUp(self):

@@ -10,8 +10,8 @@
 
 #include "tests/hosts/figures.hpp"
 #include "tests/integration/run_support.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::test {
 namespace {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/bus/domain_lock.hpp"
+#include "common/commander/commander.hpp"
 #include "common/image/tum_dataset.hpp"
 #include "tests/hosts/arrivals.hpp"
 #include "tests/hosts/host_network.hpp"
 #include "tests/hosts/maps/revisions.hpp"
-#include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/services/fleet.hpp"
 
@@ -65,7 +65,7 @@ class MapTrial {
   OnHost here_;  // all that follows is on the fast machine
   bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
-  run::Commander commander_;
+  commander::Commander commander_;
   Arrivals arrivals_;
   Revisions revisions_;
   play::Player camera_;

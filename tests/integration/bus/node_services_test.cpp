@@ -21,12 +21,17 @@
 #include "rcl_interfaces/srv/SetParameters_Response.h"
 #include "std_srvs/srv/SetBool_Request.h"
 #include "std_srvs/srv/SetBool_Response.h"
+#include "rds_msgs/srv/LoadMap_Request.h"
+#include "rds_msgs/srv/LoadMap_Response.h"
+#include "rds_msgs/srv/SaveMap_Request.h"
+#include "rds_msgs/srv/SaveMap_Response.h"
 #include "std_srvs/srv/Trigger_Request.h"
 #include "std_srvs/srv/Trigger_Response.h"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/service_client.hpp"
 
 namespace rds::test {
+#include "tests/support/temporary_folder.hpp"
 namespace {
 
 using namespace lifecycle_msgs::srv;
@@ -166,6 +171,53 @@ class ManagersBond {
 
  private:
   static constexpr const char* kInstance = "0d7a9d3c-manager";
+/// Tracker and mapper in one folder of maps.
+class NodesWithAMap : public ::testing::TestWithParam<bus::Vendor> {
+ protected:
+  std::unique_ptr<Process> start(const std::string& service) {
+    return std::make_unique<Process>(
+        std::vector<std::string>{std::string(RDS_BIN_DIR) + "/" + service, "--bus", name_of(GetParam()),
+                                 "--domain", std::to_string(test_domain()), "--loopback", "--namespace",
+                                 "robot1"},
+        Process::Environment{{"RDS_MAPS_DIR", maps.path().string()}});
+  }
+  /// Asks once, as who waits for what takes its time. @return the answer, with "done: " or "not done: "
+  /// before.
+  template <class Request, class Response>
+  std::string ask(const std::string& service, const std::string& name) {
+    ServiceClient<Request, Response> client(GetParam(), "robot1/rds_tracker/" + service);
+    for (int i = 0; i < 200 && !client.is_matched(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    Request request;
+    request.name(name);
+    client.send(request);
+    const auto told = client.answer(std::chrono::seconds(20));
+    if (!told) return "no answer";
+    return (told->success() ? "done: " : "not done: ") + told->message();
+  }
+  std::string save(const std::string& name) {
+    return ask<rds_msgs::srv::SaveMap_Request, rds_msgs::srv::SaveMap_Response>("save_map", name);
+  }
+  std::string load(const std::string& name) {
+    return ask<rds_msgs::srv::LoadMap_Request, rds_msgs::srv::LoadMap_Response>("load_map", name);
+  }
+
+  TemporaryFolder maps;
+  std::unique_ptr<Process> tracker = start("rds-tracker");
+};
+
+TEST_P(NodesWithAMap, SaveAndLoadItByName) {
+  EXPECT_EQ(save("kitchen"), "not done: rds-mapper does not answer, expected it to be running");
+  EXPECT_THAT(save("../kitchen"), HasSubstr("not done: "));
+  const auto mapper = start("rds-mapper");
+  ASSERT_TRUE(mapper->wait_for_output("version", std::chrono::seconds(20)));
+  EXPECT_EQ(save("kitchen"), "done: saved as kitchen in " + (maps.path() / "kitchen").string());
+  EXPECT_TRUE(std::filesystem::exists(maps.path() / "kitchen" / "map.rds"));
+  EXPECT_THAT(load("kitchen"),
+              ::testing::AllOf(HasSubstr("done: rds-mapper: map of"), HasSubstr("; rds-tracker: map of")));
+  EXPECT_THAT(load("cellar"), ::testing::AllOf(HasSubstr("not done: rds-tracker: "), HasSubstr("cellar")));
+}
+
   std::unique_ptr<bus::Participant> bus_;
   bond::msg::Status status_;
   std::mutex mutex_;
@@ -216,3 +268,5 @@ INSTANTIATE_TEST_SUITE_P(Vendors, ManagedNode, ::testing::ValuesIn(kVendors),
 
 }  // namespace
 }  // namespace rds::test
+INSTANTIATE_TEST_SUITE_P(Vendors, NodesWithAMap, ::testing::ValuesIn(kVendors),
+                         [](const auto& tested) { return name_of(tested.param); });

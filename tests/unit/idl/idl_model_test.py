@@ -22,14 +22,28 @@ def parse(text):
         return idl_model.parse_idl(path)
 
 
+def lines_of(file):
+    """Without comments and blank lines."""
+    lines = (line.partition("#")[0].strip() for line in file.read_text(encoding="utf-8").splitlines())
+    return [line for line in lines if line]
+
+
 class MsgFiles(unittest.TestCase):
     def test_every_rds_msgs_idl_says_what_its_msg_file_says(self):
         files = sorted((ROOT / "idl" / "rds_msgs" / "msg").glob("*.msg"))
-        self.assertEqual({f.stem for f in files}, {s.name for s in STRUCTS.values() if s.package == "rds_msgs"})
+        self.assertEqual({f.stem for f in files}, {s.name for s in STRUCTS.values() if s.package == "rds_msgs" and s.kind == "msg"})
         for file in files:
-            lines = (line.partition("#")[0].strip() for line in file.read_text(encoding="utf-8").splitlines())
             with self.subTest(file.name):
-                self.assertEqual([l for l in lines if l], idl_model.msg_lines(STRUCTS[f"rds_msgs/msg/{file.stem}"]))
+                self.assertEqual(lines_of(file), idl_model.msg_lines(STRUCTS[f"rds_msgs/msg/{file.stem}"]))
+
+    def test_every_service_says_what_its_srv_file_says(self):
+        files = sorted((ROOT / "idl" / "rds_msgs" / "srv").glob("*.srv"))
+        parts = {f.stem + part for f in files for part in ("_Request", "_Response")}
+        self.assertEqual(parts, {s.name for s in STRUCTS.values() if s.package == "rds_msgs" and s.kind == "srv"})
+        for file in files:
+            request, response = (STRUCTS[f"rds_msgs/srv/{file.stem}{part}"] for part in ("_Request", "_Response"))
+            with self.subTest(file.name):
+                self.assertEqual(lines_of(file), [*idl_model.msg_lines(request), "---", *idl_model.msg_lines(response)])
 
 
 class TypeHash(unittest.TestCase):

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "common/config/config_reader.hpp"
-#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::hosts {
 namespace {

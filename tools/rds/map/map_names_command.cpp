@@ -8,10 +8,10 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "common/map_commands/live_map_save.hpp"
 #include "common/map_file/named_map.hpp"
 #include "common/store/maps_folder.hpp"
 #include "tools/rds/cli/exit.hpp"
-#include "tools/rds/map/live_map_save.hpp"
 
 namespace rds::tools {
 namespace {
@@ -27,7 +27,7 @@ void list(const std::string& folder) {
 void load_by_name(const MapSource& source, const std::string& name) {
   value_or_exit(map_file::check_map_name(name));
   const auto answers = on_the_bus(source, [&](auto& bus, const auto timeout, const auto& stop) {
-    return load_live_map(bus, name, timeout, stop);
+    return map_commands::load_live_map(bus, name, timeout, stop);
   });
   for (const auto& [service, message] : *answers) fmt::print("{}: {}\n", service, message);
 }
@@ -42,7 +42,7 @@ bool is_map_name(const std::string& text) {
 void save_by_name(const MapSource& source, const std::string& name) {
   value_or_exit(map_file::check_map_name(name));
   const auto saved = on_the_bus(source, [&](auto& bus, const auto timeout, const auto& stop) {
-    return save_live_map(bus, name, timeout, stop);
+    return map_commands::save_live_map(bus, name, timeout, stop);
   });
   for (const auto& [service, what] : saved->by_service) fmt::print("{}: {}\n", service, what);
   fmt::print("saved as {} in {}\n", name, saved->folder.string());
@@ -50,7 +50,7 @@ void save_by_name(const MapSource& source, const std::string& name) {
 
 void save_as_file(const MapSource& source, const std::string& file) {
   (void)on_the_bus(source, [&](auto& bus, const auto timeout, const auto& stop) {
-    return save_live_map_as(bus, file, timeout, stop);
+    return map_commands::save_live_map_as(bus, file, timeout, stop);
   });
   fmt::print("{}\n", file);
 }

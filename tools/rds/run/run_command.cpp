@@ -15,11 +15,11 @@
 #include "tools/rds/cli/interrupt.hpp"
 #include "tools/rds/cli/rate_option.hpp"
 #include "tools/rds/cli/recording_option.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/far/far_run.hpp"
 #include "tools/rds/run/far/terms.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
 #include "tools/rds/run/session.hpp"
+#include "tools/rds/topology/topology.hpp"
 #include "tools/recording/open_recording.hpp"
 
 namespace rds::run {

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/record/topic_subscriptions.hpp"
 #include "tools/rds/run/services/run_options.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::run {
 

@@ -2,8 +2,8 @@
 #include "tools/rds/run/run_services.hpp"
 
 #include "tools/rds/cli/wait.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::run {
 namespace {

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "services/viewer/listen_address.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/play/sensor_choice.hpp"
 #include "tools/rds/run/results/results.hpp"
 #include "tools/rds/run/services/join_bus.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::run {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common/bus/domain_lock.hpp"
+#include "common/commander/commander.hpp"
 #include "common/image/recording.hpp"
-#include "tools/rds/commander/commander.hpp"
 #include "tools/rds/play/player.hpp"
 #include "tools/rds/run/output/output_folder.hpp"
 #include "tools/rds/run/progress.hpp"
@@ -57,7 +57,7 @@ class Session {
   bus::DomainLock domain_;
   std::unique_ptr<bus::Participant> bus_;
   Recorder recorder_;
-  Commander commander_;
+  commander::Commander commander_;
   play::Player player_;
   RunServices services_;
   std::unique_ptr<OverlayWriter> overlay_;

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "tools/rds/commander/commander.hpp"
+#include "common/commander/commander.hpp"
 #include "tools/rds/hosts/hosts_file.hpp"
 #include "tools/rds/run/far/file_pieces.hpp"
 #include "tools/rds/run/services/fleet.hpp"
@@ -63,7 +63,7 @@ class FarMachines {
   std::string read(const std::string& machine, const FileEntry& file, const std::stop_token& stop);
   void listen(const std::stop_token& stop);
 
-  Commander commander_;
+  commander::Commander commander_;
   mutable std::mutex mutex_;
   std::map<std::string, Machine> machines_;  // by name
   std::jthread listener_;                    // last: it uses the members above

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/topology/topology.hpp"
 #include "tools/rds/run/output/result_file.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
 

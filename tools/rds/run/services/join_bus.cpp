@@ -2,7 +2,7 @@
 #include "tools/rds/run/services/join_bus.hpp"
 
 #include "common/bus/peer_addresses.hpp"
-#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::run {
 

@@ -14,8 +14,8 @@
 #include "services/tracker/tracker_service_config.hpp"
 #include "services/transformer/transformer_service_config.hpp"
 #include "services/viewer/viewer_service_config.hpp"
-#include "tools/rds/commander/topology.hpp"
 #include "tools/rds/run/output/result_file.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 namespace rds::run {
 namespace fs = std::filesystem;

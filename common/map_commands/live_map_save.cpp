@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/map/live_map_save.hpp"
+#include "common/map_commands/live_map_save.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/commander/commander.hpp"
 #include "common/map_file/atomic_file.hpp"
 #include "common/map_file/saved_map.hpp"
 #include "common/service/random_id.hpp"
-#include "tools/rds/commander/commander.hpp"
-#include "tools/rds/commander/topology.hpp"
 
-namespace rds::tools {
+namespace rds::map_commands {
 namespace fs = std::filesystem;
 namespace {
 
@@ -27,31 +26,38 @@ std::string random_id() {
   return fmt::format("{:016x}", service::random_id());
 }
 
-/// The services with a part of the map that answer before the deadline; all three end the wait.
-std::vector<std::string> wait_for_services(run::Commander& commander, Clock::time_point deadline,
-                                           const std::stop_token& stop) {
+/// "rds-loop-closer" of the part "loop_closer".
+std::string service_of(const std::string& part) {
+  std::string service = "rds-" + part;
+  std::ranges::replace(service, '_', '-');
+  return service;
+}
+
+/// The parts of the map whose services answer before the deadline; all three end the wait.
+std::vector<std::string> wait_for_parts(commander::Commander& commander, Clock::time_point deadline,
+                                        const std::stop_token& stop) {
   std::vector<std::string> there;
-  while (there.size() < 3 && Clock::now() < deadline && !stop.stop_requested()) {
+  while (there.size() < map_file::kParts.size() && Clock::now() < deadline && !stop.stop_requested()) {
     there.clear();
     const auto answers = commander.ask_status(5, stop, kStatusTime);
-    for (const std::string& name : {run::kTracker, run::kMapper, run::kLoopCloser})
-      if (answers.contains(name)) there.push_back(name);
+    for (const std::string& part : map_file::kParts)
+      if (answers.contains(service_of(part))) there.push_back(part);
   }
   return there;
 }
 
-tl::expected<std::vector<std::string>, std::string> find_services(run::Commander& commander,
-                                                                  std::chrono::duration<double> timeout,
-                                                                  const std::stop_token& stop) {
-  auto services =
-      wait_for_services(commander, Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout), stop);
-  for (const std::string& needed : {run::kTracker, run::kMapper})
-    if (std::ranges::find(services, needed) == services.end())
-      return tl::unexpected(fmt::format("{} does not answer, expected it to be running", needed));
-  return services;
+tl::expected<std::vector<std::string>, std::string> find_parts(commander::Commander& commander,
+                                                               std::chrono::duration<double> timeout,
+                                                               const std::stop_token& stop) {
+  auto parts =
+      wait_for_parts(commander, Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout), stop);
+  for (const std::string& needed : {map_file::kTracker, map_file::kMapper})
+    if (std::ranges::find(parts, needed) == parts.end())
+      return tl::unexpected(fmt::format("{} does not answer, expected it to be running", service_of(needed)));
+  return parts;
 }
 
-Answer ask(run::Commander& commander, const std::string& service, const std::string& verb,
+Answer ask(commander::Commander& commander, const std::string& service, const std::string& verb,
            const std::string& argument, const std::stop_token& stop) {
   const auto reply = commander.ask(service, verb, argument, stop, kCommandTime);
   if (!reply)
@@ -65,14 +71,14 @@ Answer ask(run::Commander& commander, const std::string& service, const std::str
 tl::expected<LiveSave, std::string> save_live_map(bus::Participant& participant, const std::string& name,
                                                   std::chrono::duration<double> timeout,
                                                   const std::stop_token& stop) {
-  run::Commander commander(participant);
-  const auto services = find_services(commander, timeout, stop);
-  if (!services) return tl::unexpected(services.error());
-  nlohmann::json order{{"name", name}, {"id", random_id()}, {"parts", nlohmann::json::array()}};
-  for (const std::string& service : *services) order["parts"].push_back(run::part_of(service));
+  commander::Commander commander(participant);
+  const auto parts = find_parts(commander, timeout, stop);
+  if (!parts) return tl::unexpected(parts.error());
+  const nlohmann::json order{{"name", name}, {"id", random_id()}, {"parts", *parts}};
   LiveSave saved;
   bool published = false;
-  for (const std::string& service : *services) {
+  for (const std::string& part : *parts) {
+    const std::string service = service_of(part);
     const Answer answer = ask(commander, service, "save", order.dump(), stop);
     if (!answer) return tl::unexpected(answer.error());
     const auto json = nlohmann::json::parse(*answer, nullptr, false);
@@ -105,11 +111,12 @@ tl::expected<void, std::string> save_live_map_as(bus::Participant& participant, 
 tl::expected<std::map<std::string, std::string>, std::string> load_live_map(
     bus::Participant& participant, const std::string& name, std::chrono::duration<double> timeout,
     const std::stop_token& stop) {
-  run::Commander commander(participant);
-  const auto services = find_services(commander, timeout, stop);
-  if (!services) return tl::unexpected(services.error());
+  commander::Commander commander(participant);
+  const auto parts = find_parts(commander, timeout, stop);
+  if (!parts) return tl::unexpected(parts.error());
   std::map<std::string, std::string> answers;
-  for (const std::string& service : *services) {
+  for (const std::string& part : *parts) {
+    const std::string service = service_of(part);
     const Answer answer = ask(commander, service, "load", name, stop);
     if (!answer) return tl::unexpected(answer.error());
     answers[service] = *answer;
@@ -117,4 +124,4 @@ tl::expected<std::map<std::string, std::string>, std::string> load_live_map(
   return answers;
 }
 
-}  // namespace rds::tools
+}  // namespace rds::map_commands

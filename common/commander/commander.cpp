@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/commander/commander.hpp"
+#include "common/commander/commander.hpp"
 
 #include <algorithm>
 
 #include "common/service/random_id.hpp"
 #include "common/topics/endpoints.hpp"
 
-namespace rds::run {
+namespace rds::commander {
 namespace {
 
 /// Whoever commands, as the table says.
@@ -80,4 +80,4 @@ std::map<std::string, std::string> Commander::ask_status(std::size_t expected, c
   return status;
 }
 
-}  // namespace rds::run
+}  // namespace rds::commander

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/rds/commander/topology.hpp"
+#include "tools/rds/topology/topology.hpp"
 
 #include <algorithm>
 #include <array>

@@ -16,7 +16,7 @@
 #include "rds_msgs/msg/Command.h"
 #include "rds_msgs/msg/CommandResult.h"
 
-namespace rds::run {
+namespace rds::commander {
 
 struct CommandReply {
   bool success = false;
@@ -58,4 +58,4 @@ class Commander {
   bus::Subscription results_;  // last: its callback uses the members above
 };
 
-}  // namespace rds::run
+}  // namespace rds::commander

@@ -11,7 +11,7 @@
 
 #include "common/bus/participant.hpp"
 
-namespace rds::tools {
+namespace rds::map_commands {
 
 /// What running services have saved.
 struct LiveSave {
@@ -38,4 +38,4 @@ tl::expected<std::map<std::string, std::string>, std::string> load_live_map(
     bus::Participant& participant, const std::string& name, std::chrono::duration<double> timeout,
     const std::stop_token& stop);
 
-}  // namespace rds::tools
+}  // namespace rds::map_commands

@@ -37,9 +37,7 @@ CommandServices::CommandServices(ServiceContext& context, ServiceSlot& service)
 
 void CommandServices::post(const std::string& verb, std::function<void(const CommandOutcome&)> respond) {
   spdlog::info("command {}, as a service", verb);
-  const auto posted = service_.post({.verb = verb, .argument = "", .answer = respond});
-  if (posted == Posted::kBusy) respond({false, "busy: too many commands wait"});
-  if (posted == Posted::kNobody) respond({false, "waits as stand-by, another is active"});
+  service_.command({.verb = verb, .argument = "", .answer = std::move(respond)});
 }
 
 bool offers_services(const bus::ParticipantOptions& participant) {

@@ -25,11 +25,8 @@ void CommandServer::receive(const rds_msgs::msg::Command& command) {
   const std::uint64_t id = command.request_id();
   if (command.verb() == "status") return answer(id, {true, status()});
   spdlog::info("command {} {}", printable(command.verb()), printable(command.argument()));
-  const auto posted =
-      service_.post({command.verb(), command.argument(),
-                     [this, id](const auto& outcome) { answer(id, outcome); }, id, command.target().empty()});
-  if (posted == Posted::kBusy) answer(id, {false, "busy: too many commands wait"});
-  if (posted == Posted::kNobody) answer(id, {false, "waits as stand-by, another is active"});
+  service_.command({command.verb(), command.argument(),
+                    [this, id](const auto& outcome) { answer(id, outcome); }, id, command.target().empty()});
 }
 
 void CommandServer::answer(std::uint64_t request_id, const CommandOutcome& outcome) {

@@ -16,10 +16,9 @@
 #include "common/bus/versions/vendor_versions.hpp"
 #include "common/command_line/document_option.hpp"
 #include "common/concurrency/priority.hpp"
-#include "common/config/overrides.hpp"
 #include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
-#include "common/service/ros/parameter_services.hpp"
+#include "common/service/ros/parameter_table.hpp"
 #include "common/service/ros/ros_arguments.hpp"
 #include "common/service/service_process.hpp"
 
@@ -33,7 +32,7 @@ struct Options {
   std::string peers;
   std::string secure;
   std::string config_path;
-  std::string log_level = "info";
+  std::string log_level;  // empty: as settings say
   std::string node_name;
   std::string node_namespace;
   std::string ros_distro;
@@ -44,10 +43,11 @@ struct Options {
   bool managed = false;
 };
 
-void set_up_log(const std::string& name, const std::string& level) {
+const std::vector<std::string> kLogLevels{"trace", "debug", "info", "warning", "error"};
+
+void set_up_log(const std::string& name) {
   auto logger = spdlog::stderr_color_mt(name);
   logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %^%l%$ %v");
-  logger->set_level(spdlog::level::from_str(level));
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -79,8 +79,8 @@ void add_options(CLI::App& app, Options& options) {
                  "End when the worker has been silent for so long [s], for containers (default: 0, never)")
       ->envname("RDS_EXIT_WHEN_HUNG")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--log-level", options.log_level)
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}));
+  app.add_option("--log-level", options.log_level, "Least of what is logged (default: info)")
+      ->check(CLI::IsMember(kLogLevels));
 }
 
 /// Of the service itself: "rds-mapper" is "mapper".
@@ -112,28 +112,47 @@ void take_ros_arguments(RosArguments&& arguments, Options& options) {
       throw CLI::ValidationError("--ros-args", "managed: expected true or false");
     options.parameters.remove("managed");
   }
+  if (!options.log_level.empty()) options.parameters["log_level"] = options.log_level;
 }
 
 /// What is a setting of every service, in the form of the shipped ones.
 constexpr const char* kOfEveryService =
     "frame_prefix: \"\"  # before the names of the robot's frames\n"
-    "managed: false  # a lifecycle manager brings it up: it begins unconfigured, and holds a bond\n";
+    "managed: false  # a lifecycle manager brings it up: it begins unconfigured, and holds a bond\n"
+    "log_level: info  # least of what is logged: trace, debug, info, warning or error\n";
 
-/// The settings as ROS 2 asks for them; nothing where services are not offered.
-std::unique_ptr<ParameterServices> parameter_services(ServiceContext& context, const Options& options,
-                                                      const std::string& shipped_settings) {
-  if (shipped_settings.empty() || !offers_services(context.participant)) return nullptr;
-  YAML::Node given = config::merged(options.config_path, options.parameters);
-  given["frame_prefix"] = context.frame_prefix;
+/// Reads the log level besides, which holds at once.
+Settings::Read with_log_level(const Settings::Read& read) {
+  return [read](config::ConfigReader& reader) {
+    std::string level = "info";
+    reader.choice("log_level", level, kLogLevels);
+    Configured configured = read(reader);
+    spdlog::set_level(spdlog::level::from_str(level));
+    configured.live.emplace_back("log_level");
+    return configured;
+  };
+}
+
+/// The settings as ROS 2 asks for them.
+ParameterTable parameter_table(const Settings& settings, const Options& options,
+                               const std::string& shipped_settings) {
+  YAML::Node given = YAML::Clone(settings.given());
+  given["frame_prefix"] = options.frame_prefix;
   given["managed"] = options.managed;
-  return std::make_unique<ParameterServices>(context.bus,
-                                             ParameterTable(kOfEveryService + shipped_settings, given));
+  return {kOfEveryService + shipped_settings, given, settings.configured().live};
+}
+
+/// Lowers the priority of the process, and lets its threads share freed memory if that is above 0; says so
+/// where the priority is not allowed. Before there are threads.
+void give_way(int nice) {
+  if (nice > 0) share_freed_memory();
+  if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
 }
 
 int start(const std::string& name, const Options& options, const std::string& shipped_settings,
-          const std::function<ServiceFactory(config::ConfigReader&)>& read) {
-  auto reader = config::from_file_with(options.config_path, options.parameters, "ROS parameters");
-  const ServiceFactory factory = read(reader);
+          const Settings::Read& read) {
+  Settings settings(options.config_path, options.parameters, with_log_level(read));
+  give_way(settings.configured().nice);
   const bus::ParticipantOptions joining{.vendor = bus::vendor_from_name(options.vendor),
                                         .domain = options.domain,
                                         .node_name = options.node_name,
@@ -152,10 +171,12 @@ int start(const std::string& name, const Options& options, const std::string& sh
                          .participant = joining,
                          .node_namespace = bus::normal_namespace(options.node_namespace),
                          .frame_prefix = options.frame_prefix};
-  const auto parameters = parameter_services(context, options, shipped_settings);
   if (options.managed && !offers_services(joining))
     throw std::runtime_error("--managed: expected no secured domain, which offers no services of ROS 2");
-  ServiceProcess process(context, factory, options.exit_when_hung_s, options.managed);
+  ProcessOptions running{.exit_when_hung_s = options.exit_when_hung_s, .managed = options.managed};
+  if (!shipped_settings.empty())
+    running.parameters = [&] { return parameter_table(settings, options, shipped_settings); };
+  ServiceProcess process(context, settings, running);
   spdlog::info("version {} on {}, domain {}, configuration {}", RDS_VERSION, options.vendor, options.domain,
                options.config_path.empty() ? "built in" : options.config_path);
   return process.run();
@@ -163,14 +184,9 @@ int start(const std::string& name, const Options& options, const std::string& sh
 
 }  // namespace
 
-void give_way(int nice) {
-  if (nice > 0) share_freed_memory();
-  if (!concurrency::give_way_as_process(nice)) spdlog::warn("nice: {} is not allowed here", nice);
-}
-
 int run_service(const std::string& name, int argc, char** argv, const std::string& shipped_settings,
-                const std::function<ServiceFactory(config::ConfigReader&)>& read,
-                const std::function<void(CLI::App&)>& add_own_options) {
+                const Settings::Read& read,
+                const std::function<void(CLI::App&, YAML::Node&)>& add_own_options) {
   const sigset_t signals =
       stop_signals();  // blocked before any thread starts, so that only sigwait sees them
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -180,7 +196,8 @@ int run_service(const std::string& name, int argc, char** argv, const std::strin
   options.node_name = name;
   std::ranges::replace(options.node_name, '-', '_');  // ROS 2 knows no hyphens
   add_options(app, options);
-  if (add_own_options) add_own_options(app);
+  YAML::Node own_settings(YAML::NodeType::Map);
+  if (add_own_options) add_own_options(app, own_settings);
   try {
     CommandLine line = split_command_line({argv + 1, argv + argc});
     std::ranges::reverse(line.own);  // as CLI11 takes them
@@ -188,10 +205,12 @@ int run_service(const std::string& name, int argc, char** argv, const std::strin
     auto ros = read_ros_arguments(line.ros, options.node_name, options.node_namespace);
     if (!ros) throw CLI::ValidationError("--ros-args", ros.error());
     take_ros_arguments(std::move(*ros), options);
+    for (const auto& setting : own_settings)
+      options.parameters[setting.first.as<std::string>()] = setting.second;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
-  set_up_log(name, options.log_level);
+  set_up_log(name);
   try {
     return start(name, options, shipped_settings, read);
   } catch (const config::ConfigError& e) {

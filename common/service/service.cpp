@@ -8,6 +8,11 @@ namespace {
 constexpr std::size_t kMaxWaitingCommands = 64;
 }
 
+std::string full_node_name(const ServiceContext& context) {
+  const std::string& above = context.node_namespace;
+  return (above == "/" ? "" : above) + "/" + context.participant.node_name;
+}
+
 Service::Service(ServiceContext& context) : context_(context), commands_(mailbox_, kMaxWaitingCommands) {
   beat();
 }
@@ -30,15 +35,21 @@ void Service::handle_commands() {
     CommandOutcome outcome;
     try {
       if (begin(*command)) continue;
-      outcome = execute(command->verb, command->argument);
-      if (outcome.success && (command->verb == "pause" || command->verb == "resume"))
-        tell_paused_(command->verb == "pause");
+      outcome = carry_out(*command);
     } catch (const std::exception& e) {
       ++context_.diagnostics.counter("commands failed");
       outcome = {false, printable(e.what())};
     }
     command->answer(outcome);
   }
+}
+
+CommandOutcome Service::carry_out(const PendingCommand& command) {
+  if (command.verb == "set" && set_) return set_(command.argument);
+  const CommandOutcome outcome = execute(command.verb, command.argument);
+  if (outcome.success && (command.verb == "pause" || command.verb == "resume"))
+    tell_paused_(command.verb == "pause");
+  return outcome;
 }
 
 }  // namespace rds::service

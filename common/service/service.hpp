@@ -37,6 +37,9 @@ struct ServiceContext {
   [[nodiscard]] std::string frame(const std::string& id) const { return frame_prefix + id; }
 };
 
+/// Of its node: "/robot1/rds_tracker".
+std::string full_node_name(const ServiceContext& context);
+
 struct CommandOutcome {
   bool success = false;
   std::string message;  // what was done, or why not
@@ -70,6 +73,9 @@ class Service {
 
   /// @param tell  is told, on the worker, whenever a command has paused or resumed it. Before run().
   void when_paused(std::function<void(bool paused)> tell) { tell_paused_ = std::move(tell); }
+
+  /// @param set  carries the command `set` out, on the worker (Settings). Before run().
+  void when_set(std::function<CommandOutcome(const std::string& changes)> set) { set_ = std::move(set); }
 
   /// Since the worker last said that it is alive (any thread).
   [[nodiscard]] std::chrono::steady_clock::duration silent_for() const;
@@ -135,12 +141,13 @@ class Service {
 
  private:
   static constexpr std::chrono::milliseconds kBeatInterval{500};
+
+  CommandOutcome carry_out(const PendingCommand& command);
+
   InstanceOwners owners_;
   std::function<void(bool)> tell_paused_ = [](bool) {};
+  std::function<CommandOutcome(const std::string&)> set_;
   std::atomic<std::chrono::steady_clock::rep> last_beat_;
 };
-
-/// Makes a service of a configuration that was read before.
-using ServiceFactory = std::function<std::unique_ptr<Service>(ServiceContext&)>;
 
 }  // namespace rds::service

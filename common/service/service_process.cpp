@@ -22,15 +22,14 @@ constexpr std::chrono::seconds kStopLimit{20};  // for a worker to end
 
 }  // namespace
 
-ServiceProcess::ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s,
-                               bool managed)
+ServiceProcess::ServiceProcess(ServiceContext& context, Settings& settings, ProcessOptions options)
     : context_(context),
-      factory_(std::move(factory)),
-      managed_(managed),
+      settings_(settings),
+      options_(std::move(options)),
       events_(mailbox_, kMaxEvents),
       presence_(context, [this] { events_.push(Event::kPeersChanged); }),
       publisher_(context, presence_, service_),
-      hang_watch_(exit_when_hung_s) {}
+      hang_watch_(options_.exit_when_hung_s) {}
 
 int ServiceProcess::run() {
   activate();
@@ -91,8 +90,12 @@ void ServiceProcess::watch(const std::stop_token& stop) {
 }
 
 void ServiceProcess::activate() {
-  auto made = factory_(context_);
+  auto made = settings_.configured().make(context_);
   Service& service = *made;
+  service.when_set([this, &service](const std::string& changes) {
+    const auto set = settings_.set(changes, service);
+    return set ? CommandOutcome{true, "set"} : CommandOutcome{false, set.error()};
+  });
   service_.put(std::move(made));
   presence_.set_active(true);
   if (offers_services(context_.participant)) offer_services(service);
@@ -108,13 +111,24 @@ void ServiceProcess::offer_services(Service& service) {
                 }}) == Posted::kQueued;
   };
   lifecycle_services_.emplace(
-      context_.bus, post, [] { kill(getpid(), SIGTERM); }, managed_ ? kUnconfigured : kActive);
+      context_.bus, post, [] { kill(getpid(), SIGTERM); }, options_.managed ? kUnconfigured : kActive);
   service.when_paused(lifecycle_services_->when_paused());
-  if (!managed_) return;
+  if (options_.parameters) offer_parameters();
+  if (!options_.managed) return;
   post("pause", [](bool) {});  // until it is activated
   bond_.emplace(context_.bus, context_.participant.node_name, context_.instance, [this] {
     return lifecycle_services_->is_active() && service_.worker_state().silent_s < Bond::kHeartbeatTimeoutS;
   });
+}
+
+void ServiceProcess::offer_parameters() {
+  const auto set = [this](const std::string& changes, ParameterServices::Answered answered) {
+    service_.command({.verb = "set", .argument = changes, .answer = [answered](const auto& outcome) {
+                        answered(outcome.success, outcome.message);
+                      }});
+  };
+  parameter_services_.emplace(context_.bus, options_.parameters(), full_node_name(context_), set);
+  settings_.when_set([this](const auto& values) { parameter_services_->take(values); });
 }
 
 void ServiceProcess::work(const std::stop_token& stop, Service& service) {
@@ -134,6 +148,7 @@ void ServiceProcess::stand_by() {
   if (worker_.joinable()) worker_.join();
   const auto ended = service_.put(nullptr);
   bond_.reset();
+  parameter_services_.reset();
   lifecycle_services_.reset();  // a node of the same name may be active now
   command_services_.reset();
   context_.diagnostics.forget_gauges();

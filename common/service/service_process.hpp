@@ -13,21 +13,27 @@
 #include "common/service/process/hang_watch.hpp"
 #include "common/service/ros/bond.hpp"
 #include "common/service/ros/lifecycle_services.hpp"
+#include "common/service/ros/parameter_services.hpp"
 #include "common/service/service_slot.hpp"
+#include "common/service/settings/settings.hpp"
 
 namespace rds::service {
+
+struct ProcessOptions {
+  /// The process ends with status 1 when the worker, or what reports about it, was silent for longer [s]; 0:
+  /// never. For supervisors that start again what has ended, but see nothing that hangs.
+  double exit_when_hung_s = 0;
+  bool managed =
+      false;  // a lifecycle manager of ROS 2 brings it up: it begins unconfigured, and holds a bond
+  std::function<ParameterTable()> parameters = {};  // the settings as ROS 2 asks for them; empty: it cannot
+};
 
 /// A service and all around it that a process needs: worker, commands, diagnostics, and its place among
 /// others of its kind. While another one is active it waits as stand-by, without a worker.
 class ServiceProcess {
  public:
-  /// @param context  must outlive it.
-  /// @param exit_when_hung_s  the process ends with status 1 when the worker, or what reports about it, was
-  /// silent for longer [s]; 0: never. For supervisors that start again what has ended, but see nothing that
-  /// hangs.
-  /// @param managed  a lifecycle manager of ROS 2 brings it up: it begins unconfigured, and holds a bond.
-  ServiceProcess(ServiceContext& context, ServiceFactory factory, double exit_when_hung_s = 0,
-                 bool managed = false);
+  /// @param context, settings  must outlive it.
+  ServiceProcess(ServiceContext& context, Settings& settings, ProcessOptions options = {});
 
   /// Runs until SIGINT or SIGTERM (both must be blocked in all threads) or until the worker fails. A second
   /// signal ends the process at once. @return 0 after a clean stop, 1 after a fault.
@@ -44,13 +50,14 @@ class ServiceProcess {
   void end_if_deaf(double since_last_look_s);
   void activate();
   void offer_services(Service& service);
+  void offer_parameters();
   void stand_by();
   void change_role();
   void work(const std::stop_token& stop, Service& service);
 
   ServiceContext& context_;
-  ServiceFactory factory_;
-  bool managed_;
+  Settings& settings_;
+  ProcessOptions options_;
   concurrency::Mailbox mailbox_;
   concurrency::Inbox<Event> events_;
   ServiceSlot service_;
@@ -59,6 +66,7 @@ class ServiceProcess {
   std::optional<CommandServer> commands_;                // once there is a worker that can execute them
   std::optional<CommandServices> command_services_;      // while it is the active one; …
   std::optional<LifecycleServices> lifecycle_services_;  // … likewise
+  std::optional<ParameterServices> parameter_services_;  // … likewise
   std::optional<Bond> bond_;                             // … if it is managed
   DiagnosticsPublisher publisher_;
   HangWatch hang_watch_;

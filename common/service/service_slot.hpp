@@ -33,6 +33,14 @@ class ServiceSlot {
     return service_->post(std::move(command)) ? Posted::kQueued : Posted::kBusy;
   }
 
+  /// As post(), but what nobody takes is answered at once.
+  void command(PendingCommand command) {
+    const auto answer = command.answer;
+    const Posted posted = post(std::move(command));
+    if (posted == Posted::kBusy) answer({false, "busy: too many commands wait"});
+    if (posted == Posted::kNobody) answer({false, "waits as stand-by, another is active"});
+  }
+
   [[nodiscard]] WorkerState worker_state() const {
     const std::lock_guard lock(mutex_);
     if (!service_) return {};

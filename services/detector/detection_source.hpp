@@ -18,6 +18,8 @@ class DetectionSource {
   virtual ~DetectionSource() = default;
   /// @throws DetectorError for a picture that cannot be used.
   virtual std::vector<Detection> detections(const image::RgbdFrame& frame) = 0;
+  /// @param threshold  of the network; 0: its own. Recorded boxes have been through theirs.
+  virtual void set_score_threshold(double /*threshold*/) {}
 };
 
 /// The network.
@@ -27,6 +29,7 @@ class NetworkSource : public DetectionSource {
   std::vector<Detection> detections(const image::RgbdFrame& frame) override {
     return detector_.detect(frame.color, frame.depth);
   }
+  void set_score_threshold(double threshold) override { detector_.set_score_threshold(threshold); }
   [[nodiscard]] std::string library() const { return detector_.library(); }
 
  private:

@@ -58,6 +58,10 @@ DetectorService::DetectorService(service::ServiceContext& context, const Detecto
   context.diagnostics.gauge("keyframes skipped", [this] { return keyframes_.dropped(); });
 }
 
+void DetectorService::reconfigure(const DetectorServiceConfig& config) {
+  source_->set_score_threshold(config.detector.score_threshold);
+}
+
 void DetectorService::run(const std::stop_token& stop) {
   while (wait(stop, [this] { return !keyframes_.locked_empty() || !commands_.locked_empty(); })) {
     handle_commands();

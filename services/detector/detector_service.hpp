@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -23,6 +24,9 @@ class DetectorService : public service::Service {
   /// @throws DetectorError, std::runtime_error if there is no network or no recording to take boxes from.
   DetectorService(service::ServiceContext& context, const DetectorServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  static constexpr std::array kLiveSettings{"score_threshold"};
+  /// Takes over what may change while it runs, on its worker.
+  void reconfigure(const DetectorServiceConfig& config);
 
  protected:
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;

@@ -59,6 +59,12 @@ MapOutputs::MapOutputs(service::ServiceContext& context, const GridConfig& grid,
       full_map_latency_(context.diagnostics.latency("full map")),
       sharing_(context) {}
 
+void MapOutputs::reconfigure(const GridConfig& grid, int full_map_every) {
+  sender_.send([this, grid] { grid_config_ = grid; });
+  full_map_every_ = full_map_every;
+  views_ = {};
+}
+
 void MapOutputs::begin_map() {
   map_id_ = service::random_id();
   sharing_.begin_map();

@@ -39,6 +39,9 @@ class MapOutputs {
   /// @param full_map_every  keyframes from one full map to the next, while somebody reads them.
   MapOutputs(service::ServiceContext& context, const GridConfig& grid, int full_map_every);
 
+  /// Makes grids by another configuration from now on, one at once where somebody reads them.
+  void reconfigure(const GridConfig& grid, int full_map_every);
+
   /// What follows is of another map: readers of the one before wait for the next full map.
   void begin_map();
   /// The newest keyframe that is in the map.
@@ -91,7 +94,7 @@ class MapOutputs {
     std::chrono::steady_clock::time_point made = {};
   };
 
-  GridConfig grid_config_;
+  GridConfig grid_config_;  // the sender's thread's
   int full_map_every_;
   std::uint64_t instance_;
   std::string frame_prefix_;

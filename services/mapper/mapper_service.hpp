@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "common/keyframe_transfer/keyframe_source.hpp"
@@ -24,6 +25,10 @@ class MapperService : public service::Service {
  public:
   MapperService(service::ServiceContext& context, const MapperServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  static constexpr std::array kLiveSettings{"boxes_timeout_s", "full_map_every", "grid.min_height_m",
+                                            "grid.max_height_m"};
+  /// Takes over what may change while it runs, on its worker.
+  void reconfigure(const MapperServiceConfig& config);
   /// Hands over what is to last.
   void close() override { checkpoints_.save(mapper_, true); }
 

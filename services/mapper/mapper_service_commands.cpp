@@ -68,6 +68,12 @@ service::CommandOutcome MapperService::execute(const std::string& verb, const st
   return unknown_command(verb);
 }
 
+void MapperService::reconfigure(const MapperServiceConfig& config) {
+  config_.mapper.grid = config.mapper.grid;
+  queue_.wait_for_boxes(config.boxes_timeout_s);
+  outputs_.reconfigure(config.mapper.grid, config.full_map_every);
+}
+
 /// Nothing more comes: integrates the rest, then makes the map again from scratch with the final poses, so
 /// that it depends on the data alone and not on when they arrived.
 service::CommandOutcome MapperService::finish(const std::string& argument) {

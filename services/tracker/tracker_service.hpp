@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
 #include "common/map_commands/map_commands.hpp"
-#include "common/service/service.hpp"
 #include "common/map_commands/saved_map_services.hpp"
+#include "common/service/service.hpp"
 #include "services/tracker/core/prediction/movable_objects.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/frame_input.hpp"
@@ -26,6 +27,10 @@ class TrackerService : public service::Service {
  public:
   TrackerService(service::ServiceContext& context, const TrackerServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  static constexpr std::array kLiveSettings{"frames.publish_tf", "keyframe.movable_interval_s",
+                                            "keyframe.static_interval_s"};
+  /// Takes over what may change while it runs, on its worker.
+  void reconfigure(const TrackerServiceConfig& config);
   /// Hands over what is to last.
   void close() override { epoch_.save(); }
 
@@ -77,8 +82,8 @@ class TrackerService : public service::Service {
   std::pair<std::uint64_t, std::uint64_t> refused_loop_;  // instance and revision of the newest one
   bool paused_ = false;
   map_commands::MapCommands map_commands_;
+  map_commands::SavedMapServices saved_map_services_;  // of all services
   std::vector<bus::Subscription> subscriptions_;  // last: callbacks use the members above
 };
 
 }  // namespace rds::tracker
-  map_commands::SavedMapServices saved_map_services_;  // of all services

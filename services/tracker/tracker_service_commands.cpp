@@ -45,6 +45,11 @@ service::CommandOutcome TrackerService::execute(const std::string& verb, const s
   return unknown_command(verb);
 }
 
+void TrackerService::reconfigure(const TrackerServiceConfig& config) {
+  outputs_.odometry().publish_tf(config.frames.publish_tf);
+  tracker_.set_keyframes(config.tracker.keyframe);
+}
+
 /// Nothing more comes: takes every answer that is still on its way and publishes the final poses.
 service::CommandOutcome TrackerService::finish() {
   while (const auto frame = input_.frames().try_pop()) {

@@ -36,6 +36,11 @@ TransformerService::TransformerService(service::ServiceContext& context,
                                              [this](Info m) { camera_inbox_.push(std::move(m)); }));
 }
 
+void TransformerService::reconfigure(const TransformerServiceConfig& config) {
+  config_.transformer.min_depth_m = config.transformer.min_depth_m;
+  config_.transformer.max_depth_m = config.transformer.max_depth_m;
+}
+
 void TransformerService::run(const std::stop_token& stop) {
   while (wait(stop, [this] {
     return !detections_inbox_.locked_empty() || !poses_inbox_.locked_empty() ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -24,6 +25,9 @@ class TransformerService : public service::Service {
  public:
   TransformerService(service::ServiceContext& context, const TransformerServiceConfig& config);
   void run(const std::stop_token& stop) override;
+  static constexpr std::array kLiveSettings{"min_depth_m", "max_depth_m"};
+  /// Takes over what may change while it runs, on its worker.
+  void reconfigure(const TransformerServiceConfig& config);
 
  protected:
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;

@@ -11,19 +11,28 @@ namespace {
 constexpr std::size_t kMostWaiting = 2;
 constexpr std::size_t kMostFeatureMessages = 32;  // a second of frames
 
+template <class Duration>
+Duration period_of(double hz) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(1 / hz));
+}
+
 }  // namespace
 
 PictureFeed::PictureFeed(service::ServiceContext& context, const ViewerServiceConfig& config, Board& board,
                          concurrency::Mailbox& mailbox, std::function<void()> notify)
     : context_(context),
       topic_(config.color_topic),
-      period_(
-          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / config.picture_hz))),
+      period_(period_of<Clock::duration>(config.picture_hz)),
       board_(board),
       notify_(std::move(notify)),
       compressor_(config.picture_quality),
       images_(mailbox, kMostWaiting),
       features_(mailbox, kMostFeatureMessages) {}
+
+void PictureFeed::set(double hz, int quality) {
+  period_ = period_of<Clock::duration>(hz);
+  compressor_ = keyframe_codec::JpegCompressor(quality);
+}
 
 void PictureFeed::want(bool wanted) {
   if (wanted == image_subscription_.has_value()) return;
@@ -50,7 +59,7 @@ void PictureFeed::subscribe() {
 
 void PictureFeed::receive(Image image) {
   const auto now = Clock::now();
-  if (now - last_.load() < period_) return;
+  if (now - last_.load() < period_.load()) return;
   last_ = now;
   images_.push(std::move(image));
   notify_();

@@ -27,6 +27,8 @@ class PictureFeed {
   PictureFeed(service::ServiceContext& context, const ViewerServiceConfig& config, Board& board,
               concurrency::Mailbox& mailbox, std::function<void()> notify);
 
+  /// @param hz  pictures a second, at most. @param quality  1 to 100, of JPEG.
+  void set(double hz, int quality);
   /// Begins or ends to listen.
   void want(bool wanted);
   /// Puts on the board what is complete.
@@ -43,7 +45,7 @@ class PictureFeed {
 
   service::ServiceContext& context_;
   std::string topic_;
-  Clock::duration period_;
+  std::atomic<Clock::duration> period_;
   Board& board_;
   std::function<void()> notify_;
   keyframe_codec::JpegCompressor compressor_;

@@ -41,6 +41,7 @@ class Scene {
     board_.put(Kind::kServices, text_frame(Kind::kServices, services_.to_json(now_s)));
   }
   void want_picture(bool wanted) { picture_.want(wanted); }
+  void set_picture(double hz, int quality) { picture_.set(hz, quality); }
   /// Another map begins: the path of the one before goes.
   void forget_path() { board_.path.clear(); }
   [[nodiscard]] std::string metrics(double now_s, std::size_t clients);

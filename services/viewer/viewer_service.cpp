@@ -54,6 +54,10 @@ ViewerService::~ViewerService() {
   server_.reset();
 }
 
+void ViewerService::reconfigure(const ViewerServiceConfig& config) {
+  scene_->set_picture(config.picture_hz, config.picture_quality);
+}
+
 void ViewerService::run(const std::stop_token& stop) {
   for (double services_put_s = 0; !stop.stop_requested();) {
     beat();

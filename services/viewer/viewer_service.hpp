@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <set>
@@ -29,6 +30,9 @@ class ViewerService final : public service::Service, private WebApp {
   ViewerService(const ViewerService&) = delete;
   ViewerService& operator=(const ViewerService&) = delete;
   void run(const std::stop_token& stop) override;
+  static constexpr std::array kLiveSettings{"picture_hz", "picture_quality"};
+  /// Takes over what may change while it runs, on its worker.
+  void reconfigure(const ViewerServiceConfig& config);
 
  protected:
   service::CommandOutcome execute(const std::string& verb, const std::string& argument) override;

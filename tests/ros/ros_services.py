@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_services.py TRACKER MAPPER (look N M | reset | lifecycle | managed | shutdown): what an ordinary ROS 2 node is told by
+"""ros_services.py TRACKER MAPPER (look N M | set HEIGHT | reset | lifecycle | managed | shutdown): what an ordinary ROS 2 node is told by
 the services of our nodes, as one line of JSON.
 
 TRACKER, MAPPER  full names ("/rds_tracker"). With `look` it reads all that they tell, once it has heard of N services of the tracker and M of the mapper (ROS
-hears of a node's endpoints one by one, after the node has answered the first requests already). With `reset` it asks the mapper for that alone: whoever looks at
+hears of a node's endpoints one by one, after the node has answered the first requests already). With `set` it changes settings of the mapper while it runs, the
+grid's lowest height to HEIGHT. With `reset` it asks the mapper for that alone: whoever looks at
 the grid meanwhile finds it empty. With `lifecycle` it takes the tracker through its states, as `ros2 lifecycle` and Nav2's manager do; with `managed` it brings
 one up that begins unconfigured; with `shutdown` it ends it.
 """
@@ -16,13 +17,18 @@ import rclpy
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from nav_msgs.srv import GetMap
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, GetParameterTypes, ListParameters, SetParameters, SetParametersAtomically
 from std_srvs.srv import SetBool, Trigger
 
 LIMIT_S = 20
 VALUES = {ParameterType.PARAMETER_BOOL: "bool_value", ParameterType.PARAMETER_INTEGER: "integer_value", ParameterType.PARAMETER_DOUBLE: "double_value",
           ParameterType.PARAMETER_STRING: "string_value", ParameterType.PARAMETER_STRING_ARRAY: "string_array_value"}
+
+
+def a_parameter(name, value):
+    kind = {bool: ParameterType.PARAMETER_BOOL, int: ParameterType.PARAMETER_INTEGER, float: ParameterType.PARAMETER_DOUBLE, str: ParameterType.PARAMETER_STRING}[type(value)]
+    return Parameter(name=name, value=ParameterValue(type=kind, **{VALUES[kind]: value}))
 
 
 class Asker:
@@ -46,10 +52,10 @@ class Asker:
         values = self.ask(GetParameters, f"{of}/get_parameters", names=names).values
         types = list(self.ask(GetParameterTypes, f"{of}/get_parameter_types", names=names).types)
         descriptors = self.ask(DescribeParameters, f"{of}/describe_parameters", names=names).descriptors
-        one = [Parameter(name=names[0], value=ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=True))]
+        one = [a_parameter("nice", 3)]
         return {"values": {n: getattr(v, VALUES[v.type]) for n, v in zip(names, values, strict=True)},
                 "types_agree": types == [v.type for v in values] == [d.type for d in descriptors],
-                "descriptions": {d.name: d.description for d in descriptors}, "read_only": all(d.read_only for d in descriptors),
+                "descriptions": {d.name: d.description for d in descriptors}, "live": [d.name for d in descriptors if not d.read_only],
                 "refusals": [[r.successful, r.reason] for r in (self.ask(SetParameters, f"{of}/set_parameters", parameters=one).results[0],
                                                                 self.ask(SetParametersAtomically, f"{of}/set_parameters_atomically", parameters=one).result)]}
 
@@ -111,6 +117,30 @@ def managed(asker, of):
     return [life.state(), life.change(id=Transition.TRANSITION_CONFIGURE), life.change(id=Transition.TRANSITION_ACTIVATE)]
 
 
+def set_live(asker, of, height):
+    """What `ros2 param set` does. @return results, the changes that were told to all, and how many cells of the grid are occupied before and after."""
+    events = []
+    asker.node.create_subscription(ParameterEvent, "/parameter_events", events.append, 1000)
+
+    def results(*parameters):
+        return [[r.successful, r.reason] for r in asker.ask(SetParameters, f"{of}/set_parameters", parameters=[a_parameter(*p) for p in parameters]).results]
+
+    def occupied():
+        return sum(c == 100 for c in asker.ask(GetMap, f"{of}/map").map.data)
+
+    told = {"occupied": [occupied()],
+            "results": results(("grid.min_height_m", height), ("grid.max_height_m", -1000.0), ("full_map_every", "often"), ("octree.resolution_m", 0.1), ("log_level", "debug"))}
+    together = asker.ask(SetParametersAtomically, f"{of}/set_parameters_atomically", parameters=[a_parameter("log_level", "info"), a_parameter("full_map_every", 0)])
+    told["together"] = [together.result.successful, together.result.reason]
+    told["values"] = [getattr(v, VALUES[v.type]) for v in asker.ask(GetParameters, f"{of}/get_parameters", names=["grid.min_height_m", "grid.max_height_m", "log_level"]).values]
+    told["occupied"].append(occupied())
+    end = time.monotonic() + LIMIT_S
+    while sum(event.node == of for event in events) < 2 and time.monotonic() < end:
+        rclpy.spin_once(asker.node, timeout_sec=0.1)
+    told["events"] = [[p.name, getattr(p.value, VALUES[p.value.type])] for event in events if event.node == of for p in event.changed_parameters]
+    return told
+
+
 def reset(asker, mapper):
     return asker.ask(Trigger, f"{mapper}/reset").success
 
@@ -131,7 +161,7 @@ def main():
     rclpy.init()
     node = rclpy.create_node("asker")
     asker = Asker(node)
-    wanted = {"look": lambda: look(asker, tracker, mapper, [int(number) for number in sys.argv[4:]]), "reset": lambda: reset(asker, mapper),
+    wanted = {"look": lambda: look(asker, tracker, mapper, [int(number) for number in sys.argv[4:]]), "set": lambda: set_live(asker, mapper, float(sys.argv[4])), "reset": lambda: reset(asker, mapper),
               "lifecycle": lambda: lifecycle(asker, tracker), "managed": lambda: managed(asker, tracker),
               "shutdown": lambda: asker.ask(ChangeState, f"{tracker}/change_state", transition=Transition(id=Transition.TRANSITION_ACTIVE_SHUTDOWN)).success}
     print(json.dumps(wanted[sys.argv[3]]()), flush=True)

@@ -27,6 +27,8 @@ TRACKER, MAPPER = "/robot1/rds_tracker", "/robot1/rds_mapper"
 OF_EVERY_NODE = {"list_parameters": "ListParameters", "get_parameters": "GetParameters", "get_parameter_types": "GetParameterTypes",
                  "describe_parameters": "DescribeParameters", "set_parameters": "SetParameters", "set_parameters_atomically": "SetParametersAtomically"}
 
+LIVE = {TRACKER: ["frames.publish_tf", "keyframe.movable_interval_s", "keyframe.static_interval_s", "log_level"],
+        MAPPER: ["boxes_timeout_s", "full_map_every", "grid.max_height_m", "grid.min_height_m", "log_level"]}
 LIFECYCLE = {"get_state": "GetState", "change_state": "ChangeState", "get_available_states": "GetAvailableStates",
              "get_available_transitions": "GetAvailableTransitions", "get_transition_graph": "GetAvailableTransitions"}
 
@@ -42,10 +44,10 @@ def services_of(node):
     if node == MAPPER:
         services |= {f"{node}/map": ["nav_msgs/srv/GetMap"], "/robot1/octomap_binary": ["octomap_msgs/srv/GetOctomap"],
                      "/robot1/octomap_full": ["octomap_msgs/srv/GetOctomap"]}
-    return services
-
     else:
         services |= {f"{node}/{name}_map": [f"rds_msgs/srv/{name.title()}Map"] for name in ("save", "load")}
+    return services
+
 
 class RosServices(unittest.TestCase):
     def setUp(self):
@@ -89,7 +91,7 @@ class RosServices(unittest.TestCase):
         for node in (TRACKER, MAPPER):
             self.assertGreater(len(told[node]["values"]), 25)
             self.assertTrue(told[node]["types_agree"])
-            self.assertTrue(told[node]["read_only"])
+            self.assertEqual(told[node]["live"], LIVE[node])
             for successful, reason in told[node]["refusals"]:
                 self.assertFalse(successful)
                 self.assertIn("is read at the start", reason)
@@ -104,6 +106,17 @@ class RosServices(unittest.TestCase):
         self.assertGreater(told["grid"]["occupied"], 0)
         self.assertGreaterEqual(told["grid"]["width"] * told["grid"]["height"], told["grid"]["occupied"])
         self.assertEqual(told["commands"], ["paused", "resumed"])
+
+    def check_set(self, told, height):
+        taken, bounds, kind, constant, level = told["results"]
+        self.assertEqual([taken[0], level[0]], [True, True])
+        self.assertRegex(bounds[1], "grid.max_height_m: -1000, expected")
+        self.assertEqual(kind, [False, "'full_map_every' is of type integer, not string"])
+        self.assertRegex(constant[1], "is read at the start")
+        self.assertEqual(told["together"][0], False)
+        self.assertRegex(told["together"][1], "full_map_every: 0, expected 1")
+        self.assertEqual(told["values"], [height, 1.8, "debug"])
+        self.assertEqual(told["events"], [["grid.min_height_m", height], ["log_level", "debug"]])
 
     def check_lifecycle(self, told):
         self.assertEqual(told["states"], ["unknown", "unconfigured", "inactive", "active", "finalized", "configuring", "cleaningup", "shuttingdown", "activating",
@@ -135,6 +148,12 @@ class RosServices(unittest.TestCase):
                 self.check_parameters(told)
                 self.check_graph(told)
                 self.check_map_and_commands(told)
+        for distribution, height in (("jazzy", 1.5), ("kilted", 0.1)):
+            with self.subTest(distribution):
+                told = json.loads(self.ask(distribution, "set", str(height)).communicate()[0])
+                self.check_set(told, height)
+                before, after = told["occupied"]
+                self.assertTrue(after < before if height > 1 else after > before, told["occupied"])
         for distribution in DISTRIBUTIONS:
             with self.subTest(distribution):
                 self.check_lifecycle(json.loads(self.ask(distribution, "lifecycle").communicate()[0]))

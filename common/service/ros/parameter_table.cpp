@@ -2,6 +2,7 @@
 #include "common/service/ros/parameter_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "common/service/ros/setting_comments.hpp"
@@ -46,6 +47,41 @@ ParameterValue read_as(ParameterKind kind, const YAML::Node& node) {
       break;
   }
   return value;
+}
+
+/// Of a live setting, which is none of a byte array. Others: null.
+YAML::Node to_yaml(const ParameterValue& value) {
+  switch (static_cast<ParameterKind>(value.type())) {
+    case kBool:
+      return YAML::Node(value.bool_value());
+    case kInteger:
+      return YAML::Node(value.integer_value());
+    case kDouble:
+      return YAML::Node(value.double_value());
+    case kString:
+      return YAML::Node(value.string_value());
+    case kBoolArray:
+      return YAML::Node(value.bool_array_value());
+    case kIntegerArray:
+      return YAML::Node(value.integer_array_value());
+    case kDoubleArray:
+      return YAML::Node(value.double_array_value());
+    case kStringArray:
+      return YAML::Node(value.string_array_value());
+    case kByteArray:
+    case kNotSet:
+      break;
+  }
+  return {};
+}
+
+/// As `ros2 param` names it.
+std::string name_of(ParameterKind kind) {
+  static constexpr std::array<const char*, 10> kNames{
+      "none",       "boolean",       "integer",       "double",       "string",
+      "byte array", "boolean array", "integer array", "double array", "string array"};
+  const auto index = static_cast<std::size_t>(kind);
+  return index < kNames.size() ? kNames[index] : "unknown";
 }
 
 template <class T>
@@ -122,7 +158,8 @@ bool is_listed(const std::string& name, const ParameterTable::Names& prefixes, s
 
 }  // namespace
 
-ParameterTable::ParameterTable(const std::string& shipped, const YAML::Node& given) {
+ParameterTable::ParameterTable(const std::string& shipped, const YAML::Node& given,
+                               const std::vector<std::string>& live) {
   const auto comments = setting_comments(shipped);
   const auto set = flattened(given);
   auto defaults = flattened(YAML::Load(shipped));
@@ -133,6 +170,7 @@ ParameterTable::ParameterTable(const std::string& shipped, const YAML::Node& giv
     parameter.value = value_of(found == set.end() ? node : found->second, preferred_kind(node));
     if (const auto comment = comments.find(name); comment != comments.end())
       parameter.description = comment->second;
+    parameter.is_live = std::ranges::find(live, name) != live.end();
   }
 }
 
@@ -175,18 +213,36 @@ std::vector<rcl_interfaces::msg::ParameterDescriptor> ParameterTable::descriptor
     if (found == parameters_.end()) continue;
     descriptor.type(found->second.value.type());
     descriptor.description(found->second.description);
-    descriptor.read_only(true);
+    descriptor.read_only(!found->second.is_live);
   }
   return descriptors;
 }
 
-rcl_interfaces::msg::SetParametersResult ParameterTable::refuse(const std::string& name) const {
-  rcl_interfaces::msg::SetParametersResult result;
-  result.reason(parameters_.contains(name)
-                    ? "'" + name + "' is read at the start: start the service again with -p " + name +
-                          ":=VALUE"
-                    : "'" + name + "' is not a setting of this service");
-  return result;
+std::string ParameterTable::why_not(const rcl_interfaces::msg::Parameter& wanted) const {
+  const std::string& name = wanted.name();
+  const auto found = parameters_.find(name);
+  if (found == parameters_.end()) return "'" + name + "' is not a setting of this service";
+  if (!found->second.is_live)
+    return "'" + name + "' is read at the start: start the service again with -p " + name + ":=VALUE";
+  const auto kind = static_cast<ParameterKind>(found->second.value.type());
+  const auto given = static_cast<ParameterKind>(wanted.value().type());
+  if (given == kind || (kind == kDouble && given == kInteger)) return "";
+  return "'" + name + "' is of type " + name_of(kind) + ", not " + name_of(given);
+}
+
+tl::expected<std::string, std::string> ParameterTable::changes(
+    const std::vector<rcl_interfaces::msg::Parameter>& wanted) const {
+  YAML::Node values(YAML::NodeType::Map);
+  for (const auto& parameter : wanted) {
+    if (const std::string reason = why_not(parameter); !reason.empty()) return tl::unexpected(reason);
+    values[parameter.name()] = to_yaml(parameter.value());
+  }
+  return YAML::Dump(values);
+}
+
+ParameterValue ParameterTable::set(const std::string& name, const YAML::Node& value) {
+  Parameter& parameter = parameters_.at(name);
+  return parameter.value = value_of(value, static_cast<ParameterKind>(parameter.value.type()));
 }
 
 }  // namespace rds::service

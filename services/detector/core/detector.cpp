@@ -56,8 +56,12 @@ Detector::Detector(const NetworkDescription& description, std::unique_ptr<Infere
       backend_(std::move(backend)),
       decoder_(make_decoder(description)) {
   for (std::string& label : description_.labels) label = config_.labels.name_of(label);
-  if (config_.score_threshold <= 0) config_.score_threshold = description_.score_threshold;
+  set_score_threshold(config_.score_threshold);
   check_outputs();
+}
+
+void Detector::set_score_threshold(double threshold) {
+  config_.score_threshold = threshold > 0 ? threshold : description_.score_threshold;
 }
 
 void Detector::check_outputs() {

@@ -42,6 +42,8 @@ class Detector {
 
   [[nodiscard]] const NetworkDescription& network() const { return description_; }
   /// The inference library and its version.
+  /// From the next picture on. @param threshold  0: the network's own.
+  void set_score_threshold(double threshold);
   [[nodiscard]] std::string library() const { return backend_->library(); }
 
  private:

@@ -54,6 +54,9 @@ class KeyframeQueue {
   /// Where the camera stands still no newer keyframe comes: several times as long as a detector needs.
   static constexpr std::chrono::seconds kLongestWait{5};
 
+  /// From now on, where boxes are expected and there is no lockstep: BoxesWait::timeout_s.
+  void wait_for_boxes(double timeout_s) { wait_.timeout_s = timeout_s; }
+
   /// A keyframe that waits or is integrated already changes nothing.
   void add(const Images& images, Clock::time_point now = Clock::now());
   /// Boxes wait for their keyframe, in place of others of its stamp. Those of an integrated keyframe that has

@@ -103,6 +103,8 @@ class Tracker {
   /// Which way is up in the next picture's camera, if an accelerometer says so: a map that begins with it is
   /// level by that, not by floors and walls. A setting goes before both.
   void set_up(const std::optional<Eigen::Vector3d>& up_in_camera) { localizer_.set_up(up_in_camera); }
+  /// Keyframes are made as often as that from now on.
+  void set_keyframes(const KeyframeConfig& config) { keyframes_.set(config); }
   /// Somebody says where the camera is: if it is lost, it looks there, too, until it is found.
   /// @return whether it is lost.
   bool seek(const SoughtPlace& place);

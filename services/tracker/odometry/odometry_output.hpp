@@ -28,13 +28,14 @@ class OdometryOutput {
   [[nodiscard]] std::optional<geometry::Pose> look_up(const std::string& target, const std::string& source,
                                                       std::int64_t stamp_ns);
   void begin_map() { odometry_.begin_map(); }
+  void publish_tf(bool published) { publish_tf_ = published; }
 
  private:
   void take(const tf2_msgs::msg::TFMessage& message, bool is_static);
 
   service::ServiceContext& context_;
   FrameNames names_;
-  bool publish_tf_;
+  bool publish_tf_;  // the worker's
   Odometry odometry_;
   bus::Publisher<nav_msgs::msg::Odometry> publisher_;
   bus::Publisher<tf2_msgs::msg::TFMessage> tf_;

@@ -17,21 +17,23 @@
 #include "rcl_interfaces/srv/GetParameters_Response.h"
 #include "rcl_interfaces/srv/ListParameters_Request.h"
 #include "rcl_interfaces/srv/ListParameters_Response.h"
+#include "rcl_interfaces/srv/SetParametersAtomically_Request.h"
+#include "rcl_interfaces/srv/SetParametersAtomically_Response.h"
 #include "rcl_interfaces/srv/SetParameters_Request.h"
 #include "rcl_interfaces/srv/SetParameters_Response.h"
-#include "std_srvs/srv/SetBool_Request.h"
-#include "std_srvs/srv/SetBool_Response.h"
 #include "rds_msgs/srv/LoadMap_Request.h"
 #include "rds_msgs/srv/LoadMap_Response.h"
 #include "rds_msgs/srv/SaveMap_Request.h"
 #include "rds_msgs/srv/SaveMap_Response.h"
+#include "std_srvs/srv/SetBool_Request.h"
+#include "std_srvs/srv/SetBool_Response.h"
 #include "std_srvs/srv/Trigger_Request.h"
 #include "std_srvs/srv/Trigger_Response.h"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/service_client.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace rds::test {
-#include "tests/support/temporary_folder.hpp"
 namespace {
 
 using namespace lifecycle_msgs::srv;
@@ -96,6 +98,43 @@ TEST_P(NodeServices, TellSettingsAsParameters) {
   EXPECT_THAT(refused->results().at(0).reason(), HasSubstr("is read at the start"));
 }
 
+rcl_interfaces::msg::Parameter parameter(const std::string& name, double value) {
+  rcl_interfaces::msg::Parameter parameter;
+  parameter.name(name);
+  parameter.value().type(3);
+  parameter.value().double_value(value);
+  return parameter;
+}
+
+TEST_P(NodeServices, SetLiveSettings) {
+  SetParameters_Request setting;
+  setting.parameters({parameter("keyframe.static_interval_s", 2.5),
+                      parameter("keyframe.movable_interval_s", 0), parameter("extraction.scale_factor", 1.5),
+                      parameter("frames.publish_tf", 1)});
+  const auto told = ask<SetParameters_Request, SetParameters_Response>("set_parameters", setting);
+  ASSERT_TRUE(told) << tracker.standard_error();
+  ASSERT_EQ(told->results().size(), 4U);
+  EXPECT_TRUE(told->results()[0].successful()) << told->results()[0].reason();
+  EXPECT_THAT(told->results()[1].reason(), HasSubstr("keyframe.movable_interval_s: 0, expected 0.01"));
+  EXPECT_THAT(told->results()[2].reason(), HasSubstr("is read at the start"));
+  EXPECT_THAT(told->results()[3].reason(), HasSubstr("is of type boolean, not double"));
+
+  SetParametersAtomically_Request together;
+  together.parameters(
+      {parameter("keyframe.static_interval_s", 3), parameter("keyframe.movable_interval_s", 0)});
+  const auto refused = ask<SetParametersAtomically_Request, SetParametersAtomically_Response>(
+      "set_parameters_atomically", together);
+  ASSERT_TRUE(refused);
+  EXPECT_FALSE(refused->result().successful());
+
+  GetParameters_Request names;
+  names.names({"keyframe.static_interval_s", "keyframe.movable_interval_s"});
+  const auto got = ask<GetParameters_Request, GetParameters_Response>("get_parameters", names);
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->values().at(0).double_value(), 2.5);
+  EXPECT_EQ(got->values().at(1).double_value(), 0.1);
+}
+
 TEST_P(NodeServices, CarryOutCommands) {
   const auto state = ask<GetState_Request, GetState_Response>("get_state", {});
   ASSERT_TRUE(state) << tracker.standard_error();
@@ -132,45 +171,6 @@ TEST_P(NodeServices, GoThroughTheStatesOfALife) {
   EXPECT_EQ(tracker.wait(std::chrono::seconds(20)), 0);
 }
 
-/// The end of a bond that Nav2's lifecycle manager holds: it tells ten times a second that it lives.
-class ManagersBond {
- public:
-  ManagersBond(bus::Vendor vendor, const std::string& id)
-      : bus_(bus::Participant::create(
-            {.vendor = vendor, .domain = test_domain(), .node_name = "manager", .loopback_only = true})),
-        publisher_(bus_->advertise<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 5})),
-        subscription_(bus_->subscribe<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 100},
-                                                         [this, id](const auto& m) {
-                                                           const std::lock_guard lock(mutex_);
-                                                           if (m->id() == id && m->instance_id() != kInstance)
-                                                             heard_ = *m;
-                                                         })) {
-    status_.id(id);
-    status_.instance_id(kInstance);
-  }
-  /// @return the newest answer to heartbeats of half a second; nullopt if there is none.
-  std::optional<bond::msg::Status> tell(bool active) {
-    status_.active(active);
-    {
-      const std::lock_guard lock(mutex_);
-      heard_.reset();
-    }
-    for (int i = 0; i < 5; ++i) {
-      publisher_.write(status_);
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    const std::lock_guard lock(mutex_);
-    return heard_;
-  }
-  /// Nav2 waits two seconds for a bond to form; a busy machine may take longer.
-  bool forms() {
-    for (int i = 0; i < 20; ++i)
-      if (const auto heard = tell(true); heard && heard->active()) return true;
-    return false;
-  }
-
- private:
-  static constexpr const char* kInstance = "0d7a9d3c-manager";
 /// Tracker and mapper in one folder of maps.
 class NodesWithAMap : public ::testing::TestWithParam<bus::Vendor> {
  protected:
@@ -218,6 +218,45 @@ TEST_P(NodesWithAMap, SaveAndLoadItByName) {
   EXPECT_THAT(load("cellar"), ::testing::AllOf(HasSubstr("not done: rds-tracker: "), HasSubstr("cellar")));
 }
 
+/// The end of a bond that Nav2's lifecycle manager holds: it tells ten times a second that it lives.
+class ManagersBond {
+ public:
+  ManagersBond(bus::Vendor vendor, const std::string& id)
+      : bus_(bus::Participant::create(
+            {.vendor = vendor, .domain = test_domain(), .node_name = "manager", .loopback_only = true})),
+        publisher_(bus_->advertise<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 5})),
+        subscription_(bus_->subscribe<bond::msg::Status>("robot1/bond", {.reliable = true, .depth = 100},
+                                                         [this, id](const auto& m) {
+                                                           const std::lock_guard lock(mutex_);
+                                                           if (m->id() == id && m->instance_id() != kInstance)
+                                                             heard_ = *m;
+                                                         })) {
+    status_.id(id);
+    status_.instance_id(kInstance);
+  }
+  /// @return the newest answer to heartbeats of half a second; nullopt if there is none.
+  std::optional<bond::msg::Status> tell(bool active) {
+    status_.active(active);
+    {
+      const std::lock_guard lock(mutex_);
+      heard_.reset();
+    }
+    for (int i = 0; i < 5; ++i) {
+      publisher_.write(status_);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+  /// Nav2 waits two seconds for a bond to form; a busy machine may take longer.
+  bool forms() {
+    for (int i = 0; i < 20; ++i)
+      if (const auto heard = tell(true); heard && heard->active()) return true;
+    return false;
+  }
+
+ private:
+  static constexpr const char* kInstance = "0d7a9d3c-manager";
   std::unique_ptr<bus::Participant> bus_;
   bond::msg::Status status_;
   std::mutex mutex_;
@@ -263,10 +302,10 @@ constexpr std::array kVendors{
 };
 INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices, ::testing::ValuesIn(kVendors),
                          [](const auto& tested) { return name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Vendors, NodesWithAMap, ::testing::ValuesIn(kVendors),
+                         [](const auto& tested) { return name_of(tested.param); });
 INSTANTIATE_TEST_SUITE_P(Vendors, ManagedNode, ::testing::ValuesIn(kVendors),
                          [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace
 }  // namespace rds::test
-INSTANTIATE_TEST_SUITE_P(Vendors, NodesWithAMap, ::testing::ValuesIn(kVendors),
-                         [](const auto& tested) { return name_of(tested.param); });

@@ -27,6 +27,8 @@ class KeyframeSelector {
   };
 
   explicit KeyframeSelector(const KeyframeConfig& config) : config_(config) {}
+  /// From the next frame on.
+  void set(const KeyframeConfig& config) { config_ = config; }
 
   /// The keyframe with the view nearest to the frame's: the newest one, or one of those covisible with the
   /// reference that are older than config.known_after_s. (While a place is new, every turn of the camera

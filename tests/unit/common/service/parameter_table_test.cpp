@@ -28,7 +28,17 @@ origins: [a#b, c]      # sites
 )";
 
 ParameterTable table(const std::string& given = "{}") {
-  return {kShipped, YAML::Load(given)};
+  return {kShipped, YAML::Load(given), {"camera.depth.max_m", "name"}};
+}
+
+rcl_interfaces::msg::Parameter wanted(const std::string& name, ParameterKind kind) {
+  rcl_interfaces::msg::Parameter parameter;
+  parameter.name(name);
+  parameter.value().type(static_cast<std::uint8_t>(kind));
+  parameter.value().integer_value(3);
+  parameter.value().double_value(2.5);
+  parameter.value().string_value("no: \"yes\"");
+  return parameter;
 }
 
 rcl_interfaces::msg::ParameterValue value(const ParameterTable& table, const std::string& name) {
@@ -87,7 +97,7 @@ TEST(ParameterTable, KnowsNothingOfOthers) {
   EXPECT_EQ(kind(parameters, "other"), kNotSet);
   EXPECT_THAT(parameters.list({"other"}, 0).names(), IsEmpty());
   EXPECT_EQ(parameters.descriptors({"other"}).at(0).name(), "other");
-  EXPECT_THAT(parameters.refuse("other").reason(), HasSubstr("not a setting"));
+  EXPECT_THAT(parameters.changes({wanted("other", kInteger)}).error(), HasSubstr("not a setting"));
 }
 
 TEST(ParameterTable, DescribesAndRefuses) {
@@ -95,10 +105,30 @@ TEST(ParameterTable, DescribesAndRefuses) {
   const auto descriptor = parameters.descriptors({"camera.depth.max_m"}).at(0);
   EXPECT_EQ(descriptor.description(), "beyond: as if not measured");
   EXPECT_EQ(static_cast<ParameterKind>(descriptor.type()), kDouble);
-  EXPECT_TRUE(descriptor.read_only());
-  const auto refusal = parameters.refuse("nice");
-  EXPECT_FALSE(refusal.successful());
-  EXPECT_THAT(refusal.reason(), HasSubstr("-p nice:=VALUE"));
+  EXPECT_FALSE(descriptor.read_only());
+  EXPECT_TRUE(parameters.descriptors({"nice"}).at(0).read_only());
+  EXPECT_THAT(parameters.changes({wanted("nice", kInteger)}).error(), HasSubstr("-p nice:=VALUE"));
+  EXPECT_THAT(parameters.changes({wanted("name", kString), wanted("nice", kInteger)}).error(),
+              HasSubstr("read at the start"));
+}
+
+TEST(ParameterTable, TakesLiveSettingsOfTheirKind) {
+  const ParameterTable parameters = table();
+  const auto of_doubles = parameters.changes({wanted("camera.depth.max_m", kDouble)});
+  EXPECT_EQ(YAML::Load(of_doubles.value())["camera.depth.max_m"].as<double>(), 2.5);
+  const auto of_integers =
+      parameters.changes({wanted("camera.depth.max_m", kInteger), wanted("name", kString)});
+  EXPECT_EQ(YAML::Load(of_integers.value())["camera.depth.max_m"].as<double>(), 3);
+  EXPECT_EQ(YAML::Load(of_integers.value())["name"].as<std::string>(), "no: \"yes\"");
+  EXPECT_EQ(parameters.changes({wanted("name", kBool)}).error(), "'name' is of type string, not boolean");
+  EXPECT_EQ(parameters.changes({wanted("name", kNotSet)}).error(), "'name' is of type string, not none");
+}
+
+TEST(ParameterTable, TellsWhatWasSet) {
+  ParameterTable parameters = table();
+  EXPECT_EQ(parameters.set("camera.depth.max_m", YAML::Load("3")).double_value(), 3);
+  EXPECT_EQ(value(parameters, "camera.depth.max_m").double_value(), 3);
+  EXPECT_EQ(kind(parameters, "camera.depth.max_m"), kDouble);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ using rds_msgs::msg::CommandResult;
 using rds_msgs::msg::ServiceStatus;
 namespace Role = rds_msgs::msg::ServiceStatus_Constants;
 using test::test_domain;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::unique_ptr<bus::Participant> join(const std::string& name) {
@@ -42,7 +43,8 @@ std::atomic<bool> goes_on;  // of a worker that hangs
 /// Answers `ping`, throws at `throw`, hangs at `hang` until `goes_on`.
 class Probe : public Service {
  public:
-  using Service::Service;
+  Probe(ServiceContext& context, int pace_at_first) : Service(context), pace(pace_at_first) {}
+  int pace;
   void run(const std::stop_token& stop) override {
     while (wait(stop, [this] { return !commands_.locked_empty(); })) handle_commands();
   }
@@ -51,16 +53,29 @@ class Probe : public Service {
   CommandOutcome execute(const std::string& verb, const std::string&) override {
     if (verb == "throw") throw std::runtime_error("thrown \xFF");
     if (verb == "hang") goes_on.wait(false);
-    return verb == "throw" ? unknown_command(verb) : CommandOutcome{true, "done"};
+    return verb == "throw" ? unknown_command(verb) : CommandOutcome{true, fmt::format("done at {}", pace)};
   }
 };
+
+/// `pace` may be set live, up to 9; `ping` tells it.
+Configured read_probe(config::ConfigReader& reader) {
+  int pace = 1;
+  int constant = 0;
+  reader.value("pace", pace, 0, 9);
+  reader.value("constant", constant);
+  reader.finish();
+  return {.make = [pace](ServiceContext& context) { return std::make_unique<Probe>(context, pace); },
+          .live = {"pace"},
+          .apply = [pace](Service& service) { dynamic_cast<Probe&>(service).pace = pace; }};
+}
 
 /// What a process of the service "probe" does, on a thread.
 class Running {
  public:
   explicit Running(std::uint64_t instance)
       : context_{"probe", *bus_, diagnostics_, test_domain(), instance},
-        process_(context_, [](ServiceContext& context) { return std::make_unique<Probe>(context); }),
+        settings_("", YAML::Node(YAML::NodeType::Map), read_probe),
+        process_(context_, settings_),
         thread_([this] { status_ = process_.run(); }) {}
   ~Running() {
     process_.request_stop();
@@ -73,6 +88,7 @@ class Running {
   std::unique_ptr<bus::Participant> bus_ = join("probe");
   Diagnostics diagnostics_;
   ServiceContext context_;
+  Settings settings_;
   ServiceProcess process_;
   int status_ = -1;
   std::thread thread_;
@@ -101,8 +117,8 @@ class OnTheBus : public ::testing::Test {
       if (status.instance() == instance) return status.message();
     return "not present";
   }
-  std::optional<CommandResult> ask(const std::string& verb) {
-    send(++request_, verb);
+  std::optional<CommandResult> ask(const std::string& verb, const std::string& argument = "") {
+    send(++request_, verb, argument);
     if (!holds_within(5s, [&] { return answers(request_).has_value(); })) return std::nullopt;
     return answers(request_);
   }
@@ -111,8 +127,9 @@ class OnTheBus : public ::testing::Test {
     const auto found = results_.find(request);
     return found == results_.end() ? std::nullopt : std::optional(found->second);
   }
-  void send(std::uint64_t request, const std::string& verb) {
+  void send(std::uint64_t request, const std::string& verb, const std::string& argument = "") {
     Command command;
+    command.argument(argument);
     command.request_id(request);
     command.verb(verb);
     commands_.write(command);
@@ -161,6 +178,24 @@ TEST_F(OnTheBus, AnExceptionIsAnAnswerAndTheWorkerGoesOn) {
   ASSERT_TRUE(done);
   EXPECT_TRUE(done->success());
   EXPECT_EQ(probe.diagnostics().counter("commands failed"), 1U);
+}
+
+TEST_F(OnTheBus, LiveSettingsChangeWithinTheirBoundsAndOthersNever) {
+  const Running probe(1);
+  ASSERT_TRUE(connected());
+  const auto told = [this](const std::string& verb, const std::string& argument = "") {
+    const auto result = ask(verb, argument);
+    return result ? fmt::format("{}: {}", result->success(), result->message()) : "no answer";
+  };
+  EXPECT_EQ(told("ping"), "true: done at 1");
+  EXPECT_EQ(told("set", "{pace: 7}"), "true: set");
+  EXPECT_EQ(told("ping"), "true: done at 7");
+  EXPECT_THAT(told("set", "{pace: 10}"), AllOf(HasSubstr("false"), HasSubstr("expected 0 … 9")));
+  EXPECT_THAT(told("set", "{pace: fast}"), HasSubstr("false"));
+  EXPECT_THAT(told("set", "{pace: 3, constant: 1}"),
+              HasSubstr("'constant' does not change while the service runs, expected one of: pace"));
+  EXPECT_THAT(told("set", "pace"), HasSubstr("expected a map"));
+  EXPECT_EQ(told("ping"), "true: done at 7");
 }
 
 TEST_F(OnTheBus, EveryCommandIsAnsweredAlsoThoseThatFindNoRoom) {

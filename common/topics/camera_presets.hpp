@@ -20,8 +20,8 @@ struct CameraPreset {
 };
 
 /// The first is the default: the names of this project (topics.hpp), and of realsense2_camera before 4.55.
-/// Source: documentation and launch files of realsense2_camera, azure_kinect_ros_driver, orbbec_camera and
-/// openni2_camera.
+/// Source: documentation and launch files of realsense2_camera, azure_kinect_ros_driver, orbbec_camera,
+/// openni2_camera and freenect_camera.
 inline constexpr std::array kCameraPresets{
     CameraPreset{"rds", "camera/color/image_raw", "camera/color/camera_info",
                  "camera/aligned_depth_to_color/image_raw", "kinect_v1"},
@@ -32,7 +32,9 @@ inline constexpr std::array kCameraPresets{
     CameraPreset{"orbbec", "camera/color/image_raw", "camera/color/camera_info", "camera/depth/image_raw",
                  "orbbec"},
     CameraPreset{"xtion", "camera/rgb/image_raw", "camera/rgb/camera_info", "camera/depth/image_raw",
-                 "xtion"}};
+                 "xtion"},
+    CameraPreset{"kinect_v1", "camera/rgb/image_raw", "camera/rgb/camera_info",
+                 "camera/depth_registered/image_raw", "kinect_v1"}};
 
 /// The preset that a setting names; the default where it is absent or, which is a violation, names none.
 CameraPreset read_camera_preset(config::ConfigReader& reader, const std::string& key);

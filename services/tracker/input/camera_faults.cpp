@@ -43,12 +43,14 @@ Fault fault_of(const StreamSight& stream, const std::vector<std::string>& others
                      remedy);
 }
 
-/// "camera.color", and the preset of a driver whose colour pictures are there.
+/// "camera.color", and the preset of a driver whose colour pictures are there, and best its depth, too.
 std::string color_setting(const std::vector<std::string>& others) {
+  const auto is_there = [&](const char* topic) { return std::ranges::find(others, topic) != others.end(); };
+  const topics::CameraPreset* best = nullptr;
   for (const topics::CameraPreset& preset : topics::kCameraPresets)
-    if (std::ranges::find(others, preset.color) != others.end())
-      return fmt::format("camera.preset to {}, or camera.color", preset.name);
-  return "camera.color";
+    if (is_there(preset.color) && (best == nullptr || (is_there(preset.depth) && !is_there(best->depth))))
+      best = &preset;
+  return best == nullptr ? "camera.color" : fmt::format("camera.preset to {}, or camera.color", best->name);
 }
 
 Fault fault_of_color(const CameraSight& sight) {

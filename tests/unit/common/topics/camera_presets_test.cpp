@@ -34,7 +34,7 @@ TEST(CameraPresets, AreListedWhereANameIsNone) {
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
     EXPECT_THAT(e.what(),
-                HasSubstr("preset: kinect, expected one of: rds, realsense, azure_kinect, orbbec, xtion"));
+                HasSubstr("preset: kinect, expected one of: rds, realsense, azure_kinect, orbbec, xtion, kinect_v1"));
   }
 }
 

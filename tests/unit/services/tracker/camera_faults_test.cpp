@@ -43,6 +43,8 @@ TEST(CameraFaults, NameOtherTopicsOfPictures) {
               ElementsAre(Pair("camera colour",
                                AllOf(HasSubstr("nobody publishes color"), HasSubstr("camera/rgb/image_raw"),
                                      HasSubstr("set camera.preset to xtion, or camera.color")))));
+  sight.other_pictures.push_back("camera/depth_registered/image_raw");
+  EXPECT_THAT(camera_faults(sight)["camera colour"], HasSubstr("set camera.preset to kinect_v1, or"));
 }
 
 TEST(CameraFaults, NameTheTypeThatIsNotRead) {

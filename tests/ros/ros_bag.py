@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ros_bag.py PASSES SECONDS: plays what a camera saw PASSES times, SECONDS of it, as `ros2 bag play --clock --loop` does.
+"""ros_bag.py PASSES SECONDS: plays what a camera saw PASSES times, SECONDS of it (10 at most), as `ros2 bag play --clock --loop` does.
 
-One ROS 2 node publishes /clock, from the same time on in each pass; another one has use_sim_time, and publishes the pictures of a wall that the camera moves along,
-30 a second, with the time of its clock. Ends a second after the last one.
+One ROS 2 node publishes /clock, from the same time on in each pass; another one has use_sim_time, and publishes the pictures of a wall behind a counter, which the camera moves
+along, 30 a second, with the time of its clock. Ends a second after the last one.
 """
 
 import sys
@@ -17,7 +17,9 @@ from sensor_msgs.msg import CameraInfo, Image
 
 WIDTH, HEIGHT = 640, 480
 BEGIN_S = 1000
-STEP_PX = 4  # a picture: at 2 m and 525 px, .46 m/s
+EDGE = 320  # row of the counter's
+FAR_M, NEAR_M = 3, 1.5  # wall, counter
+STEP_PX = 3  # of the wall in a picture: .5 m/s; the counter's is twice that
 K = [525.0, 0.0, 319.5, 0.0, 525.0, 239.5, 0.0, 0.0, 1.0]
 
 
@@ -34,18 +36,21 @@ class Camera:
         self.depth = self.node.create_publisher(Image, "camera/aligned_depth_to_color/image_raw", 5)
         self.info = self.node.create_publisher(CameraInfo, "camera/color/camera_info", 5)
         random = numpy.random.default_rng(1)
-        sizes = (4, 8, 16, 32)  # of blocks [px]: places look different from near and far
-        self.wall = sum(random.integers(0, 64, (HEIGHT // size, 4 * WIDTH // size, 3), dtype=numpy.uint8).repeat(size, 0).repeat(size, 1) for size in sizes)
-        self.far = numpy.full((HEIGHT, WIDTH), 2000, numpy.uint16)
+        sizes = (4, 8, 16, 32)  # of blocks [px]
+        self.texture = sum(random.integers(0, 64, (HEIGHT // size, 4 * WIDTH // size, 3), dtype=numpy.uint8).repeat(size, 0).repeat(size, 1) for size in sizes)
+        self.distance = numpy.full((HEIGHT, WIDTH), round(1000 * FAR_M), numpy.uint16)
+        self.distance[EDGE:] = round(1000 * NEAR_M)
 
     def publish(self, number):
         header = Image().header
         header.frame_id = "camera_color_optical_frame"
         header.stamp = self.node.get_clock().now().to_msg()
-        begin = number * STEP_PX % (self.wall.shape[1] - WIDTH)
+        picture = numpy.empty((HEIGHT, WIDTH, 3), numpy.uint8)
+        for rows, step in ((slice(0, EDGE), STEP_PX), (slice(EDGE, HEIGHT), round(STEP_PX * FAR_M / NEAR_M))):
+            picture[rows] = self.texture[rows, number * step:number * step + WIDTH]
         self.info.publish(CameraInfo(header=header, height=HEIGHT, width=WIDTH, distortion_model="plumb_bob", d=[0.0] * 5, k=K))
-        self.color.publish(image(numpy.ascontiguousarray(self.wall[:, begin:begin + WIDTH]), "rgb8", header))
-        self.depth.publish(image(self.far, "16UC1", header))
+        self.color.publish(image(picture, "rgb8", header))
+        self.depth.publish(image(self.distance, "16UC1", header))
 
 
 def play(camera, clock, executor, pictures):

@@ -72,11 +72,12 @@ tl::expected<LiveSave, std::string> save_live_map(bus::Participant& participant,
                                                   std::chrono::duration<double> timeout,
                                                   const std::stop_token& stop) {
   commander::Commander commander(participant);
-  const auto parts = find_parts(commander, timeout, stop);
+  auto parts = find_parts(commander, timeout, stop);
   if (!parts) return tl::unexpected(parts.error());
   const nlohmann::json order{{"name", name}, {"id", random_id()}, {"parts", *parts}};
   LiveSave saved;
   bool published = false;
+  std::ranges::reverse(*parts);  // so the loop closer's has no keyframe that the tracker's does not know
   for (const std::string& part : *parts) {
     const std::string service = service_of(part);
     const Answer answer = ask(commander, service, "save", order.dump(), stop);

@@ -87,7 +87,8 @@ class RosMessages:
 
     def test_all_are_made(self):
         self.assertEqual(set(self.hashes), {file.stem for file in MESSAGES.glob("msg/*.msg")})
-        self.assertEqual({file.stem for file in self.package.glob("idl/rds_msgs/srv/*.json")}, {file.stem for file in MESSAGES.glob("srv/*.srv")})
+        parts = ("", "_Request", "_Response", "_Event")
+        self.assertEqual({file.stem for file in self.package.glob("idl/rds_msgs/srv/*.json")}, {file.stem + part for file in MESSAGES.glob("srv/*.srv") for part in parts})
 
 
 class OfJazzy(RosMessages, unittest.TestCase):

@@ -38,11 +38,11 @@ def main():
     rclpy.init()
     node = rclpy.create_node("looker")
     end = time.monotonic() + 40
-    settled = 0
+    settled, graph = 0, {}
     while settled < 3 and time.monotonic() < end:  # seconds without a change to wait for
         time.sleep(1)
-        graph = graph_of(node)
-        settled = settled + 1 if is_settled(graph, int(sys.argv[1])) else 0
+        before, graph = graph, graph_of(node)
+        settled = settled + 1 if graph == before and is_settled(graph, int(sys.argv[1])) else 0
     print(json.dumps(graph), flush=True)
     node.destroy_node()
     rclpy.shutdown()

@@ -159,6 +159,11 @@ FrameInput::Taken FrameInput::take_depth(const std_msgs::msg::Header& header, im
 
 void FrameInput::pass_on(FramePairer::Frames frames) {
   if (pairer_.last_has_depth() && !frames.empty()) framed_ = Clock::now();
+  if (const std::int64_t offset_ns = pairer_.depth_offset_ns(); offset_ns != told_offset_ns_) {
+    told_offset_ns_ = offset_ns;
+    spdlog::info("{} is stamped {:+.1f} ms after {}, always: they are paired by that", depth_.topic,
+                 static_cast<double>(offset_ns) / 1e6, color_.topic);
+  }
   for (image::RgbdFrame& frame : frames) frames_.push(std::move(frame));
 }
 

@@ -79,6 +79,7 @@ class FrameInput {
   mutable std::mutex mutex_;  // bus callbacks of different topics may run at once; of all below but frames_
   image::PictureRegistration registration_;
   FramePairer pairer_;
+  std::int64_t told_offset_ns_ = 0;
   Clock::time_point framed_;  // when a colour and a depth picture last made a frame
   std::map<std::string, std::string> faults_;
   concurrency::Inbox<image::RgbdFrame> frames_;

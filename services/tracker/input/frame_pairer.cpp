@@ -60,28 +60,31 @@ FramePairer::Frames FramePairer::take_complete() {
   return frames;
 }
 
-/// The nearest depth picture within the tolerance; older ones are given up.
+/// The depth picture nearest to where it is expected, within the tolerance; older ones are given up.
 std::optional<FramePairer::Depth> FramePairer::take_partner(std::int64_t stamp_ns) {
-  const auto distance = [&](const Depth& d) { return std::abs(d.stamp_ns - stamp_ns); };
+  const std::int64_t expected_ns = stamp_ns + offset_.ns();
+  const auto distance = [&](const Depth& d) { return std::abs(d.stamp_ns - expected_ns); };
   const auto best = std::ranges::min_element(depths_, {}, distance);
   if (best == depths_.end() || distance(*best) > tolerance_ns_) return std::nullopt;
   Depth partner = std::move(*best);
   depths_.erase(best);
   unpaired_ += std::erase_if(depths_, [&](const Depth& d) { return d.stamp_ns <= partner.stamp_ns; });
+  offset_.take(partner.stamp_ns - stamp_ns, true);
   return partner;
 }
 
 void FramePairer::note_gap(std::int64_t stamp_ns) {
   partner_gap_ns_.reset();
-  for (const Depth& depth : depths_) {
-    const std::int64_t gap_ns = std::abs(depth.stamp_ns - stamp_ns);
-    partner_gap_ns_ = std::min(partner_gap_ns_.value_or(gap_ns), gap_ns);
-  }
+  const auto gap_ns = [&](const Depth& d) { return std::abs(d.stamp_ns - stamp_ns); };
+  const auto nearest = std::ranges::min_element(depths_, {}, gap_ns);
+  if (nearest == depths_.end()) return;
+  partner_gap_ns_ = gap_ns(*nearest);
+  offset_.take(nearest->stamp_ns - stamp_ns, false);
 }
 
 bool FramePairer::partner_may_come(std::int64_t stamp_ns) const {
   const bool too_late =
-      !depths_.empty() && (depths_.back().stamp_ns > stamp_ns + tolerance_ns_ ||
+      !depths_.empty() && (depths_.back().stamp_ns > stamp_ns + offset_.ns() + tolerance_ns_ ||
                            time::step_between(depths_.back().stamp_ns, stamp_ns) == StampStep::kAhead);
   const bool broken_off = depth_seen_ && colors_.size() > kMaxWaiting;
   return !too_late && !broken_off;

@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "common/image/rgbd_frame.hpp"
+#include "services/tracker/input/depth_offset.hpp"
 
 namespace rds::tracker {
 
 /// Brings colour and depth pictures together by their stamps, whichever of the two streams is ahead.
 ///
-/// Every colour picture makes a frame, in the order of the stamps: with the nearest depth picture within the
-/// tolerance, or with an empty one (nothing measured) once none can come any more. That is known when a later
-/// depth picture is there, or one from long before, or when too many colour pictures wait for a depth stream
-/// that has broken off. Where the stamps of a stream go back, its pictures that still wait are given up.
+/// Every colour picture makes a frame, in the order of the stamps: with the depth picture nearest to its
+/// stamp and DepthOffset within the tolerance, or with an empty one (nothing measured) once none can come any
+/// more. That is known when a later depth picture is there, or one from long before, or when too many colour
+/// pictures wait for a depth stream that has broken off. Where the stamps of a stream go back, its pictures
+/// that still wait are given up.
 class FramePairer {
  public:
   using Frames = std::vector<image::RgbdFrame>;
@@ -41,6 +43,8 @@ class FramePairer {
   /// Between the last colour picture that went on without depth and the depth picture nearest to it; nullopt
   /// where there was none.
   [[nodiscard]] std::optional<std::int64_t> partner_gap_ns() const { return partner_gap_ns_; }
+  /// Depth is stamped later than colour by that, as was learned.
+  [[nodiscard]] std::int64_t depth_offset_ns() const { return offset_.ns(); }
 
  private:
   template <class Picture>
@@ -62,6 +66,7 @@ class FramePairer {
   void give_up_oldest(std::deque<Stamped<Picture>>& waiting);
 
   std::int64_t tolerance_ns_;
+  DepthOffset offset_;
   std::optional<geometry::CameraModel> camera_;
   std::deque<Color> colors_;
   std::deque<Depth> depths_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/input/frame_pairer.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -138,6 +141,51 @@ TEST(FramePairer, GivesUpPicturesOfAnotherSize) {
   EXPECT_THAT(pairer.add_color(50 * kMs, color(9)), IsEmpty());
   EXPECT_THAT(pairer.add_depth(50 * kMs, depth()), IsEmpty());
   EXPECT_EQ(pairer.unpaired(), 2U);
+}
+
+/// Pictures of a driver whose depth is stamped later by `late_ms` [ms] in turn.
+/// @return of 60 colour pictures at 15 Hz, which found a partner.
+std::vector<bool> partners(FramePairer& pairer, const std::vector<int>& late_ms) {
+  FramePairer::Frames frames;
+  const auto add = [&](FramePairer::Frames made) { frames.insert(frames.end(), made.begin(), made.end()); };
+  std::multimap<std::int64_t, bool> arrivals;  // stamps [ms] and whether of colour
+  for (std::size_t i = 0; i < 60; ++i) {
+    const auto stamp_ms = static_cast<std::int64_t>(1000 + 66 * i);
+    arrivals.emplace(stamp_ms, true);
+    arrivals.emplace(stamp_ms + late_ms[i % late_ms.size()], false);
+  }
+  for (const auto& [stamp_ms, is_color] : arrivals)
+    add(is_color ? pairer.add_color(stamp_ms * kMs, color()) : pairer.add_depth(stamp_ms * kMs, depth()));
+  std::vector<bool> found;
+  for (const std::int64_t stamp : stamps(frames)) found.push_back(stamp > 0);
+  return found;
+}
+
+TEST(FramePairer, LearnsThatDepthIsAlwaysStampedLaterOrEarlier) {
+  for (const int late_ms : {31, 27, -30}) {
+    FramePairer pairer = pairer_with_camera();
+    const auto found = partners(pairer, {late_ms, late_ms + 2, late_ms - 1});
+    EXPECT_EQ(std::ranges::count(found, false), 20) << "until it was learned";
+    EXPECT_TRUE(std::all_of(found.begin() + 20, found.end(), [](bool pair) { return pair; })) << late_ms;
+    EXPECT_NEAR(static_cast<double>(pairer.depth_offset_ns()) / kMs, late_ms, 2);
+  }
+}
+
+TEST(FramePairer, LearnsWhereHalfOfThePicturesFindTheirPartner) {
+  FramePairer pairer = pairer_with_camera();
+  const auto found = partners(pairer, {18, 22, 19, 23});
+  EXPECT_EQ(std::count(found.begin() + 20, found.end(), false), 0);
+}
+
+TEST(FramePairer, LearnsNothingWherePicturesArePairedOrGapsDiffer) {
+  for (const auto& late_ms : {std::vector{15, 19, 12}, std::vector{30, -30}, std::vector{5, 5, 45}}) {
+    FramePairer pairer = pairer_with_camera();
+    partners(pairer, late_ms);
+    EXPECT_EQ(pairer.depth_offset_ns(), 0);
+  }
+  FramePairer of_another_clock = pairer_with_camera();
+  EXPECT_EQ(std::ranges::count(partners(of_another_clock, {7000}), true), 0);
+  EXPECT_EQ(of_another_clock.depth_offset_ns(), 0);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "common/bus/names/topic_names.hpp"
@@ -18,6 +17,7 @@
 #include "common/concurrency/priority.hpp"
 #include "common/service/process/freed_memory.hpp"
 #include "common/service/process/stop_signals.hpp"
+#include "common/service/ros/log_on_the_bus.hpp"
 #include "common/service/ros/parameter_table.hpp"
 #include "common/service/ros/ros_arguments.hpp"
 #include "common/service/service_process.hpp"
@@ -44,13 +44,6 @@ struct Options {
 };
 
 const std::vector<std::string> kLogLevels{"trace", "debug", "info", "warning", "error"};
-
-void set_up_log(const std::string& name) {
-  auto logger = spdlog::stderr_color_mt(name);
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %^%l%$ %v");
-  logger->flush_on(spdlog::level::info);
-  spdlog::set_default_logger(logger);
-}
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", [] { return RDS_VERSION "\n" + bus::vendor_versions(); });
@@ -171,6 +164,8 @@ int start(const std::string& name, const Options& options, const std::string& sh
                          .participant = joining,
                          .node_namespace = bus::normal_namespace(options.node_namespace),
                          .frame_prefix = options.frame_prefix};
+  std::optional<LogOnTheBus> log;  // permissions of a secured domain know no /rosout
+  if (offers_services(joining)) log.emplace(*participant, full_node_name(context));
   if (options.managed && !offers_services(joining))
     throw std::runtime_error("--managed: expected no secured domain, which offers no services of ROS 2");
   ProcessOptions running{.exit_when_hung_s = options.exit_when_hung_s, .managed = options.managed};

@@ -29,11 +29,11 @@ STRUCTS = idl_model.load([ROOT / "idl" / "ros2", ROOT / "idl"])
 OWN_TF = ["-r", "/tf:=tf", "-r", "/tf_static:=tf_static"]  # both cameras are of one name
 ROBOTS = {"robot1": ["--namespace", "robot1", "--frame-prefix", "robot1/", "--ros-args", *OWN_TF],
           "robot2": ["--ros-args", "-r", "__ns:=/robot2", "-p", "frame_prefix:=robot2/", *OWN_TF]}  # as a launch file starts them
-GLOBAL = ("/diagnostics", "/parameter_events")
+GLOBAL = ("/diagnostics", "/parameter_events", "/rosout")
 # Reliable and latched, as the table of topics says.
 QOS = {"rds/odometry": (True, False), "rds/trajectory": (True, True), "tf": (True, False), "rds/boxes": (True, True), "rds/map/full": (True, True), "rds/map/grid": (True, True),
        "rds/map/grid_updates": (True, False),
-       "rds/services": (True, True), "rds/transfer/requests": (False, False), "/diagnostics": (True, False), "/parameter_events": (True, False)}
+       "rds/services": (True, True), "rds/transfer/requests": (False, False), "/diagnostics": (True, False), "/parameter_events": (True, False), "/rosout": (True, True)}
 
 
 def python_of(distribution):

@@ -17,8 +17,9 @@ import rclpy
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from nav_msgs.srv import GetMap
-from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterType, ParameterValue
+from rcl_interfaces.msg import Log, Parameter, ParameterEvent, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, GetParameterTypes, ListParameters, SetParameters, SetParametersAtomically
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_srvs.srv import SetBool, Trigger
 
 LIMIT_S = 20
@@ -119,8 +120,9 @@ def managed(asker, of):
 
 def set_live(asker, of, height):
     """What `ros2 param set` does. @return results, the changes that were told to all, and how many cells of the grid are occupied before and after."""
-    events = []
+    events, logs = [], []
     asker.node.create_subscription(ParameterEvent, "/parameter_events", events.append, 1000)
+    asker.node.create_subscription(Log, "/rosout", logs.append, QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL))
 
     def results(*parameters):
         return [[r.successful, r.reason] for r in asker.ask(SetParameters, f"{of}/set_parameters", parameters=[a_parameter(*p) for p in parameters]).results]
@@ -135,10 +137,15 @@ def set_live(asker, of, height):
     told["values"] = [getattr(v, VALUES[v.type]) for v in asker.ask(GetParameters, f"{of}/get_parameters", names=["grid.min_height_m", "grid.max_height_m", "log_level"]).values]
     told["occupied"].append(occupied())
     end = time.monotonic() + LIMIT_S
-    while sum(event.node == of for event in events) < 2 and time.monotonic() < end:
+    while (sum(event.node == of for event in events) < 2 or not logged(logs, of)) and time.monotonic() < end:
         rclpy.spin_once(asker.node, timeout_sec=0.1)
     told["events"] = [[p.name, getattr(p.value, VALUES[p.value.type])] for event in events if event.node == of for p in event.changed_parameters]
-    return told
+    return {**told, "logged": logged(logs, of)}
+
+
+def logged(logs, of):
+    """What a node says of a setting that was changed."""
+    return [[log.level, log.msg] for log in logs if log.name == of[1:].replace("/", ".") and log.msg.startswith("log_level is debug")][-1:]
 
 
 def reset(asker, mapper):

@@ -117,6 +117,7 @@ class RosServices(unittest.TestCase):
         self.assertRegex(told["together"][1], "full_map_every: 0, expected 1")
         self.assertEqual(told["values"], [height, 1.8, "debug"])
         self.assertEqual(told["events"], [["grid.min_height_m", height], ["log_level", "debug"]])
+        self.assertEqual(told["logged"], [[20, "log_level is debug now"]])
 
     def check_lifecycle(self, told):
         self.assertEqual(told["states"], ["unknown", "unconfigured", "inactive", "active", "finalized", "configuring", "cleaningup", "shuttingdown", "activating",

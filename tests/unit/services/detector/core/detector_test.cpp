@@ -64,6 +64,14 @@ TEST(Detector, GivesBoxesInThePicturesPixels) {
   EXPECT_NEAR(found[0].box.y1, 240, 1e-3);
 }
 
+TEST(Detector, TakesAnotherThresholdFromTheNextPictureOn) {
+  Detector detector = detector_answering({kNothing, kPersonOfOneCell, kNothing, kNothing});
+  detector.set_score_threshold(0.95);
+  EXPECT_THAT(detector.detect(picture(640, 480)), SizeIs(0));
+  detector.set_score_threshold(0);  // the network's own
+  EXPECT_THAT(detector.detect(picture(640, 480)), SizeIs(1));
+}
+
 TEST(Detector, ClipsBoxesToThePictureAndSpeaksVoc) {
   Detector detector = detector_answering({kHugeTelevision, kNothing, kNothing, kNothing});
   const auto found = detector.detect(picture(101, 33));

@@ -50,7 +50,7 @@ std::uint16_t to_tenth_mm(float depth_m) {
 }
 
 SampledRays::SampledRays(const geometry::CameraModel& camera, const SamplingConfig& config)
-    : cells_(camera, config.depth_noise, config.stride_px) {
+    : cells_(camera, config.depth_noise, config.stride_px), surface_steps_(config.depth_noise) {
   const int stride_px = config.stride_px;
   rays_.reserve(
       static_cast<std::size_t>(sampled(camera.width, stride_px) * sampled(camera.height, stride_px)));

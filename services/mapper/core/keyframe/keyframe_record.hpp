@@ -7,11 +7,12 @@
 #include "services/mapper/core/config/mapper_config.hpp"
 #include "services/mapper/core/keyframe/keyframe_input.hpp"
 #include "services/mapper/core/keyframe/pixel_class.hpp"
+#include "services/mapper/core/keyframe/surface_steps.hpp"
 
 namespace rds::mapper {
 
-/// What is made once for a camera: rays (x, y, 1) of its sampled pixels, row by row, and the cells in which
-/// movable things are looked for, each of one or more sampled pixels.
+/// What is made once for a camera: rays (x, y, 1) of its sampled pixels, row by row; the cells in which
+/// movable things are looked for, each of one or more sampled pixels; and how far depths of a surface differ.
 class SampledRays {
  public:
   SampledRays(const geometry::CameraModel& camera, const SamplingConfig& config);
@@ -23,6 +24,7 @@ class SampledRays {
   /// Around x and y of the rays that are used, and of the optical axis.
   [[nodiscard]] const Eigen::AlignedBox2f& extent() const { return extent_; }
   [[nodiscard]] const segmentation::GridGeometry& cells() const { return cells_; }
+  [[nodiscard]] const SurfaceSteps& surface_steps() const { return surface_steps_; }
 
  private:
   static constexpr float kMaxObliqueness = 2;
@@ -32,6 +34,7 @@ class SampledRays {
 
   std::vector<Eigen::Vector3f> rays_;
   segmentation::GridGeometry cells_;
+  SurfaceSteps surface_steps_;
   Eigen::AlignedBox2f extent_{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
   bool are_all_used_ = true;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
@@ -49,7 +50,7 @@ class VoxelProjector {
         return static_cast<int>(std::clamp(at, kLowestKey, kHighestKey));
       };
       first_[axis] = inside(view_.min()[axis] - 1);
-      end_[axis] = inside(view_.max()[axis] + 2);
+      last_[axis] = inside(view_.max()[axis] + 2) - 1;
     }
   }
 
@@ -71,12 +72,13 @@ class VoxelProjector {
     const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
     const double depth = measured ? record_.depth_m(pixel) : max_range_m_;
     point.at = at(rays[pixel], depth);
-    const auto x = static_cast<int>(point.at.x());
-    const auto y = static_cast<int>(point.at.y());
-    const auto z = static_cast<int>(point.at.z());
-    const auto key = [](int k) { return static_cast<std::uint16_t>(k); };
-    point.packed_key = packed({key(x), key(y), key(z)});
-    return is_seen(x, 0) && is_seen(y, 1) && is_seen(z, 2);
+    Coordinates coordinates;
+    std::memcpy(&coordinates, point.at.data(), sizeof(coordinates));
+    const auto key = __builtin_convertvector(coordinates, Keys);
+    point.packed_key = static_cast<std::uint64_t>(key[0]) << 32U | static_cast<std::uint64_t>(key[1]) << 16U |
+                       static_cast<std::uint64_t>(key[2]);
+    const Keys is_outside = (key < first_) | (key > last_);
+    return (is_outside[0] | is_outside[1] | is_outside[2]) == 0;
   }
 
  private:
@@ -84,12 +86,14 @@ class VoxelProjector {
   static constexpr double kLowestKey = 8;
   static constexpr double kHighestKey = 65536 - 8;
 
-  [[nodiscard]] bool is_seen(int key, unsigned axis) const {
-    return key >= first_[axis] && key < end_[axis];
-  }
+  // Along the three axes, and one that is not used.
+  using Coordinates = double __attribute__((vector_size(32)));
+  using Keys = std::int32_t __attribute__((vector_size(16)));
+
+  /// @param ray  (x, y, 1).
   [[nodiscard]] Eigen::Vector4d at(const Eigen::Vector3f& ray, double depth) const {
     return columns_[0] * (double{ray.x()} * depth) + columns_[1] * (double{ray.y()} * depth) +
-           columns_[2] * (double{ray.z()} * depth) + origin_;
+           columns_[2] * depth + origin_;
   }
 
   const KeyframeRecord& record_;
@@ -97,8 +101,8 @@ class VoxelProjector {
   Eigen::Vector4d origin_;
   Eigen::AlignedBox3d view_;
   float max_range_m_;
-  std::array<int, 3> first_{};  // keys that the octree can hold and that are in view
-  std::array<int, 3> end_{};
+  Keys first_{};  // keys that the octree can hold and that are in view
+  Keys last_{};
 };
 
 }  // namespace rds::mapper

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "services/mapper/core/objects/trimmed_box.hpp"
-
 namespace rds::mapper {
 namespace {
 
@@ -70,14 +68,6 @@ DepthProbes probe(const geometry::Box2& box, double near_m, double far_m, const 
 }
 
 }  // namespace
-
-geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
-  if (sighting.points_in_camera.empty()) return {};
-  std::vector<Eigen::Vector3d> in_map;
-  in_map.reserve(sighting.points_in_camera.size());
-  for (const auto& p : sighting.points_in_camera) in_map.emplace_back(map_from_camera * p.cast<double>());
-  return trimmed_box(in_map);
-}
 
 void ObjectDatabase::integrate(const ObjectView& view, const LabelTable& labels) {
   for (auto& entry : entries_) entry.seen_now = false;
@@ -174,10 +164,10 @@ void ObjectDatabase::describe(Entry& entry) {
   object.size = entry.max - entry.min;
 }
 
-void ObjectDatabase::fuse(const ObjectSighting& sighting, SightingId id, const ObjectView& view,
+void ObjectDatabase::fuse(const ObjectInPlace& sighting, SightingId id, const ObjectView& view,
                           const std::string& label) {
-  const auto box = boundary_in_map(sighting, view.map_from_camera);
-  if (sighting.points_in_camera.empty() || !box.min.allFinite() || !box.max.allFinite()) return;
+  const geometry::Box3& box = sighting.box;
+  if (!box.min.allFinite() || !box.max.allFinite()) return;
   Entry* entry = object_of(label, box);
   if (entry == nullptr) {
     entry = &entries_.emplace_back();
@@ -216,9 +206,10 @@ void ObjectDatabase::fuse(const ObjectSighting& sighting, SightingId id, const O
 void ObjectDatabase::fade(Entry& entry, const ObjectView& view) const {
   const geometry::Pose camera_from_map = view.map_from_camera.inverse();
   const geometry::Box3 box{entry.min, entry.max};
-  const auto in_picture = geometry::project(box, camera_from_map, view.camera);
   const Eigen::Vector3d center = camera_from_map * box.center();
-  if (!in_picture || center.z() <= 0) return;
+  if (center.z() <= 0) return;
+  const auto in_picture = geometry::project(box, camera_from_map, view.camera);
+  if (!in_picture) return;
   geometry::CameraModel wide = view.camera;  // the same projection without the picture's limits
   constexpr int kBorder = 2000;
   wide.width += 2 * kBorder;

@@ -80,7 +80,7 @@ class ObjectDatabase {
     std::vector<SightingId> sightings;
   };
 
-  void fuse(const ObjectSighting& sighting, SightingId id, const ObjectView& view, const std::string& label);
+  void fuse(const ObjectInPlace& sighting, SightingId id, const ObjectView& view, const std::string& label);
   Entry* object_of(const std::string& label, const geometry::Box3& box);
   [[nodiscard]] bool is_same(const std::string& label, const geometry::Box3& a,
                              const geometry::Box3& b) const;
@@ -95,8 +95,5 @@ class ObjectDatabase {
   std::vector<Entry> entries_;
   std::uint64_t next_id_ = 1;
 };
-
-/// Boundary of a sighting in the map: per axis, 2nd to 98th percentile of its points.
-geometry::Box3 boundary_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera);
 
 }  // namespace rds::mapper

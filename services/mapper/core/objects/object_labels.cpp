@@ -34,8 +34,9 @@ ObjectSighting sighting_of(const std::vector<std::size_t>& pixels, const Labelle
 
 }  // namespace
 
-void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> boxes,
-                          const MapperConfig& config, LabelTable& labels) {
+void label_static_objects(KeyframeRecord& record, const cv::Mat1w& colours,
+                          std::span<const LabelledBox> boxes, const MapperConfig& config,
+                          LabelTable& labels) {
   record.objects.labels.clear();
   record.objects.sightings.clear();
   record.objects.looked_for = true;
@@ -44,7 +45,7 @@ void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> b
     if (!box.movable) still.push_back(&box);
   if (still.empty()) return;
   std::ranges::stable_sort(still, {}, [](const LabelledBox* b) { return std::pair(-b->score, b->depth_m); });
-  auto objects = segment_static(record, still);
+  auto objects = segment_static(record, colours, still);
   record.objects.labels.assign(record.size(), 0);
   for (std::size_t k = 0; k < still.size(); ++k) {
     const LabelledBox* box = still[k];

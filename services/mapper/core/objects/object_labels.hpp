@@ -12,8 +12,9 @@ namespace rds::mapper {
 /// ones.
 ///
 /// Where objects overlap, the one with the higher score has the pixel; the nearer one where scores are equal.
-/// @param record  with its classes. @param boxes  of all objects; movable ones are passed over.
-void label_static_objects(KeyframeRecord& record, std::span<const LabelledBox> boxes,
-                          const MapperConfig& config, LabelTable& labels);
+/// @param record  with its classes. @param colours  colours_in_cells() of it. @param boxes  of all objects;
+/// movable ones are passed over.
+void label_static_objects(KeyframeRecord& record, const cv::Mat1w& colours,
+                          std::span<const LabelledBox> boxes, const MapperConfig& config, LabelTable& labels);
 
 }  // namespace rds::mapper

@@ -1,7 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/objects/object_view.hpp"
 
+#include <limits>
+
+#include "services/mapper/core/objects/trimmed_box.hpp"
+
 namespace rds::mapper {
+namespace {
+
+geometry::Box3 box_in_map(const ObjectSighting& sighting, const geometry::Pose& map_from_camera) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (sighting.points_in_camera.empty()) return {none, none};
+  std::vector<Eigen::Vector3d> in_map;
+  in_map.reserve(sighting.points_in_camera.size());
+  for (const auto& p : sighting.points_in_camera) in_map.emplace_back(map_from_camera * p.cast<double>());
+  return trimmed_box(in_map);
+}
+
+}  // namespace
 
 ObjectView ObjectView::of(const KeyframeRecord& record) {
   ObjectView view;
@@ -10,7 +26,9 @@ ObjectView ObjectView::of(const KeyframeRecord& record) {
   view.map_from_camera = record.map_from_camera;
   view.camera = record.grid.camera;
   view.looked_for = record.objects.looked_for;
-  view.sightings = record.objects.sightings;
+  for (const ObjectSighting& sighting : record.objects.sightings)
+    view.sightings.push_back({sighting.label, sighting.score, sighting.cut_by_border,
+                              box_in_map(sighting, record.map_from_camera)});
   view.step_px = kProbeStep * record.grid.stride;
   for (int row = kProbeStep / 2; row < record.grid.height; row += kProbeStep, ++view.rows)
     for (int column = kProbeStep / 2; column < record.grid.width; column += kProbeStep) {

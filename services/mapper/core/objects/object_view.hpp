@@ -5,8 +5,17 @@
 
 namespace rds::mapper {
 
+/// An object as a keyframe, with its pose, shows it.
+struct ObjectInPlace {
+  std::uint16_t label = 0;
+  float score = 0;
+  bool cut_by_border = false;
+  geometry::Box3 box;  // map frame; per axis, 2nd to 98th percentile of its points; not finite without any
+};
+
 /// What the object database needs of a keyframe: its sightings, and a coarse depth picture that tells whether
-/// what is not detected is hidden, gone or overlooked. Kept for each keyframe, a few kB.
+/// what is not detected is hidden, gone or overlooked. Kept for each keyframe, a few kB: after a correction
+/// the database is made again of all of them.
 struct ObjectView {
   static constexpr int kProbeStep = 8;  // every so many sampled pixels one probe
 
@@ -18,7 +27,7 @@ struct ObjectView {
   geometry::Pose map_from_camera = geometry::Pose::Identity();
   geometry::CameraModel camera;
   bool looked_for = false;
-  std::vector<ObjectSighting> sightings;
+  std::vector<ObjectInPlace> sightings;
   int columns = 0;  // of probes
   int rows = 0;
   int step_px = 1;                            // of the full picture between two probes

@@ -16,9 +16,12 @@ inline geometry::Box3 trimmed_box(const std::vector<Eigen::Vector3d>& points) {
   const auto cut = static_cast<std::size_t>(kTrim * static_cast<double>(values.size()));
   for (int axis = 0; axis < 3; ++axis) {
     std::ranges::transform(points, values.begin(), [&](const auto& p) { return p[axis]; });
-    std::ranges::sort(values);
-    box.min[axis] = values[cut];
-    box.max[axis] = values[values.size() - 1 - cut];
+    const auto low = values.begin() + static_cast<std::ptrdiff_t>(cut);
+    const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(cut);
+    std::ranges::nth_element(values, low);
+    std::ranges::nth_element(low, high, values.end());
+    box.min[axis] = *low;
+    box.max[axis] = *high;
   }
   return box;
 }

@@ -101,7 +101,7 @@ void look_at(std::size_t block, const Scan& scan, const KeyframeRecord& record, 
 
 KeyframeView contribution_of(const KeyframeRecord& record, const OctreeConfig& octree,
                              const SamplingConfig& sampling, Scan& scan) {
-  scan.surfaces_of_picture = find_surfaces(record, sampling.depth_noise, scan.surface_of_pixel);
+  scan.surfaces_of_picture = find_surfaces(record, scan.surface_of_pixel);
   find_surface_voxels(record, octree, sampling, scan);
   cast_rays(record, octree, sampling, scan);
   KeyframeView view;

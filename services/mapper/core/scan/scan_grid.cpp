@@ -10,7 +10,6 @@ namespace rds::mapper {
 namespace {
 
 constexpr int kSide = 1 << kBlockBits;
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 /// Of an 8×8 matrix of bits, a byte for each row.
 std::uint64_t transposed(std::uint64_t rows) {
@@ -48,7 +47,6 @@ void ScanGrid::reset(const octomap::OcTreeKey& lowest, const octomap::OcTreeKey&
     axis.places.resize(size);
     for (std::size_t at = 0; at < size; ++at)
       axis.places[at] = at / kSide * blocks * kBlockCells + cell_along(i, static_cast<unsigned>(at));
-    for (auto& crossings : axis.crossings) crossings.resize(size + 1);
     blocks *= size / kSide;
   }
   index_.assign(blocks, -1);
@@ -81,41 +79,62 @@ void ScanGrid::mark_beside(const octomap::OcTreeKey& key) {
       }
 }
 
-/// Finds the crossings of a ray along the axis; after the last one there is one that comes never.
-/// @return how many there are.
-int ScanGrid::Axis::cross(double from, double to, Crossing* crossing) const {
-  int at = static_cast<int>(from);  // floor: keys are not negative
-  const int steps = static_cast<int>(to) - at;
-  const int step = steps < 0 ? -1 : 1;
-  const double delta = 1 / std::abs(to - from);  // share of the ray from border to border
-  double share = std::abs(at + (step > 0 ? 1 : 0) - from) * delta;
-  for (int left = std::abs(steps); left > 0; --left, at += step, share += delta)
-    *crossing++ = {std::bit_cast<std::int64_t>(share), place(at)};
-  *crossing = {kNever, place(at)};
-  return std::abs(steps);
-}
-
-/// @param which  of two rays that are under way at a time.
-ScanGrid::RayWalk ScanGrid::walk(std::size_t which, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  int steps = 0;
-  for (unsigned i = 0; i < 3; ++i) steps += axes_[i].cross(from[i], to[i], axes_[i].crossings[which].data());
-  const auto first = [&](std::size_t axis) { return axes_[axis].crossings[which].data(); };
-  return {steps, first(0), first(1), first(2)};
-}
-
 void ScanGrid::cast_rays(const Eigen::Vector3d& from, std::span<const Eigen::Vector3d> ends, ScanFlag flag) {
-  // Each step of a ray waits for the one before it: two rays at a time.
-  for (std::size_t i = 0; i < ends.size(); i += 2) {
-    RayWalk one = walk(0, from, ends[i]);
-    RayWalk other = i + 1 < ends.size() ? walk(1, from, ends[i + 1]) : RayWalk{};
-    for (int both = std::min(one.steps, other.steps); both > 0; --both) {
-      flags_at(one.place()) |= flag;
-      flags_at(other.place()) |= flag;
-      one.step();
-      other.step();
+  for (const Eigen::Vector3d& to : ends) cast_ray(from, to, flag);
+}
+
+/// Behind each border that a ray crosses lies a voxel: along the border's axis the next one, along the others
+/// where the ray is there. So no step waits for the one before it, as in a walk from voxel to voxel, and each
+/// axis has its own.
+void ScanGrid::cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag) {
+  const Eigen::Vector3d way = to - from;
+  const Eigen::Vector3d step = way.cwiseAbs().cwiseInverse();  // share of the ray from border to border
+  std::array<int, 3> crossings{};
+  Eigen::Vector3d first;
+  Eigen::Vector3d last;
+  octomap::OcTreeKey key;
+  for (unsigned i = 0; i < 3; ++i) {
+    const int at = static_cast<int>(from[i]);  // floor: keys are not negative
+    key[i] = static_cast<std::uint16_t>(at);
+    crossings[i] = std::abs(static_cast<int>(to[i]) - at);
+    first[i] = std::abs(at + (way[i] > 0 ? 1 : 0) - from[i]) * step[i];
+    last[i] = crossings[i] > 0 ? first[i] + (crossings[i] - 1) * step[i] : -1;
+  }
+  Eigen::Index end = 0;
+  if (last.maxCoeff(&end) < 0) return;
+  --crossings[static_cast<std::size_t>(end)];  // behind that border is the ray's last voxel
+  flags_of(key) |= flag;
+  for (unsigned i = 0; i < 3; ++i)
+    if (crossings[i] > 0)
+      mark_behind_borders({i, key[i], crossings[i], from + first[i] * way, way * step[i]}, flag);
+}
+
+/// Coordinates along the other axes are summed up with a fixed point.
+void ScanGrid::mark_behind_borders(const Crossings& of, ScanFlag flag) {
+  const unsigned b_axis = (of.axis + 1) % 3;
+  const unsigned c_axis = (of.axis + 2) % 3;
+  const auto fixed = [](double x) { return static_cast<std::int64_t>(x * kOne); };
+  const int direction = of.step[of.axis] < 0 ? -1 : 1;
+  const Place* along =
+      &axes_[of.axis].places[static_cast<std::size_t>(of.before + direction - axes_[of.axis].first)];
+  const Place* b_places = axes_[b_axis].places.data();
+  const Place* c_places = axes_[c_axis].places.data();
+  std::int64_t b = fixed(of.at[b_axis] - axes_[b_axis].first);
+  std::int64_t c = fixed(of.at[c_axis] - axes_[c_axis].first);
+  const bool is_one = of.count == 1;  // its step may be longer than the grid
+  const std::int64_t b_step = is_one ? 0 : fixed(of.step[b_axis]);
+  const std::int64_t c_step = is_one ? 0 : fixed(of.step[c_axis]);
+  const std::int32_t* index = index_.data();
+  Block* blocks = blocks_.data();
+  for (int left = of.count; left > 0; --left, along += direction, b += b_step, c += c_step) {
+    const Place place = *along + b_places[b >> kFractionBits] + c_places[c >> kFractionBits];
+    const std::int32_t block = index[place / kBlockCells];
+    if (block >= 0) {
+      blocks[block].flags[place % kBlockCells] |= flag;
+    } else {
+      flags_at(place) |= flag;
+      blocks = blocks_.data();
     }
-    for (RayWalk rest = one.steps > 0 ? one : other; rest.steps > 0; rest.step())
-      flags_at(rest.place()) |= flag;
   }
 }
 

@@ -51,9 +51,10 @@ class ScanGrid {
 
   /// Marks every voxel on the segments to `ends`, except the last one of each, with `flag`.
   ///
-  /// @param from, ends  in voxel units: floor of a coordinate is the key; all inside the covered range.
-  /// Source: Amanatides & Woo 1987; the number of steps is fixed beforehand, so that rounding cannot run
-  /// away.
+  /// @param from, ends  in voxel units: floor of a coordinate is the key; all inside the covered range, and
+  /// not on its border, as coordinates are rounded.
+  /// Source: Amanatides & Woo 1987; deviation: axis by axis, not from voxel to voxel. The number of steps is
+  /// fixed beforehand, so that rounding cannot run away.
   void cast_rays(const Eigen::Vector3d& from, std::span<const Eigen::Vector3d> ends,
                  ScanFlag flag = kFreeSpace);
 
@@ -71,41 +72,23 @@ class ScanGrid {
   /// Of a voxel: its block in index_ × kBlockCells + its cell. A sum over the axes of what each coordinate
   /// adds.
   using Place = std::size_t;
-  /// Where a ray goes from voxel to voxel along one axis.
-  struct Crossing {
-    std::int64_t share;  // of the ray up to there, as the bits of a double: positive ones have their order
-    Place place;         // what the coordinate before it adds
+  /// Borders between voxels that a ray crosses along one axis.
+  struct Crossings {
+    unsigned axis;
+    int before;  // coordinate along it before the first one
+    int count;
+    Eigen::Vector3d at;    // where the ray crosses the first one
+    Eigen::Vector3d step;  // from there to the next one
   };
   struct Axis {
     int first = 0;              // coordinate
     int size = 0;               // a multiple of a block's side
     std::vector<Place> places;  // of coordinates from the first on
-    std::array<std::vector<Crossing>, 2> crossings;  // of two rays
 
     [[nodiscard]] Place place(int coordinate) const {
       return places[static_cast<std::size_t>(coordinate - first)];
     }
-    int cross(double from, double to, Crossing* crossing) const;
   };
-  /// A voxel of a ray, and the way to the last one.
-  struct RayWalk {
-    int steps = 0;
-    const Crossing* x = nullptr;  // the next ones
-    const Crossing* y = nullptr;
-    const Crossing* z = nullptr;
-
-    [[nodiscard]] Place place() const { return x->place + y->place + z->place; }
-    /// To the next voxel. No branches, as nobody can predict which coordinate is next to change.
-    void step() {
-      const auto go_x = static_cast<int>(x->share <= y->share) & static_cast<int>(x->share <= z->share);
-      const auto go_y = (1 - go_x) & static_cast<int>(y->share <= z->share);
-      x += go_x;
-      y += go_y;
-      z += 1 - go_x - go_y;
-      --steps;
-    }
-  };
-
   [[nodiscard]] Place place_of(const octomap::OcTreeKey& key) const {
     return axes_[0].place(key[0]) + axes_[1].place(key[1]) + axes_[2].place(key[2]);
   }
@@ -115,7 +98,11 @@ class ScanGrid {
   }
   std::uint8_t& flags_at(Place place) { return blocks_[block_at(place)].flags[place % kBlockCells]; }
   std::size_t add_block(std::size_t at);
-  RayWalk walk(std::size_t which, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  void cast_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, ScanFlag flag);
+  void mark_behind_borders(const Crossings& of, ScanFlag flag);
+
+  static constexpr unsigned kFractionBits = 46;  // of coordinates with a fixed point; 17 are left for keys
+  static constexpr double kOne = std::int64_t{1} << kFractionBits;
 
   std::array<Axis, 3> axes_;
   std::vector<std::int32_t> index_;  // of a block in blocks_, -1 if untouched

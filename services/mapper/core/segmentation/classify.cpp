@@ -8,11 +8,11 @@ namespace rds::mapper {
 namespace {
 
 /// Rules 4 to 6.
-PixelClass class_of(std::size_t pixel, const KeyframeRecord& record, const DynamicMasks& masks) {
+PixelClass class_of(std::size_t pixel, const KeyframeRecord& record, ByBoxes by_boxes) {
   const PixelClass by_depth = record.classes[pixel];
   const bool is_measured = by_depth == PixelClass::kStatic;
-  if (masks.is_object(pixel) && is_measured) return PixelClass::kDynamic;  // rule 4
-  if (masks.is_beside(pixel) || is_in_movable_cell(record, pixel))         // rules 5 and 6
+  if (by_boxes == ByBoxes::kMovable && is_measured) return PixelClass::kDynamic;  // rule 4
+  if (by_boxes >= ByBoxes::kBeside || is_in_movable_cell(record, pixel))          // rules 5 and 6
     return is_measured ? PixelClass::kUnknown : PixelClass::kInvalid;
   return by_depth;
 }
@@ -30,14 +30,15 @@ std::vector<Eigen::Vector3f> dynamic_points(const KeyframeRecord& record, const 
 }
 
 /// Rule 7.
-void doubt_near_dynamic(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
+void doubt_near_dynamic(KeyframeRecord& record, std::span<const ByBoxes> by_boxes,
+                        const MapperConfig& config) {
   if (!(config.confirmation.radius_m > 0)) return;
   const auto dynamic = dynamic_points(record, config.sampling);
   if (dynamic.empty()) return;
   const NearPoints near(dynamic, static_cast<float>(config.confirmation.radius_m));
   for (std::size_t i = 0; i < record.size(); ++i)
-    if (record.classes[i] == PixelClass::kStatic && !masks.is_background(i) &&
-        near.contains(record.point_in_camera(i)))
+    if (record.classes[i] == PixelClass::kStatic &&
+        (by_boxes.empty() || by_boxes[i] != ByBoxes::kBackground) && near.contains(record.point_in_camera(i)))
       record.classes[i] = PixelClass::kDoubtful;
 }
 
@@ -52,16 +53,18 @@ void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config) {
       const auto i = record.grid.index(column, row);
       const auto depth = record.depth_tenth_mm[i];
       auto& its_class = record.classes[i];
-      its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;      // rule 1
-      if (depth == 0 || depth < nearest || !is_on_surface(record, column, row, config)) continue;  // rule 2
-      its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                      // rule 3
+      its_class = no_return(row, column) != 0 ? PixelClass::kNoReturn : PixelClass::kInvalid;  // rule 1
+      const bool is_far_enough = depth != 0 && depth >= nearest;
+      if (!is_far_enough || !is_on_surface(record, column, row, config.edge_support)) continue;  // rule 2
+      its_class = depth <= farthest ? PixelClass::kStatic : PixelClass::kFar;                    // rule 3
     }
 }
 
-void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config) {
-  if (masks.empty() && record.movable.pixels.empty()) return;  // rules 4 to 7 have nothing to say
-  for (std::size_t i = 0; i < record.size(); ++i) record.classes[i] = class_of(i, record, masks);
-  doubt_near_dynamic(record, masks, config);
+void classify(KeyframeRecord& record, std::span<const ByBoxes> by_boxes, const MapperConfig& config) {
+  if (by_boxes.empty() && record.movable.pixels.empty()) return;  // rules 4 to 7 have nothing to say
+  for (std::size_t i = 0; i < record.size(); ++i)
+    record.classes[i] = class_of(i, record, by_boxes.empty() ? ByBoxes::kNothing : by_boxes[i]);
+  doubt_near_dynamic(record, by_boxes, config);
 }
 
 }  // namespace rds::mapper

@@ -22,8 +22,7 @@ namespace rds::mapper {
 /// Rules 1 to 3: sets the record's classes from its depth alone.
 void classify_by_depth(KeyframeRecord& record, const SamplingConfig& config);
 
-/// Rules 4 to 7. @param record  with classes by depth. @param masks  of
-/// its boxes.
-void classify(KeyframeRecord& record, const DynamicMasks& masks, const MapperConfig& config);
+/// Rules 4 to 7. @param record  with classes by depth. @param by_boxes  segment_dynamic() of it.
+void classify(KeyframeRecord& record, std::span<const ByBoxes> by_boxes, const MapperConfig& config);
 
 }  // namespace rds::mapper

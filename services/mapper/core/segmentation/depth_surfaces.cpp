@@ -13,8 +13,6 @@ namespace {
 
 constexpr int kNoReturnRadius = 4;  // sampled pixels
 constexpr std::uint32_t kMinPixels = 8;
-constexpr int kOneMetre = 10000;  // in depth_tenth_mm
-constexpr int kSlantTenthMm = 300;
 
 /// Disjoint sets of runs; the lowest one stands for its set.
 class RunSets {
@@ -51,8 +49,7 @@ struct Run {
 /// The runs of a picture in order, and which of them are connected.
 class Runs {
  public:
-  Runs(const KeyframeRecord& record, const geometry::DepthNoise& noise)
-      : record_(record), noise_(noise), above_(width()), row_(width()) {
+  explicit Runs(const KeyframeRecord& record) : record_(record), above_(width()), row_(width()) {
     for (std::size_t first = 0; first < record.size(); first += width()) {
       add_row(static_cast<std::uint32_t>(first));
       std::swap(above_, row_);
@@ -74,6 +71,7 @@ class Runs {
   void add_row(std::uint32_t first) {
     const std::uint16_t* depths = &record_.depth_tenth_mm[first];
     const PixelClass* classes = &record_.classes[first];
+    const SurfaceSteps& steps = record_.grid.rays->surface_steps();
     const std::size_t width = this->width();
     std::uint32_t run = kNone;
     std::uint32_t joined = kNone;  // the run above that it was joined with last
@@ -83,7 +81,7 @@ class Runs {
         continue;
       }
       const int depth = depths[x];
-      const int step = surface_step_tenth_mm(depth, noise_);
+      const int step = steps.at(depths[x]);
       const auto is_connected = [&](int other) { return std::abs(other - depth) <= step; };
       if (run == kNone || !is_connected(depths[x - 1])) {
         run = sets_.add();
@@ -100,7 +98,6 @@ class Runs {
   }
 
   const KeyframeRecord& record_;
-  const geometry::DepthNoise& noise_;
   RunSets sets_;
   std::vector<Run> runs_;
   std::vector<std::uint32_t> above_;  // the run of each pixel in the row before
@@ -108,12 +105,6 @@ class Runs {
 };
 
 }  // namespace
-
-int surface_step_tenth_mm(int depth_tenth_mm, const geometry::DepthNoise& noise) {
-  const int slant = depth_tenth_mm <= kOneMetre ? kSlantTenthMm : depth_tenth_mm / 100 * kSlantTenthMm / 100;
-  const float depth_m = static_cast<float>(depth_tenth_mm) / kTenthMmPerM;
-  return std::max(slant, static_cast<int>(noise.difference_m(depth_m) * kTenthMmPerM));
-}
 
 cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
   cv::Mat1b none(record.grid.height, record.grid.width);
@@ -126,31 +117,30 @@ cv::Mat1b without_depth_all_around(const KeyframeRecord& record) {
   return none;
 }
 
-bool is_on_surface(const KeyframeRecord& record, int column, int row, const SamplingConfig& config) {
+bool is_on_surface(const KeyframeRecord& record, int column, int row, int edge_support) {
   const int width = record.grid.width;
   const std::uint16_t* middle = &record.depth_tenth_mm[record.grid.index(column, row)];
   const int depth = *middle;
-  const int tolerance = surface_step_tenth_mm(depth, config.depth_noise);
+  const int tolerance = record.grid.rays->surface_steps().at(*middle);
   const auto near = [&](int r, int c) {
     return std::abs(middle[r * width + c] - depth) <= tolerance ? 1 : 0;
   };
   const bool has_all = column > 0 && row > 0 && column + 1 < width && row + 1 < record.grid.height;
   if (has_all) {
     int count = near(0, -1) + near(0, 1) + near(-1, 0);  // mostly enough
-    if (count >= config.edge_support) return true;
+    if (count >= edge_support) return true;
     count += near(1, 0) + near(-1, -1) + near(-1, 1) + near(1, -1) + near(1, 1);
-    return count >= config.edge_support;
+    return count >= edge_support;
   }
   int count = -1;  // itself
   for (int r = std::max(row - 1, 0); r <= std::min(row + 1, record.grid.height - 1); ++r)
     for (int c = std::max(column - 1, 0); c <= std::min(column + 1, width - 1); ++c)
       count += near(r - row, c - column);
-  return count >= config.edge_support;
+  return count >= edge_support;
 }
 
-std::uint16_t find_surfaces(const KeyframeRecord& record, const geometry::DepthNoise& noise,
-                            std::vector<std::uint16_t>& surface) {
-  Runs runs(record, noise);
+std::uint16_t find_surfaces(const KeyframeRecord& record, std::vector<std::uint16_t>& surface) {
+  Runs runs(record);
   std::vector<std::uint32_t> pixels(runs.size(), 0);  // of the surface that begins with a run
   runs.for_each(
       [&](std::uint32_t run, std::uint32_t first) { pixels[first] += runs[run].end - runs[run].first; });

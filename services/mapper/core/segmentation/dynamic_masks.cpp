@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/mapper/core/segmentation/dynamic_masks.hpp"
 
+#include <algorithm>
+
 #include <opencv2/imgproc.hpp>
 
 #include "services/mapper/core/segmentation/keyframe_cells.hpp"
@@ -25,14 +27,17 @@ int rim_px(const geometry::DepthNoise& noise) {
 /// Standard deviation along the narrower side of a plane that is nobody's back: 0.55 m.
 constexpr float kWiderThanAPersonM = 0.16F;
 
-/// A mask grown to all sides.
-std::vector<std::uint8_t> grown(std::vector<std::uint8_t>& mask, int by_px, const KeyframeRecord& record) {
-  std::vector<std::uint8_t> rim(mask.size());
-  const int radius = (by_px + record.grid.stride - 1) / record.grid.stride;
-  cv::Mat1b to(record.grid.height, record.grid.width, rim.data());
-  cv::dilate(cv::Mat1b(record.grid.height, record.grid.width, mask.data()), to,
-             cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1}));
-  return rim;
+/// What is beside movable pixels tells nothing else.
+void add_rim(int by_px, const KeyframeRecord& record, std::vector<ByBoxes>& told) {
+  cv::Mat1b rim(record.grid.height, record.grid.width);
+  std::ranges::transform(told, rim.begin(), [](ByBoxes its) {
+    return its == ByBoxes::kMovable ? std::uint8_t{255} : std::uint8_t{0};
+  });
+  const int side = 2 * ((by_px + record.grid.stride - 1) / record.grid.stride) + 1;
+  cv::dilate(rim, rim, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  std::ranges::transform(told, rim, told.begin(), [](ByBoxes its, std::uint8_t is_in_rim) {
+    return is_in_rim != 0 ? std::max(its, ByBoxes::kBeside) : its;
+  });
 }
 
 std::vector<ObjectRegion> movable_regions(const KeyframeRecord& record, std::span<const LabelledBox> boxes) {
@@ -45,31 +50,41 @@ std::vector<ObjectRegion> movable_regions(const KeyframeRecord& record, std::spa
   return regions;
 }
 
-}  // namespace
-
-DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
-                             const geometry::DepthNoise& noise) {
-  const std::vector<ObjectRegion> regions = movable_regions(record, boxes);
-  if (regions.empty()) return {};
-  const KeyframeCells cells(record);
-  segmentation::Segmentation found = cells.segment(regions, kModel);
+/// What the surface that each cell stands for is of.
+cv::Mat1b shown_in(const KeyframeCells& cells, segmentation::Segmentation found) {
   std::erase_if(found.planes, [](const auto& plane) { return plane.narrow_m < kWiderThanAPersonM; });
   const segmentation::Background background = cells.background(found.planes);
-  const std::vector<std::uint8_t> none(record.size());
-  DynamicMasks masks{none, none, none};
-  std::vector<std::uint8_t> other = none;
+  cv::Mat1b shown(found.log_odds.size());
+  for (cv::Point cell; cell.y < shown.rows; ++cell.y)
+    for (cell.x = 0; cell.x < shown.cols; ++cell.x) {
+      const bool is_movable = found.log_odds(cell) > 0;
+      const ByBoxes fixed =
+          !is_movable && background.shows_at(cell) ? ByBoxes::kBackground : ByBoxes::kNothing;
+      shown(cell) = static_cast<std::uint8_t>(is_movable ? ByBoxes::kMovable : fixed);
+    }
+  return shown;
+}
+
+}  // namespace
+
+std::vector<ByBoxes> segment_dynamic(const KeyframeRecord& record, const cv::Mat1w& colours,
+                                     std::span<const LabelledBox> boxes) {
+  const std::vector<ObjectRegion> regions = movable_regions(record, boxes);
+  if (regions.empty()) return {};
+  const KeyframeCells cells(record, colours);
+  const cv::Mat1b shown = shown_in(cells, cells.segment(regions, kModel));
+  std::vector<ByBoxes> told(record.size());
   for (int row = 0; row < record.grid.height; ++row)
     for (int column = 0; column < record.grid.width; ++column) {
       const cv::Point cell = cells.cell_of(column, row);
+      const auto of_cell = static_cast<ByBoxes>(shown(cell));
+      if (of_cell == ByBoxes::kNothing) continue;
       const std::size_t pixel = record.grid.index(column, row);
-      if (found.log_odds(cell) > 0)
-        (cells.shows(pixel, cell) ? masks.object : other)[pixel] = 1;
-      else if (cells.shows(pixel, cell) && background.shows_at(cell))
-        masks.background[pixel] = 1;
+      const ByBoxes of_others = of_cell == ByBoxes::kMovable ? ByBoxes::kBeside : ByBoxes::kNothing;
+      told[pixel] = cells.shows(pixel, cell) ? of_cell : of_others;
     }
-  masks.beside = grown(masks.object, rim_px(noise), record);
-  for (std::size_t i = 0; i < other.size(); ++i) masks.beside[i] |= other[i];
-  return masks;
+  add_rim(rim_px(record.grid.rays->cells().noise()), record, told);
+  return told;
 }
 
 }  // namespace rds::mapper

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
 
 namespace rds::mapper {
 
-/// What the boxes of movable objects tell of a keyframe's sampled pixels. All empty without such boxes.
-struct DynamicMasks {
-  std::vector<std::uint8_t> object;      // 1 where a movable object shows
-  std::vector<std::uint8_t> beside;      // 1 in the rim around one, and at another depth in its cells
-  std::vector<std::uint8_t> background;  // 1 on planes wider than a person that go on outside the boxes
-
-  [[nodiscard]] bool empty() const { return object.empty(); }
-  [[nodiscard]] bool is_object(std::size_t pixel) const { return !object.empty() && object[pixel] != 0; }
-  [[nodiscard]] bool is_background(std::size_t pixel) const {
-    return !background.empty() && background[pixel] != 0;
-  }
-  [[nodiscard]] bool is_beside(std::size_t pixel) const { return !beside.empty() && beside[pixel] != 0; }
+/// What the boxes of movable objects tell of a sampled pixel.
+enum class ByBoxes : std::uint8_t {
+  kNothing,
+  kBackground,  // on a plane wider than a person that goes on outside the boxes
+  kBeside,      // in the rim around a movable object, or at another depth in its cells
+  kMovable,     // shows a movable object
 };
 
 /// Segments a keyframe by the boxes of movable objects, its depth and its colour: segmentation::segment().
-/// @param record  with classes by depth. @param boxes  of all objects; static ones are passed over.
-DynamicMasks segment_dynamic(const KeyframeRecord& record, std::span<const LabelledBox> boxes,
-                             const geometry::DepthNoise& noise);
+/// @param record  with classes by depth. @param colours  colours_in_cells() of it. @param boxes  of all
+/// objects; static ones are passed over.
+/// @return of each sampled pixel; empty without boxes of movable objects.
+std::vector<ByBoxes> segment_dynamic(const KeyframeRecord& record, const cv::Mat1w& colours,
+                                     std::span<const LabelledBox> boxes);
 
 }  // namespace rds::mapper

@@ -5,15 +5,20 @@
 #include <span>
 
 #include "common/dynamic_segmentation/dynamic_segmentation.hpp"
+#include "common/dynamic_segmentation/surfaces.hpp"
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
 
 namespace rds::mapper {
 
+/// Mean colours of the cells of a record's rays.
+cv::Mat1w colours_in_cells(const KeyframeRecord& record);
+
 /// A keyframe in the cells of its rays: the nearest depth of each cell, as the tracker takes it, among the
-/// pixels that look static or are far, and the mean of its colours. The record must outlive it.
+/// pixels that look static or are far, and its colours. The record must outlive it.
 class KeyframeCells {
  public:
-  explicit KeyframeCells(const KeyframeRecord& record);
+  /// @param colours  colours_in_cells().
+  KeyframeCells(const KeyframeRecord& record, const cv::Mat1w& colours);
 
   /// What stands in the regions.
   [[nodiscard]] segmentation::Segmentation segment(std::span<const segmentation::ObjectRegion> regions,
@@ -24,14 +29,18 @@ class KeyframeCells {
   }
   /// Of a sampled pixel.
   [[nodiscard]] cv::Point cell_of(int column, int row) const {
-    return {column * record_.grid.stride / cell_px_, row * record_.grid.stride / cell_px_};
+    return {cell_of_[static_cast<std::size_t>(column)], cell_of_[static_cast<std::size_t>(row)]};
   }
   /// Whether a sampled pixel in that cell shows the surface that the cell stands for.
-  [[nodiscard]] bool shows(std::size_t pixel, const cv::Point& cell) const;
+  [[nodiscard]] bool shows(std::size_t pixel, const cv::Point& cell) const {
+    constexpr double kSurfaceStepM = 0.05;  // between the nearest of a cell and others of the same surface
+    const float nearest_m = cells_.depth_m(cell);
+    return nearest_m == 0 || segmentation::one_surface(record_.depth_m(pixel), nearest_m, kSurfaceStepM);
+  }
 
  private:
   const KeyframeRecord& record_;
-  int cell_px_;
+  std::vector<int> cell_of_;  // by a pixel's column or row
   segmentation::PictureCells cells_;
 };
 

@@ -7,11 +7,11 @@
 namespace rds::mapper {
 namespace {
 
-constexpr double kInnerShare = 0.6;     // part of the box, about its centre, in which the object surely lies
-constexpr float kPersonM = 0.35F;       // a person's surface lies so near to his depth
-constexpr float kThingM = 0.5F;         // how far a small static object reaches behind its depth
-constexpr float kBeforeM = 0.14F;       // and before it, for its depth: things stand before tables
-constexpr float kSigmaPerSide = 0.4F;   // standard deviation of a static object's depths, by its larger side
+constexpr double kInnerShare = 0.6;    // part of the box, about its centre, in which the object surely lies
+constexpr float kPersonM = 0.35F;      // a person's surface lies so near to his depth
+constexpr float kThingM = 0.5F;        // how far a small static object reaches behind its depth
+constexpr float kBeforeM = 0.14F;      // and before it, for its depth: things stand before tables
+constexpr float kSigmaPerSide = 0.4F;  // standard deviation of a static object's depths, by its larger side
 constexpr float kLeastSigmaM = 0.15F;
 constexpr std::size_t kMinDepths = 20;  // fewer say nothing about the object
 
@@ -92,8 +92,7 @@ std::optional<geometry::Box2> image_box(const LabelledBox& box, const KeyframeRe
   return geometry::project(*box.box_in_map, record.map_from_camera.inverse(), record.grid.camera);
 }
 
-std::optional<segmentation::ObjectRegion> object_place(const KeyframeRecord& record,
-                                                        const LabelledBox& box) {
+std::optional<segmentation::ObjectRegion> object_place(const KeyframeRecord& record, const LabelledBox& box) {
   const auto px = image_box(box, record);
   if (!px) return std::nullopt;
   const auto limits = depth_limits(box, record);

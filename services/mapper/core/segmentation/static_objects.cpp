@@ -32,15 +32,15 @@ StaticObject object_in(const ObjectRegion& region, const KeyframeRecord& record,
       const cv::Point cell = cells.cell_of(column, row);
       if (log_odds(cell) > 0 && cells.shows(pixel, cell)) object.pixels.push_back(pixel);
     }
-  object.flush = static_cast<double>(object.pixels.size()) <
-                 kStandsOut * static_cast<double>(at_its_depth.size());
+  object.flush =
+      static_cast<double>(object.pixels.size()) < kStandsOut * static_cast<double>(at_its_depth.size());
   if (object.flush) object.pixels = std::move(at_its_depth);
   return object;
 }
 
 }  // namespace
 
-std::vector<StaticObject> segment_static(const KeyframeRecord& record,
+std::vector<StaticObject> segment_static(const KeyframeRecord& record, const cv::Mat1w& colours,
                                          std::span<const LabelledBox* const> boxes) {
   std::vector<StaticObject> objects(boxes.size());
   std::vector<std::size_t> places;  // of each region, among the boxes
@@ -51,7 +51,7 @@ std::vector<StaticObject> segment_static(const KeyframeRecord& record,
       places.push_back(i);
     }
   if (regions.empty()) return objects;
-  const KeyframeCells cells(record);
+  const KeyframeCells cells(record, colours);
   const cv::Mat1f log_odds = cells.segment(regions, kModel).log_odds;
   for (std::size_t k = 0; k < regions.size(); ++k)
     objects[places[k]] = object_in(regions[k], record, cells, log_odds);

@@ -17,7 +17,7 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
   for (int x = 120; x < 180; ++x) input.depth.values(cv::Rect(x, 150, 1, 60)).setTo(1.0 + 0.01 * (x - 120));
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, geometry::kDepthNoises.front(), surface), 4);
+  EXPECT_EQ(find_surfaces(record, surface), 4);
   const auto at = [&](int x_px, int y_px) { return surface[record.grid.index(x_px / 2, y_px / 2)]; };
   EXPECT_EQ(at(10, 10), at(310, 230));  // the wall
   EXPECT_NE(at(70, 70), at(10, 10));
@@ -27,12 +27,12 @@ TEST(DepthSurfaces, PartAtDepthEdgesAndFollowSlopes) {
 }
 
 TEST(DepthSurfaces, AStepIsOfSlantOrOfNoiseWhicheverIsMore) {
-  const geometry::DepthNoise ideal = geometry::depth_noise("ideal").value();
-  const geometry::DepthNoise stereo = geometry::depth_noise("realsense").value();
-  EXPECT_EQ(surface_step_tenth_mm(8000, ideal), 300);
-  EXPECT_EQ(surface_step_tenth_mm(40000, ideal), 1200);
-  EXPECT_EQ(surface_step_tenth_mm(8000, stereo), 300);
-  EXPECT_NEAR(surface_step_tenth_mm(40000, stereo), 3 * std::sqrt(2) * 0.08 * 16 / (424 * 0.05) * 1e4, 1);
+  const SurfaceSteps ideal(geometry::depth_noise("ideal").value());
+  const SurfaceSteps stereo(geometry::depth_noise("realsense").value());
+  EXPECT_EQ(ideal.at(8000), 300);
+  EXPECT_EQ(ideal.at(40000), 1200);
+  EXPECT_EQ(stereo.at(8000), 300);
+  EXPECT_NEAR(stereo.at(40000), 3 * std::sqrt(2) * 0.08 * 16 / (424 * 0.05) * 1e4, 1);
 }
 
 TEST(DepthSurfaces, AFewPixelsAreNone) {
@@ -41,7 +41,7 @@ TEST(DepthSurfaces, AFewPixelsAreNone) {
   const KeyframeInput input = test::SyntheticKeyframe(0).rectangle({100, 100, 4, 4}, 1.5);
   const auto record = test::measured(input, config.sampling);
   std::vector<std::uint16_t> surface;
-  EXPECT_EQ(find_surfaces(record, geometry::kDepthNoises.front(), surface), 1);
+  EXPECT_EQ(find_surfaces(record, surface), 1);
   EXPECT_EQ(surface[record.grid.index(51, 51)], 0);
 }
 

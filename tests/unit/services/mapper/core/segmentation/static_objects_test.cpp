@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/mapper/core/segmentation/keyframe_cells.hpp"
 #include "tests/unit/services/mapper/core/synthetic_keyframe.hpp"
 
 namespace rds::mapper {
@@ -25,7 +26,7 @@ StaticObject object_of(const KeyframeInput& input, const cv::Rect& px, float dep
   const LabelledBox box{"chair", 0.9F,    {double(px.x), double(px.y), double(px.br().x), double(px.br().y)},
                         {},      depth_m, false};
   const LabelledBox* boxes = &box;
-  return segment_static(record, {&boxes, 1}).front();
+  return segment_static(record, colours_in_cells(record), {&boxes, 1}).front();
 }
 
 /// Pixels of the full picture that a box's object has, as a mask of the sampled ones.

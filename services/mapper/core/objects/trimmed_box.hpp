@@ -19,8 +19,8 @@ inline geometry::Box3 trimmed_box(const std::vector<Eigen::Vector3d>& points) {
     const auto low = values.begin() + static_cast<std::ptrdiff_t>(cut);
     const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(cut);
     std::ranges::nth_element(values, low);
-    std::ranges::nth_element(low, high, values.end());
     box.min[axis] = *low;
+    std::ranges::nth_element(low, high, values.end());
     box.max[axis] = *high;
   }
   return box;

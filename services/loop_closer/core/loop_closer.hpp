@@ -53,7 +53,7 @@ class LoopCloser {
   /// The same of the keyframes of start_from() alone.
   [[nodiscard]] map_file::Bytes start_to_bytes() const { return to_bytes(start_ ? start_->views.size() : 0); }
   /// Goes on from such bytes with the keyframes' final poses, in every epoch from now on. They are not moved
-  /// any more.
+  /// any more. Keyframes after the last pose came while the map was being saved, and are left out.
   /// @return what does not fit; then nothing has changed.
   tl::expected<void, std::string> start_from(std::span<const std::uint8_t> bytes,
                                              std::span<const KeyframePose> poses);

@@ -3,6 +3,7 @@
 #include "services/loop_closer/core/map_bytes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -98,9 +99,12 @@ tl::expected<void, std::string> LoopCloser::start_from(std::span<const std::uint
   const std::size_t keyframes = reader.get_count(kKeyframeBytes);
   for (std::size_t i = 0; i < keyframes && reader.ok(); ++i) {
     const auto id = reader.get<std::uint64_t>();
-    start.views.push_back(get_view(reader));
+    auto view = get_view(reader);
+    if (!poses.empty() && id > poses.back().id) continue;  // came after the poses had been saved
+    start.views.push_back(std::move(view));
     const auto pose = std::ranges::lower_bound(poses, id, {}, &KeyframePose::id);
-    if (pose == poses.end() || pose->id != id || (i > 0 && id <= start.poses.back().id))
+    if (pose == poses.end() || pose->id != id ||
+        (!start.poses.empty() && id <= start.poses.back().id))
       reader.refuse(fmt::format("keyframe {}, which has no pose or comes out of order", id));
     else
       start.poses.push_back(*pose);

@@ -23,9 +23,10 @@ struct ProcessOptions {
   /// The process ends with status 1 when the worker, or what reports about it, was silent for longer [s]; 0:
   /// never. For supervisors that start again what has ended, but see nothing that hangs.
   double exit_when_hung_s = 0;
-  bool managed =
-      false;  // a lifecycle manager of ROS 2 brings it up: it begins unconfigured, and holds a bond
-  std::function<ParameterTable()> parameters = {};  // the settings as ROS 2 asks for them; empty: it cannot
+  /// A lifecycle manager of ROS 2 brings it up: it begins unconfigured, and holds a bond.
+  bool managed = false;
+  /// The settings as ROS 2 asks for them; empty: it cannot.
+  std::function<ParameterTable()> parameters = {};
 };
 
 /// A service and all around it that a process needs: worker, commands, diagnostics, and its place among

@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 
 #include "common/bus/participant.hpp"
+#include "common/commander/commander.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "common/commander/commander.hpp"
 #include "tools/rds/topology/topology.hpp"
 
 namespace rds::test {
@@ -49,7 +49,8 @@ class MapCommands : public ::testing::TestWithParam<std::string> {
     }
     ASSERT_TRUE(all_answer());
   }
-  commander::CommandReply ask(const std::string& service, const std::string& verb, const std::string& argument) {
+  commander::CommandReply ask(const std::string& service, const std::string& verb,
+                              const std::string& argument) {
     return commander.ask(service, verb, argument, {}, 10s).value_or(commander::CommandReply{false, "no answer"});
   }
   void expect_refused(const std::string& service, const std::string& verb, const std::string& argument) {

@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 
 #include "common/bus/participant.hpp"
+#include "common/commander/commander.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "common/commander/commander.hpp"
 
 namespace rds::test {
 namespace {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/messages/conversions.hpp"
 #include "rcl_interfaces/srv/DescribeParameters_Request.h"
 #include "rcl_interfaces/srv/DescribeParameters_Response.h"
 #include "rcl_interfaces/srv/GetParameterTypes_Request.h"
@@ -136,10 +137,8 @@ void ParameterServices::set(const Parameters& parameters,
 
 void ParameterServices::take(const std::map<std::string, YAML::Node>& changes) {
   ParameterEvent event;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now);
-  event.stamp().sec(static_cast<std::int32_t>(seconds.count()));
-  event.stamp().nanosec(static_cast<std::uint32_t>(std::chrono::nanoseconds(now - seconds).count()));
+  event.stamp(messages::to_time(
+      std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()));
   event.node(node_);
   {
     const std::lock_guard lock(mutex_);

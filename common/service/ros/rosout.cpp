@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "common/messages/conversions.hpp"
+
 namespace rds::service {
 namespace {
 
@@ -46,10 +48,7 @@ Rosout::~Rosout() {
 void Rosout::sink_it_(const spdlog::details::log_msg& line) {
   if (writes_lines) return;
   Log log;
-  const auto since_1970 = line.time.time_since_epoch();
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_1970);
-  log.stamp().sec(static_cast<std::int32_t>(seconds.count()));
-  log.stamp().nanosec(static_cast<std::uint32_t>(std::chrono::nanoseconds(since_1970 - seconds).count()));
+  log.stamp(messages::to_time(std::chrono::nanoseconds(line.time.time_since_epoch()).count()));
   log.level(level_of(line.level));
   log.name(name_);
   log.msg(std::string(line.payload.begin(), line.payload.end()));

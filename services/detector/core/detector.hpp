@@ -41,9 +41,9 @@ class Detector {
                                               const image::DepthImage& depth);
 
   [[nodiscard]] const NetworkDescription& network() const { return description_; }
-  /// The inference library and its version.
   /// From the next picture on. @param threshold  0: the network's own.
   void set_score_threshold(double threshold);
+  /// The inference library and its version.
   [[nodiscard]] std::string library() const { return backend_->library(); }
 
  private:

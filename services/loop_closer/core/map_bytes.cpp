@@ -64,10 +64,11 @@ tl::expected<std::vector<SavedKeyframe>, std::string> keyframes_from(std::span<c
 tl::expected<map_file::Bytes, std::string> merge_maps(std::span<const std::uint8_t> earlier,
                                                       std::span<const std::uint8_t> later,
                                                       std::uint64_t first_of_later) {
-  const auto first = keyframes_from(earlier);
+  auto first = keyframes_from(earlier);
   if (!first) return tl::unexpected(first.error());
   const auto second = keyframes_from(later);
   if (!second) return tl::unexpected(second.error());
+  std::erase_if(*first, [&](const SavedKeyframe& k) { return k.id >= first_of_later; });  // as start_from()
   ByteWriter writer;
   writer.put_count(first->size() + second->size());
   for (const SavedKeyframe& keyframe : *first) {
@@ -103,8 +104,7 @@ tl::expected<void, std::string> LoopCloser::start_from(std::span<const std::uint
     if (!poses.empty() && id > poses.back().id) continue;  // came after the poses had been saved
     start.views.push_back(std::move(view));
     const auto pose = std::ranges::lower_bound(poses, id, {}, &KeyframePose::id);
-    if (pose == poses.end() || pose->id != id ||
-        (!start.poses.empty() && id <= start.poses.back().id))
+    if (pose == poses.end() || pose->id != id || (!start.poses.empty() && id <= start.poses.back().id))
       reader.refuse(fmt::format("keyframe {}, which has no pose or comes out of order", id));
     else
       start.poses.push_back(*pose);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "services/mapper/core/keyframe/keyframe_record.hpp"
@@ -45,7 +44,7 @@ class VoxelProjector {
     for (const float x : {rays.min().x(), rays.max().x()})
       for (const float y : {rays.min().y(), rays.max().y()})
         view_.extend(at({x, y, 1}, max_range_m_).head<3>());
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
       const auto inside = [&](double at) {
         return static_cast<int>(std::clamp(at, kLowestKey, kHighestKey));
       };
@@ -72,23 +71,16 @@ class VoxelProjector {
     const bool measured = its_class != PixelClass::kFar && its_class != PixelClass::kNoReturn;
     const double depth = measured ? record_.depth_m(pixel) : max_range_m_;
     point.at = at(rays[pixel], depth);
-    Coordinates coordinates;
-    std::memcpy(&coordinates, point.at.data(), sizeof(coordinates));
-    const auto key = __builtin_convertvector(coordinates, Keys);
-    point.packed_key = static_cast<std::uint64_t>(key[0]) << 32U | static_cast<std::uint64_t>(key[1]) << 16U |
-                       static_cast<std::uint64_t>(key[2]);
-    const Keys is_outside = (key < first_) | (key > last_);
-    return (is_outside[0] | is_outside[1] | is_outside[2]) == 0;
+    const Eigen::Array3i key = point.at.head<3>().cast<int>().array();
+    point.packed_key = packed({static_cast<std::uint16_t>(key[0]), static_cast<std::uint16_t>(key[1]),
+                               static_cast<std::uint16_t>(key[2])});
+    return (key >= first_ && key <= last_).all();
   }
 
  private:
   static constexpr double kKeyOffset = 32768;  // key of coordinate 0
   static constexpr double kLowestKey = 8;
   static constexpr double kHighestKey = 65536 - 8;
-
-  // Along the three axes, and one that is not used.
-  using Coordinates = double __attribute__((vector_size(32)));
-  using Keys = std::int32_t __attribute__((vector_size(16)));
 
   /// @param ray  (x, y, 1).
   [[nodiscard]] Eigen::Vector4d at(const Eigen::Vector3f& ray, double depth) const {
@@ -101,8 +93,8 @@ class VoxelProjector {
   Eigen::Vector4d origin_;
   Eigen::AlignedBox3d view_;
   float max_range_m_;
-  Keys first_{};  // keys that the octree can hold and that are in view
-  Keys last_{};
+  Eigen::Array3i first_;  // keys that the octree can hold and that are in view
+  Eigen::Array3i last_;
 };
 
 }  // namespace rds::mapper

@@ -33,8 +33,9 @@ TEST(CameraPresets, AreListedWhereANameIsNone) {
     reader.finish();
     FAIL() << "no violation found";
   } catch (const config::ConfigError& e) {
-    EXPECT_THAT(e.what(),
-                HasSubstr("preset: kinect, expected one of: rds, realsense, azure_kinect, orbbec, xtion, kinect_v1"));
+    EXPECT_THAT(
+        e.what(),
+        HasSubstr("preset: kinect, expected one of: rds, realsense, azure_kinect, orbbec, xtion, kinect_v1"));
   }
 }
 

@@ -118,6 +118,18 @@ TEST_F(SavedKeyframes, ThoseThatCameAfterThePosesWereSavedAreLeftOut) {
   EXPECT_LT(closer.to_bytes().size(), bytes.size());
 }
 
+TEST_F(SavedKeyframes, ThoseThatCameAfterThePosesWereSavedAreLeftOutOfAMergedMap) {
+  constexpr std::uint64_t kFirst = 20;
+  const auto both = merge_maps(bytes, bytes, kFirst);
+  ASSERT_TRUE(both) << both.error();
+  std::vector<KeyframePose> of_both(poses.begin(), poses.begin() + kFirst);
+  for (const KeyframePose& p : poses) of_both.push_back({p.id + kFirst, p.stamp_ns, p.map_from_camera});
+  LoopCloser closer;
+  const auto read = closer.start_from(*both, of_both);
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(closer.keyframes(), kFirst + kSaved);
+}
+
 TEST_F(SavedKeyframes, ThoseOfTwoMapsAreKeyframesOfOne) {
   constexpr std::uint64_t kFirst = 100;
   const auto both = merge_maps(bytes, bytes, kFirst);

@@ -15,6 +15,7 @@ import time
 import unittest
 
 import peer_process
+import slow_link
 
 RDS = sys.argv.pop(2)
 PEER = sys.argv.pop(1)
@@ -78,6 +79,17 @@ class Router(unittest.TestCase):
             self.assertEqual(reader.lines, [str(i) for i in range(30)])
         for router in routers:
             self.end(router)
+
+    def test_what_comes_while_a_reader_asks_for_what_was_before_waits(self):
+        second, far = free_port(), free_port()
+        routers = [self.router(), self.router(second, "--connect", f"127.0.0.1:{far}")]
+        with self.peers_of(second)("late", "zenoh", self.domain) as reader, self.peer("keeper", "zenoh", self.domain, 80) as _:
+            time.sleep(1)
+            with slow_link.SlowLink(far, self.port, .2):  # two messages for each step there and back
+                self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "79"), reader.lines)
+                self.assertEqual(reader.lines, [str(i) for i in range(80)])
+                for router in routers:
+                    self.end(router)
 
     def test_killed_and_started_again(self):
         with self.router() as router, self.peer("keeper", "zenoh", self.domain, 120) as _, self.peer("late", "zenoh", self.domain) as first:

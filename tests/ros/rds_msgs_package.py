@@ -7,10 +7,11 @@ LD_LIBRARY_PATH. TARGET/ros_messages is ros_messages.cpp with the C++ types.
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import sysconfig
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 PREFIX = pathlib.Path(sys.prefix)
 os.environ["AMENT_PREFIX_PATH"] = str(PREFIX)
@@ -44,9 +45,15 @@ def generate(source, target):
     given = {"package_name": NAME, "interface_files": [f"{idl}:{file.relative_to(idl)}" for file in sorted(idl.glob("*/*.idl"))],
              "include_paths": [str(PREFIX / "share"), str(idl.parent)]}
     hashes = HashTypeDescription("").generate_type_hashes(**given, output_path=idl)
-    for name, generator in GENERATORS.items():
-        folder = target / ("" if name == "generator_py" else name) / NAME
-        generator.generate(**given, output_path=folder, **({"type_description_files": hashes} if name in ("generator_c", "generator_cpp") else {}))
+    with ProcessPoolExecutor(os.cpu_count()) as pool:
+        made = [pool.submit(run_generator, name, target, given, hashes) for name in GENERATORS]
+        for one in made:
+            one.result()
+
+
+def run_generator(name, target, given, hashes):
+    folder = target / ("" if name == "generator_py" else name) / NAME
+    GENERATORS[name].generate(**given, output_path=folder, **({"type_description_files": hashes} if name in ("generator_c", "generator_cpp") else {}))
 
 
 def write_lines(target, form, values):
@@ -67,10 +74,13 @@ def sources_of(target):
 
 
 def compile_one(source, target):
+    """By ccache where there is one, to which the generated files are the same in any folder and new ones are no riddle."""
     includes = [target, *(target / name for name in GENERATORS), PREFIX / "include", *(PREFIX / "include").iterdir(), sysconfig.get_path("include"), numpy.get_include()]
     made = target / "objects" / (str(source).replace("/", "_") + ".o")
+    cached = ["ccache"] if shutil.which("ccache") else []
     dialect = ["-std=c++17"] if source.suffix == ".cpp" else []
-    subprocess.run(["gcc", "-c", "-fPIC", "-w", *dialect, *(f"-I{folder}" for folder in includes), source, "-o", made], check=True)
+    subprocess.run([*cached, "gcc", "-c", "-fPIC", "-w", *dialect, *(f"-I{folder}" for folder in includes), source, "-o", made], check=True, cwd=target,
+                   env=os.environ | {"CCACHE_BASEDIR": str(target), "CCACHE_SLOPPINESS": "include_file_ctime,include_file_mtime"})
     return made
 
 

@@ -40,7 +40,8 @@ class RosMessages:
         cls.place = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.place.cleanup)
         cls.package = pathlib.Path(cls.place.name) / "package"
-        subprocess.run([cls.python, "-B", FOLDER / "rds_msgs_package.py", MESSAGES, cls.package], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([cls.python, "-B", FOLDER / "rds_msgs_package.py", MESSAGES, cls.package], check=True, stdout=subprocess.DEVNULL,
+                       env=os.environ | {"PYTHONHASHSEED": "0"})  # generators include in the order of a set: the same for ccache
         cls.hashes = {file.stem: json.loads(file.read_text())["type_hashes"][0]["hash_string"] for file in cls.package.glob("idl/rds_msgs/msg/*.json")}
 
     def start(self, processes, program, *arguments):

@@ -19,6 +19,7 @@ constexpr int kFewest = 40;           // points that say something
 // the same shape and furniture, with other pictures on the walls, .41 … .78. Logistic between the two.
 constexpr double kEvenShare = 0.72;
 constexpr double kSharePerNat = 0.04;
+constexpr double kTwins = 0.05;  // of places that look alike, those that do so in every detail
 
 /// Whether the keyframe measured a surface at the point.
 bool is_measured(const Keyframe& keyframe, const Eigen::Vector3d& in_camera, int levels) {
@@ -43,7 +44,10 @@ bool has_picture(const SlamMap& map, const MapPoint& point) {
 
 }  // namespace
 
-double SeenAgain::log_odds() const { return expected < kFewest ? 0 : (share() - kEvenShare) / kSharePerNat; }
+double SeenAgain::log_odds() const {
+  if (expected < kFewest) return 0;
+  return -std::log((1 - kTwins) * std::exp((kEvenShare - share()) / kSharePerNat) + kTwins);
+}
 
 SeenAgain see_again(const SlamMap& map, std::span<const PointId> points, const Keyframe& keyframe,
                     const Pose& camera_from_map) {

@@ -15,6 +15,10 @@ struct SeenAgain {
   [[nodiscard]] double share() const { return expected > 0 ? static_cast<double>(alike) / expected : 0; }
   /// Log-odds that the place is the same one and not one that looks alike; 0 where too few points are
   /// expected, as in a saved map.
+  ///
+  ///   −log( (1 − τ) · exp(−(s − .72) / .04) + τ ),  s = share()
+  ///
+  /// One of so many rooms that look alike (τ) does so in every detail.
   [[nodiscard]] double log_odds() const;
   void operator+=(const SeenAgain& other) {
     expected += other.expected;

@@ -2,6 +2,10 @@
 #include "services/tracker/core/mapping/map_building.hpp"
 
 #include <algorithm>
+#include <map>
+#include <ranges>
+#include <utility>
+#include <vector>
 
 #include "services/tracker/core/map/covisibility.hpp"
 #include "services/tracker/core/triangulation/triangulated_points.hpp"
@@ -10,6 +14,8 @@ namespace rds::tracker {
 namespace {
 
 constexpr int kMinPoints = 400;           // the nearest of a keyframe, close or not: as many as are followed
+constexpr int kColumns = 10;              // of square parts that a picture is divided into, …
+constexpr int kMinPointsInPart = 5;       // … in each of which so many points are wanted
 constexpr double kMinFoundRatio = 0.25;   // a point found more rarely where it should show goes
 constexpr KeyframeId kKeyframesOn = 2;    // when a point must have been seen again …
 constexpr std::size_t kMinObservers = 2;  // … by so many keyframes
@@ -29,25 +35,30 @@ void observe_matches(SlamMap& map, const TrackedFrame& frame, Keyframe& keyframe
   }
 }
 
-/// Far ones, too, where the close ones are too few: in a doorway the room behind it is all that the next
-/// frames will see.
+bool is_close(const Feature& f, const DepthConfig& depth) {
+  return f.depth_m > 0 && static_cast<double>(f.depth_m) <= depth.close_depth_m;
+}
+
+/// Far ones, too, where the close ones are too few or all in one part of the picture: in a doorway the room
+/// behind it is all that the next frames will see, and somebody who comes near hides the close ones at once.
 void make_points(SlamMap& map, const DepthConfig& depth, const Keyframe& keyframe) {
   const FeatureSet& features = *keyframe.features;
   std::vector<std::pair<float, std::uint32_t>> by_depth;
   for (std::uint32_t i = 0; i < features.size(); ++i)
     if (features[i].depth_m > 0 && !keyframe.movable[i]) by_depth.emplace_back(features[i].depth_m, i);
   std::ranges::sort(by_depth);
-  int nearest = 0;
-  for (const auto& [z, i] : by_depth) {
-    if (static_cast<double>(z) > depth.close_depth_m && nearest >= kMinPoints) break;
-    ++nearest;
+  const float side_px = static_cast<float>(features.camera().width) / kColumns;
+  int made = 0;
+  std::map<std::pair<int, int>, int> made_in;
+  for (const std::uint32_t i : by_depth | std::views::values) {
+    const Eigen::Vector2i part = (features[i].image_px / side_px).cast<int>();
+    int& made_here = made_in[{part.x(), part.y()}];
+    if (!is_close(features[i], depth) && made >= kMinPoints && made_here >= kMinPointsInPart) continue;
+    ++made;
+    ++made_here;
     if (keyframe.points[i] == kNoId)
       map.add_point(keyframe.map_from_camera * features.point_in_camera(i), keyframe.id, i);
   }
-}
-
-bool is_close(const Feature& f, const DepthConfig& depth) {
-  return f.depth_m > 0 && static_cast<double>(f.depth_m) <= depth.close_depth_m;
 }
 
 /// True if enough other keyframes see the point at the same or a finer scale.

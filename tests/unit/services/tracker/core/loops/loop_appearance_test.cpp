@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "services/tracker/core/loops/loop_drift.hpp"
 #include "tests/unit/services/tracker/core/tracker_scene.hpp"
 
 namespace rds::tracker {
@@ -72,6 +73,19 @@ TEST_F(LoopAppearance, NothingIsSaidOfAPlaceWithoutPictures) {
   SlamMap saved = tracker_.map();
   saved.keyframes().for_each([](Keyframe& k) { k.images = nullptr; });
   EXPECT_EQ(look(Pose::Identity(), saved).expected, 0);
+}
+
+TEST(LoopAppearanceOdds, RiseWithTheShareAsFarAsTwinsAllow) {
+  EXPECT_LT((SeenAgain{100, 60}.log_odds()), -2);
+  EXPECT_NEAR((SeenAgain{100, 72}.log_odds()), 0, 0.1);
+  EXPECT_GT((SeenAgain{100, 82}.log_odds()), 2);
+  EXPECT_LT((SeenAgain{100, 100}.log_odds()), 3.1);
+  EXPECT_EQ((SeenAgain{30, 30}.log_odds()), 0);
+}
+
+/// Two rooms that are furnished alike in every detail, and a map that has not drifted so far.
+TEST(LoopAppearanceOdds, DoNotOutweighWhatTheMapCannotHaveDrifted) {
+  EXPECT_LT((SeenAgain{500, 500}.log_odds() + LoopDrift{4.5, 40}.log_odds()), 0);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(LoopDriftOdds, FallWithTheDriftAndRiseWithTheWay) {
   EXPECT_LT((LoopDrift{0.1, 150}.log_odds()), (LoopDrift{0.1, 15}.log_odds()));
 }
 
-TEST(LoopDriftOdds, WhoIsLedAstrayMayStillBeJoined) {
+TEST(LoopDriftOdds, WhoIsLedAstrayIsAsUnlikelyHoweverFar) {
   const double astray = LoopDrift{50, 15}.log_odds();
   EXPECT_NEAR(astray, (LoopDrift{5, 15}.log_odds()), 0.01);
   EXPECT_GT(astray, -4);

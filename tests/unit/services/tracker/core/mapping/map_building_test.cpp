@@ -50,7 +50,28 @@ TEST_F(MapBuilding, AKeyframeMakesPointsOfFarDepthWhereLittleIsNear) {
   std::size_t made = 0;
   for (std::size_t f = 0; f < view.point.size(); ++f) made += far(f) && keyframe.points[f] != kNoId ? 1 : 0;
   EXPECT_GE(made, 250U);
-  EXPECT_EQ(map.points().size(), 400U);
+  EXPECT_GE(map.points().size(), 400U);
+}
+
+/// Somebody who comes near hides the close ones at once.
+TEST_F(MapBuilding, AKeyframeMakesFarPointsWhereThePictureHasNoCloseOnes) {
+  points = test::random_points(3000, random);
+  known.assign(points.size(), kNoId);
+  const auto far = [&](std::size_t f) { return points[view.point[f]].x() > 0; };
+  for (Eigen::Vector3d& p : points)
+    if (p.x() > 0) p *= 3;
+  const Keyframe& keyframe = add(Pose::Identity());
+  std::size_t close = 0;
+  std::size_t all_far = 0;
+  std::size_t made = 0;
+  for (std::size_t f = 0; f < view.point.size(); ++f) {
+    close += far(f) ? 0 : 1;
+    all_far += far(f) ? 1 : 0;
+    made += far(f) && keyframe.points[f] != kNoId ? 1 : 0;
+  }
+  EXPECT_GT(close, 400U);
+  EXPECT_GE(made, 50U);
+  EXPECT_LT(made, all_far / 2);
 }
 
 TEST_F(MapBuilding, PointsSeenOnceAreCulledTwoKeyframesOn) {

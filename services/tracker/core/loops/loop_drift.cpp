@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/loops/loop_drift.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -16,6 +17,8 @@ constexpr double kAstray = 0.03;     // ε
 constexpr double kFloorM2 = 100;     // A: a few rooms that could look alike
 constexpr double kDriftM = 0.1;      // of keyframes side by side that share no point
 constexpr double kDriftPerM = 0.02;  // visual odometry with depth drifts by .2 to 1 %, among people more
+constexpr double kSpeedMPerS = 1;    // of a camera that is carried, or of a robot
+constexpr double kNsPerSecond = 1e9;
 
 double distance(const SlamMap& map, KeyframeId a, KeyframeId b) {
   return (map.keyframe(a)->map_from_camera.translation() - map.keyframe(b)->map_from_camera.translation())
@@ -44,18 +47,65 @@ std::optional<double> way_between(const SlamMap& map, KeyframeId from, KeyframeI
   return std::nullopt;
 }
 
+std::optional<double> way_of(const SlamMap& map, KeyframeId from, KeyframeId to) {
+  return way_between(map, map.records().anchor_of(from).first, map.records().anchor_of(to).first);
+}
+
+/// Where a submap begins, and the last keyframe of another one before that.
+struct SubmapBorder {
+  KeyframeId before = kNoId;
+  KeyframeId first = kNoId;
+};
+
+std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId older, SubmapId younger) {
+  const auto& rows = records.submaps().rows();
+  const auto row = std::ranges::find(rows, younger, [](const auto& r) { return r.second; });
+  if (row == rows.end() || !records.contains(row->first)) return std::nullopt;
+  for (KeyframeId id = row->first; id-- > 0;)
+    if (records.contains(id) && records.submaps().of(id) == older) return SubmapBorder{id, row->first};
+  return std::nullopt;
+}
+
+std::optional<LoopDrift> drift_between_submaps(const SlamMap& map, const geometry::LoopMatch& loop) {
+  const KeyframeRecords& records = map.records();
+  const bool later_is_younger = records.submaps().of(loop.later) > records.submaps().of(loop.earlier);
+  const KeyframeId younger = later_is_younger ? loop.later : loop.earlier;
+  const KeyframeId older = later_is_younger ? loop.earlier : loop.later;
+  const auto border = border_of(records, records.submaps().of(older), records.submaps().of(younger));
+  if (!border) return std::nullopt;
+  const auto way = way_of(map, older, border->before);
+  const auto way_on = way_of(map, border->first, younger);
+  if (!way || !way_on) return std::nullopt;
+  const Pose earlier_from_later =
+      map.pose_of(loop.earlier) * loop.earlier_from_later * map.pose_of(loop.later).inverse();
+  const Pose older_from_younger = later_is_younger ? earlier_from_later : earlier_from_later.inverse();
+  const Eigen::Vector3d first = (older_from_younger * map.pose_of(border->first)).translation();
+  const std::int64_t gap_ns = records[border->first].stamp_ns - records[border->before].stamp_ns;
+  return LoopDrift{(first - map.pose_of(border->before).translation()).norm(), *way + *way_on,
+                   static_cast<double>(gap_ns) / kNsPerSecond};
+}
+
+double sigma_m(const LoopDrift& drift) {
+  return kDriftM + kDriftPerM * drift.way_m + kSpeedMPerS * drift.gap_s;
+}
+
 }  // namespace
 
 double LoopDrift::log_odds() const {
-  const double variance = std::pow(kDriftM + kDriftPerM * way_m, 2);
+  const double variance = std::pow(sigma_m(*this), 2);
   const double here = std::exp(-moved_m * moved_m / (2 * variance)) / (2 * std::numbers::pi * variance);
   return std::log((1 - kAstray) * here * kFloorM2 + kAstray);
 }
 
 std::optional<LoopDrift> drift_of(const SlamMap& map, const geometry::LoopMatch& loop) {
-  const KeyframeRecords& records = map.records();
-  const auto way =
-      way_between(map, records.anchor_of(loop.earlier).first, records.anchor_of(loop.later).first);
+  const Submaps& submaps = map.records().submaps();
+  if (submaps.of(loop.earlier) != submaps.of(loop.later)) {
+    const auto drift = drift_between_submaps(map, loop);
+    const bool is_known = drift && drift->gap_s >= 0 &&
+                          2 * std::numbers::pi * std::pow(sigma_m(*drift), 2) < kFloorM2;
+    return is_known ? drift : std::nullopt;
+  }
+  const auto way = way_of(map, loop.earlier, loop.later);
   if (!way) return std::nullopt;
   const Pose seen = map.pose_of(loop.earlier) * loop.earlier_from_later;
   return LoopDrift{(seen.translation() - map.pose_of(loop.later).translation()).norm(), *way};

@@ -56,6 +56,44 @@ TEST_F(LoopDriftTest, NothingIsKnownOfKeyframesThatNothingJoins) {
   EXPECT_FALSE(drift_of(map_, loop(0.3)));
 }
 
+/// The camera was lost after keyframe 7, and a submap began with keyframe 8.
+class LoopDriftOfSubmaps : public LoopDriftTest {
+ protected:
+  LoopDriftOfSubmaps() {
+    map_.keyframe(7)->covisible = {{6, 20}};
+    map_.keyframe(8)->covisible = {{9, 20}};
+    map_.records().submaps().go_on(1, 8);
+  }
+  void be_lost_for(std::int64_t seconds) {
+    for (KeyframeId k = 8; k < 16; ++k) map_.records().all().find(k)->stamp_ns = seconds * 1'000'000'000;
+  }
+};
+
+TEST_F(LoopDriftOfSubmaps, IsWhatTheCameraWouldHaveWalkedWhileItWasLost) {
+  be_lost_for(2);
+  const auto drift = drift_of(map_, loop(0.3));
+  ASSERT_TRUE(drift);
+  EXPECT_NEAR(drift->moved_m, std::hypot(1, 0.3), 1e-9);  // from keyframe 7 to where the loop has 8
+  EXPECT_NEAR(drift->way_m, 14, 1e-9);
+  EXPECT_NEAR(drift->gap_s, 2, 1e-6);
+  EXPECT_GT(drift->log_odds(), 0);
+  EXPECT_LT(drift_of(map_, loop(20))->log_odds(), -3);
+}
+
+TEST_F(LoopDriftOfSubmaps, IsTheSameSeenFromEitherSide) {
+  be_lost_for(2);
+  const geometry::LoopMatch there = loop(0.3);
+  const geometry::LoopMatch back{there.earlier, there.later, there.earlier_from_later.inverse()};
+  EXPECT_NEAR(drift_of(map_, there)->moved_m, drift_of(map_, back)->moved_m, 1e-9);
+}
+
+TEST_F(LoopDriftOfSubmaps, NothingIsKnownAfterALongTimeNorWhereTheClockWentBack) {
+  be_lost_for(10);
+  EXPECT_FALSE(drift_of(map_, loop(0.3)));
+  be_lost_for(-10);
+  EXPECT_FALSE(drift_of(map_, loop(0.3)));
+}
+
 TEST(LoopDriftOdds, FallWithTheDriftAndRiseWithTheWay) {
   EXPECT_GT((LoopDrift{0.1, 15}.log_odds()), 3);
   EXPECT_LT((LoopDrift{4, 15}.log_odds()), -3);

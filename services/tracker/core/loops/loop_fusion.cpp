@@ -149,24 +149,40 @@ class Fusion {
   ReplacedPoints replaced_;
 };
 
-}  // namespace
+/// What the map's points say of loops.
+struct Confirmation {
+  bool shares_points = false;          // the two sides of one are joined already
+  const LoopMatch* aligned = nullptr;  // the last one whose points agree; of the others nothing is known
+  SeenAgain again;                     // of all that agree
+};
 
-bool confirms(const SlamMap& map, std::span<const LoopMatch> loops) {
-  const LoopMatch* aligned = nullptr;
-  SeenAgain again;
+Confirmation look_at(const SlamMap& map, std::span<const LoopMatch> loops) {
+  Confirmation found;
   for (const LoopMatch& loop : loops) {
     if (!is_known(map, loop)) continue;
     const Side earlier = side_of(map, loop.earlier);
     const Side later = side_of(map, loop.later);
-    if (share_points(earlier, later)) return true;
+    if (share_points(earlier, later)) return {true, nullptr, {}};
     const auto camera_from_map = align(map, loop, earlier, later);
     if (!camera_from_map) continue;
-    aligned = &loop;
-    again += see_again(map, earlier.points, *map.keyframe(later.centre), *camera_from_map);
+    found.aligned = &loop;
+    found.again += see_again(map, earlier.points, *map.keyframe(later.centre), *camera_from_map);
   }
-  if (aligned == nullptr) return false;
-  const auto drift = drift_of(map, *aligned);
-  return again.log_odds() + (drift ? drift->log_odds() : 0) >= 0;
+  return found;
+}
+
+}  // namespace
+
+bool confirms(const SlamMap& map, std::span<const LoopMatch> loops) {
+  const Confirmation found = look_at(map, loops);
+  if (found.shares_points || found.aligned == nullptr) return found.shares_points;
+  const auto drift = drift_of(map, *found.aligned);
+  return found.again.log_odds() + (drift ? drift->log_odds() : 0) >= 0;
+}
+
+bool confirms_of_merged_maps(const SlamMap& map, const LoopMatch& loop) {
+  const Confirmation found = look_at(map, std::span(&loop, 1));
+  return found.shares_points || (found.aligned != nullptr && found.again.log_odds() >= 0);
 }
 
 std::optional<ReplacedPoints> join_loop(SlamMap& map, const LoopMatch& loop) {

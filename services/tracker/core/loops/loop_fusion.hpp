@@ -21,6 +21,8 @@ using ReplacedPoints = std::map<PointId, PointId>;
 /// how far the map would have drifted, are weighed together: the sum of their log-odds must not be negative.
 /// True, too, where two keyframes share points already.
 bool confirms(const SlamMap& map, std::span<const LoopMatch> loops);
+/// The same of two maps that are merged: no camera went from one to the other, so looks alone decide.
+bool confirms_of_merged_maps(const SlamMap& map, const LoopMatch& loop);
 
 /// Joins the two sides of a loop: what both see becomes one point, and their keyframes covisible.
 ///

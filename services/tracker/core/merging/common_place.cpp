@@ -43,7 +43,7 @@ tl::expected<LoopMatch, std::string> choose_joint(const SlamMap& map, const Sigh
     if (*best < kAgreeingSightings) break;
     const LoopMatch& match = found[static_cast<std::size_t>(best - agreeing.begin())].match;
     const bool is_confirmed = std::ranges::any_of(found, [&](const FoundKeyframe& f) {
-      return agree(map, match, f.match) && confirms(map, std::span(&f.match, 1));
+      return agree(map, match, f.match) && confirms_of_merged_maps(map, f.match);
     });
     if (is_confirmed && fits(map, move_of(map, match))) return match;
     is_contradicted = true;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/grid/grid_walls.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
@@ -16,10 +18,12 @@
 namespace rds::test {
 namespace {
 
-constexpr int kStep = 6;  // px between neighbours that a normal is made of
+constexpr std::size_t kFrames = 5;               // from one picture that is looked at to the next
+constexpr std::int64_t kMaxGapNs = 100'000'000;  // between two poses that a picture's is interpolated of
+constexpr int kStep = 6;                         // px between neighbours that a normal is made of
 constexpr double kMaxDepthM = 3.5;
-constexpr double kMaxEdgeM = 0.1;  // between such neighbours
-constexpr double kMaxUp = 0.17;     // of a wall's normal: 10 degrees
+constexpr double kMaxEdgeM = 0.1;    // between such neighbours
+constexpr double kMaxUp = 0.17;      // of a wall's normal: 10 degrees
 constexpr double kMaxHeightM = 0.4;  // above and below the first camera: within the grid's band of heights
 
 /// As map_server reads it.
@@ -62,18 +66,28 @@ std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> surface_at(const imag
   return std::pair{point(x, y), normal};
 }
 
+/// Trajectories are in the frame of the first picture, keyframes and grid in the map's, which is level.
+geometry::Pose map_from_trajectory_of(const std::filesystem::path& out,
+                                      const std::vector<geometry::StampedPose>& trajectory) {
+  const auto keyframes = geometry::read_trajectory(out / "keyframes.txt").value();
+  const auto& last = keyframes.at(keyframes.size() - 1);
+  return last.map_from_camera * geometry::pose_at(trajectory, last.stamp_ns, 0).value().inverse();
+}
+
 }  // namespace
 
 double walls_over_occupied(const std::filesystem::path& dataset, const std::filesystem::path& out) {
   const auto recording = image::TumDataset::open(dataset).value();
   const Grid grid(out);
   int all = 0, over = 0;
-  const auto keyframes = geometry::read_trajectory(out / "keyframes.txt").value();
-  for (std::size_t i = 0; i < keyframes.size(); i += 3) {
-    const geometry::Pose& map_from_camera = keyframes[i].map_from_camera;
-    const auto frame =
-        std::ranges::lower_bound(recording.frames(), keyframes[i].stamp_ns, {}, &image::FrameRef::stamp_ns);
-    const auto depth = recording.load_depth(frame->depth.value()).value();
+  const auto trajectory = geometry::read_trajectory(out / "trajectory_optimized.txt").value();
+  const geometry::Pose map_from_trajectory = map_from_trajectory_of(out, trajectory);
+  for (std::size_t i = 0; i < recording.frames().size(); i += kFrames) {
+    const image::FrameRef& frame = recording.frames()[i];
+    const auto pose = geometry::pose_at(trajectory, frame.stamp_ns, kMaxGapNs);
+    if (!pose || !frame.depth) continue;
+    const geometry::Pose map_from_camera = map_from_trajectory * *pose;
+    const auto depth = recording.load_depth(*frame.depth).value();
     for (int y = kStep; y < depth.values.rows - kStep; y += kStep)
       for (int x = kStep; x < depth.values.cols - kStep; x += kStep) {
         const auto surface = surface_at(depth, recording.camera(), x, y);

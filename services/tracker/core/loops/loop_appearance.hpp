@@ -10,20 +10,23 @@ namespace rds::tracker {
 /// Map points on surfaces that a keyframe has measured where it should see them.
 struct SeenAgain {
   int expected = 0;
-  int alike = 0;  // whose surroundings look there as in the keyframes that saw them
+  int alike = 0;          // whose surroundings look there as in the keyframes that saw them
+  double log_ratios = 0;  // sum over the expected points
 
   [[nodiscard]] double share() const { return expected > 0 ? static_cast<double>(alike) / expected : 0; }
   /// Log-odds that the place is the same one and not one that looks alike; 0 where too few points are
   /// expected, as in a saved map.
   ///
-  ///   −log( (1 − τ) · exp(−(s − .72) / .04) + τ ),  s = share()
+  ///   −log( (1 − τ) · exp(−L) + τ ),  L = 22 · mean of ln( P(alike or not | same) / P(alike or not | other)
+  ///   )
   ///
-  /// One of so many rooms that look alike (τ) does so in every detail.
+  /// Points beside each other say the same: all together are worth 22. One of so many places that look alike
+  /// (τ) does so in every detail.
   [[nodiscard]] double log_odds() const;
-  void operator+=(const SeenAgain& other) {
-    expected += other.expected;
-    alike += other.alike;
-  }
+  /// A point looks alike in the same place with p(θ) = .88 · exp(−θ / 50°), in another one with .73 p(θ).
+  /// @param angle_rad  θ between the directions from which it is and was seen.
+  void add(double angle_rad, bool is_alike);
+  void operator+=(const SeenAgain& other);
 };
 
 /// Looks for points in a keyframe that is thought to be in another place. What is hidden there, or stands

@@ -29,22 +29,6 @@ bool is_hidden(const MovableMask& movable, const Eigen::Vector2f& px, double sca
          movable.covers(px + Eigen::Vector2f(-radius, -radius));
 }
 
-/// The observation from the nearest place whose picture is kept; null if there is none.
-const Observation* nearest_view(const SlamMap& map, const MapPoint& point,
-                                const Eigen::Vector3d& camera_in_map) {
-  const Observation* nearest = nullptr;
-  double least = 0;
-  for (const Observation& o : point.observations) {
-    const Keyframe* keyframe = map.keyframe(o.keyframe);
-    if (keyframe == nullptr || !keyframe->images) continue;
-    const double distance = (keyframe->map_from_camera.translation() - camera_in_map).squaredNorm();
-    if (nearest != nullptr && distance >= least) continue;
-    nearest = &o;
-    least = distance;
-  }
-  return nearest;
-}
-
 /// How the surroundings of a keyframe's feature show in the view, if they lie parallel to the keyframe's
 /// picture. Distortion is taken as the same at both places.
 PatchWarp warp_of(const Keyframe& keyframe, const Feature& feature, const MapPoint& point,
@@ -75,6 +59,21 @@ Feature hidden_feature(const Eigen::Vector2f& image_px) {
 }
 
 }  // namespace
+
+const Observation* nearest_view(const SlamMap& map, const MapPoint& point,
+                                const Eigen::Vector3d& camera_in_map) {
+  const Observation* nearest = nullptr;
+  double least = 0;
+  for (const Observation& o : point.observations) {
+    const Keyframe* keyframe = map.keyframe(o.keyframe);
+    if (keyframe == nullptr || !keyframe->images) continue;
+    const double distance = (keyframe->map_from_camera.translation() - camera_in_map).squaredNorm();
+    if (nearest != nullptr && distance >= least) continue;
+    nearest = &o;
+    least = distance;
+  }
+  return nearest;
+}
 
 PointSearch::PointSearch(const SlamMap& map, std::span<const PointId> points, const FollowingView& view,
                          const ObservationModel& model, const ScalePyramid& pyramid, int wanted)

@@ -29,6 +29,10 @@ struct FollowedPoints {
   std::vector<PointId> looked_for;
 };
 
+/// The observation from the nearest place whose picture is kept; null if there is none, as in a saved map.
+const Observation* nearest_view(const SlamMap& map, const MapPoint& point,
+                                const Eigen::Vector3d& camera_in_map);
+
 /// Finds map points in a picture by the patch around the feature of the keyframe that saw them from nearest.
 ///
 /// The most observed points of every part of the picture come first, until enough are found. A point

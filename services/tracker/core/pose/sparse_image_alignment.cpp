@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -19,12 +21,15 @@ using Matrix6f = Eigen::Matrix<float, 6, 6>;
 
 constexpr int kHalf = 2;  // of a patch's side, px
 constexpr int kSide = 2 * kHalf;
-constexpr int kArea = kSide * kSide;
-constexpr int kMinPatches = 20;
-constexpr float kHuber = 12;         // grey levels
-constexpr double kConverged = 2e-5;  // m and rad
-constexpr int kFinestLevel = 2;      // the last; from there on points are found one by one
-constexpr int kIterations = 10;      // per level, at most
+constexpr float kArea = kSide * kSide;
+constexpr std::size_t kMinPatches = 20;
+constexpr float kFreedom = 5;             // ν of Student's t: Kerl et al. 2013
+constexpr float kFinestScale = 1;         // grey levels
+constexpr int kScaleIterations = 8;       // at most
+constexpr float kScaleConverged = 0.01F;  // share of its square
+constexpr double kConverged = 2e-5;       // m and rad
+constexpr int kFinestLevel = 2;           // the last; from there on points are found one by one
+constexpr int kIterations = 10;           // per level, at most
 
 using Square = Eigen::Array<float, kSide, kSide, Eigen::RowMajor>;
 
@@ -56,29 +61,65 @@ bool cut(const ImagePyramid& reference, const SeenPoint& seen, int level, const 
   return true;
 }
 
+/// A reference patch and what the picture differs from it by.
+struct Comparison {
+  const ReferencePatch* patch;
+  Square difference;
+};
+
+float at_least_finest(float scale2) {
+  return std::max(scale2, kFinestScale * kFinestScale);
+}
+
+/// The scale of Student's t that the residuals are most likely of (Kerl et al. 2013, eq. 14).
+/// @param scale2  where to start; 0: at their mean square. @return its square.
+float squared_scale(std::span<const Comparison> comparisons, float offset, float scale2) {
+  const float pixels = static_cast<float>(comparisons.size()) * kArea;
+  if (scale2 == 0) {
+    for (const Comparison& c : comparisons) scale2 += (c.difference - offset).square().sum();
+    scale2 = at_least_finest(scale2 / pixels);
+  }
+  for (int i = 0; i < kScaleIterations; ++i) {
+    float sum = 0;
+    for (const Comparison& c : comparisons) {
+      const Square squared = (c.difference - offset).square();
+      sum += (squared / (kFreedom + squared / scale2)).sum();
+    }
+    const float before = scale2;
+    scale2 = at_least_finest((kFreedom + 1) * sum / pixels);
+    if (std::abs(before - scale2) < kScaleConverged * before) break;
+  }
+  return scale2;
+}
+
+/// −log of the residuals' likelihood, per pixel, but for a constant.
+float cost_of(std::span<const Comparison> comparisons, float offset, float scale2) {
+  float sum = 0;
+  for (const Comparison& c : comparisons) {
+    const Square factor = 1 + (c.difference - offset).square() / (kFreedom * scale2);
+    // Of the product of eight a float has room for: 1 + 255² / 5 each, at most.
+    sum += std::log(factor.topRows<2>().prod()) + std::log(factor.bottomRows<2>().prod());
+  }
+  const float pixels = static_cast<float>(comparisons.size()) * kArea;
+  return 0.5F * (std::log(scale2) + (kFreedom + 1) * sum / pixels);
+}
+
 /// Normal equations of all patches at one pose.
 struct Equations {
   Matrix6f hessian = Matrix6f::Zero();
   Vector6f gradient = Vector6f::Zero();
-  float cost = 0;
   float differences = 0;  // weighted
   float weights = 0;
-  int pixels = 0;
 
-  [[nodiscard]] float mean_cost() const { return cost / static_cast<float>(pixels); }
   [[nodiscard]] float mean_difference() const { return differences / weights; }
 };
 
 /// A pixel's derivative is its gradient times the patch's place_by_motion, so that the pixels can be summed
 /// up in two dimensions before six.
-void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Mat& image, float offset,
-         Equations& sum) {
-  const Square difference =
-      interpolate_square<kSide>(image, place.x() - kHalf, place.y() - kHalf) - patch.value;
-  const Square residual = difference - offset;
-  const Square size = residual.abs();
-  const Square weight = kHuber / size.max(kHuber);
-  const Square quadratic = size.min(kHuber);
+void add(const Comparison& comparison, float offset, float scale2, Equations& sum) {
+  const ReferencePatch& patch = *comparison.patch;
+  const Square residual = comparison.difference - offset;
+  const Square weight = (kFreedom + 1) / (kFreedom + residual.square() / scale2);
   const Square weighted_gx = weight * patch.gx;
   const Square weighted_gy = weight * patch.gy;
   const float xy = (weighted_gx * patch.gy).sum();
@@ -87,11 +128,17 @@ void add(const ReferencePatch& patch, const Eigen::Vector2f& place, const cv::Ma
   const Eigen::Vector2f gradient((weighted_gx * residual).sum(), (weighted_gy * residual).sum());
   sum.hessian.noalias() += patch.place_by_motion.transpose() * (hessian * patch.place_by_motion).eval();
   sum.gradient.noalias() += patch.place_by_motion.transpose() * gradient;
-  sum.cost += (quadratic * (2 * size - quadratic)).sum();
-  sum.differences += (weight * difference).sum();
+  sum.differences += (weight * comparison.difference).sum();
   sum.weights += weight.sum();
-  sum.pixels += kArea;
 }
+
+/// How a pose explains the picture.
+struct Explanation {
+  geometry::Pose pose;
+  std::vector<Comparison> comparisons;  // of the patches that the picture shows
+  float scale2 = 0;
+  float cost = std::numeric_limits<float>::max();
+};
 
 class LevelAlignment {
  public:
@@ -99,35 +146,47 @@ class LevelAlignment {
                  const geometry::CameraModel& camera)
       : patches_(patches), picture_(picture), level_(level), camera_(camera) {}
 
+  /// @param scale2  where the search for the squared scale begins; 0 if nothing is known.
+  [[nodiscard]] Explanation explain(const geometry::Pose& pose, float offset, float scale2 = 0) const {
+    Explanation by{pose, compare(pose)};
+    if (by.comparisons.size() < kMinPatches) return by;
+    by.scale2 = squared_scale(by.comparisons, offset, scale2);
+    by.cost = cost_of(by.comparisons, offset, by.scale2);
+    return by;
+  }
+
   /// Improves pose and brightness offset while that lowers the cost.
-  void run(geometry::Pose& pose, float& offset) const {
-    geometry::Pose best = pose;
-    float least = std::numeric_limits<float>::max();
-    for (int i = 0; i < kIterations; ++i) {
-      const Equations sum = linearize(pose, offset);
-      if (sum.pixels < kMinPatches * kArea || sum.mean_cost() > least) break;
-      least = sum.mean_cost();
-      best = pose;
+  [[nodiscard]] geometry::Pose improve(Explanation best, float& offset) const {
+    for (int i = 0; i < kIterations && best.comparisons.size() >= kMinPatches; ++i) {
+      Equations sum;
+      for (const Comparison& comparison : best.comparisons) add(comparison, offset, best.scale2, sum);
       offset = sum.mean_difference();
       const Twist step = sum.hessian.cast<double>().ldlt().solve(sum.gradient.cast<double>());
       if (!step.allFinite()) break;
-      pose = pose * se3_exp(-step);
-      if (step.norm() < kConverged) return;
+      const geometry::Pose next = best.pose * se3_exp(-step);
+      if (step.norm() < kConverged) return next;
+      Explanation by_next = explain(next, offset, best.scale2);
+      if (by_next.cost > best.cost) break;
+      best = std::move(by_next);
     }
-    pose = best;
+    return best.pose;
   }
 
  private:
-  [[nodiscard]] Equations linearize(const geometry::Pose& pose, float offset) const {
-    Equations sum;
+  [[nodiscard]] std::vector<Comparison> compare(const geometry::Pose& pose) const {
+    std::vector<Comparison> comparisons;
+    comparisons.reserve(patches_.size());
     for (const ReferencePatch& patch : patches_) {
       const Eigen::Vector3d p = pose * patch.point;
       if (p.z() < kMinDepth) continue;
       const Eigen::Vector2d px = camera_.project(p) + patch.seen_from_projected;
       const Eigen::Vector2f place = ImagePyramid::at_level(px.cast<float>(), level_);
-      if (picture_.contains(place, kHalf, level_)) add(patch, place, picture_.level(level_), offset, sum);
+      if (!picture_.contains(place, kHalf, level_)) continue;
+      const auto shown =
+          interpolate_square<kSide>(picture_.level(level_), place.x() - kHalf, place.y() - kHalf);
+      comparisons.push_back({&patch, shown - patch.value});
     }
-    return sum;
+    return comparisons;
   }
 
   std::span<const ReferencePatch> patches_;
@@ -140,8 +199,8 @@ class LevelAlignment {
 
 geometry::Pose align_sparsely(const ImagePyramid& reference, std::span<const SeenPoint> points,
                               const ImagePyramid& picture, const geometry::CameraModel& camera,
-                              const geometry::Pose& camera_from_reference) {
-  geometry::Pose pose = camera_from_reference;
+                              const geometry::Pose& start) {
+  geometry::Pose pose = start;
   float offset = 0;
   std::vector<ReferencePatch> patches;
   patches.reserve(points.size());
@@ -150,7 +209,14 @@ geometry::Pose align_sparsely(const ImagePyramid& reference, std::span<const See
     patches.clear();
     for (const SeenPoint& seen : points)
       if (ReferencePatch patch; cut(reference, seen, level, camera, patch)) patches.push_back(patch);
-    LevelAlignment(patches, picture, level, camera).run(pose, offset);
+    const LevelAlignment alignment(patches, picture, level, camera);
+    Explanation best = alignment.explain(pose, offset);
+    if (level < coarsest) {
+      // A coarse level, which shows few of a pattern's details, may have led astray.
+      Explanation by_start = alignment.explain(start, offset);
+      if (by_start.cost < best.cost) best = std::move(by_start);
+    }
+    pose = alignment.improve(std::move(best), offset);
   }
   return pose;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/loops/loop_appearance.hpp"
 
+#include <numbers>
+
 #include <opencv2/core.hpp>
 
 #include "services/tracker/core/loops/loop_drift.hpp"
@@ -75,17 +77,30 @@ TEST_F(LoopAppearance, NothingIsSaidOfAPlaceWithoutPictures) {
   EXPECT_EQ(look(Pose::Identity(), saved).expected, 0);
 }
 
+SeenAgain seen(int alike, int expected, double angle_deg = 5) {
+  SeenAgain again;
+  for (int i = 0; i < expected; ++i) again.add(angle_deg * std::numbers::pi / 180, i < alike);
+  return again;
+}
+
 TEST(LoopAppearanceOdds, RiseWithTheShareAsFarAsTwinsAllow) {
-  EXPECT_LT((SeenAgain{100, 60}.log_odds()), -2);
-  EXPECT_NEAR((SeenAgain{100, 72}.log_odds()), 0, 0.1);
-  EXPECT_GT((SeenAgain{100, 82}.log_odds()), 2);
-  EXPECT_LT((SeenAgain{100, 100}.log_odds()), 3.1);
-  EXPECT_EQ((SeenAgain{30, 30}.log_odds()), 0);
+  EXPECT_LT(seen(60, 100).log_odds(), -2);
+  EXPECT_NEAR(seen(70, 100).log_odds(), 0, 0.3);
+  EXPECT_GT(seen(82, 100).log_odds(), 1.5);
+  EXPECT_LT(seen(100, 100).log_odds(), 2.4);
+  EXPECT_EQ(seen(30, 30).log_odds(), 0);
+}
+
+TEST(LoopAppearanceOdds, ExpectLessOfAPlaceThatIsSeenFromAnotherSide) {
+  EXPECT_LT(seen(55, 100, 5).log_odds(), -3);
+  EXPECT_GT(seen(55, 100, 25).log_odds(), 0.5);
+  EXPECT_GT(seen(30, 100, 60).log_odds(), 0);
+  EXPECT_LT(seen(30, 100, 60).log_odds(), 1) << "less is known, too";
 }
 
 /// Two rooms that are furnished alike in every detail, and a map that has not drifted so far.
 TEST(LoopAppearanceOdds, DoNotOutweighWhatTheMapCannotHaveDrifted) {
-  EXPECT_LT((SeenAgain{500, 500}.log_odds() + LoopDrift{4.5, 40}.log_odds()), 0);
+  EXPECT_LT((seen(500, 500).log_odds() + LoopDrift{4.5, 40}.log_odds()), 0);
 }
 
 }  // namespace

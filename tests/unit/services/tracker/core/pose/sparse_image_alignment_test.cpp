@@ -61,6 +61,20 @@ TEST_F(SparseImageAlignment, WhatHidesAThirdOfThePictureDoesNotMatterMuch) {
   EXPECT_LT(error_px(align(pyramid_of(hidden)), moved.inverse()), 2);
 }
 
+/// A wall of little contrast, before which something of much contrast has come.
+TEST_F(SparseImageAlignment, FewPointsOfMuchContrastDoNotDrawManyOfLittleAside) {
+  const auto pale = [](image::RgbdFrame picture) {
+    picture.color.pixels.convertTo(picture.color.pixels, -1, 0.1, 110);
+    return pyramid_of(picture);
+  };
+  const ImagePyramid before = pale(frame);
+  image::RgbdFrame hidden = test::picture_of_wall(moved, 1);
+  hidden.color.pixels.convertTo(hidden.color.pixels, -1, 0.1, 110);
+  hidden.color.pixels(cv::Rect(120, 0, 40, 240)).setTo(cv::Scalar(20, 20, 20));
+  const Pose truth = moved.inverse();
+  EXPECT_LT(error_px(align_sparsely(before, points, pyramid_of(hidden), frame.camera, truth), truth), 0.5);
+}
+
 TEST_F(SparseImageAlignment, ABrighterPictureIsTheSame) {
   image::RgbdFrame brighter = test::picture_of_wall(moved, 1);
   brighter.color.pixels.convertTo(brighter.color.pixels, -1, 0.9, 30);

@@ -17,12 +17,19 @@ constexpr double kAstray = 0.03;     // ε
 constexpr double kFloorM2 = 100;     // A: a few rooms that could look alike
 constexpr double kDriftM = 0.1;      // of keyframes side by side that share no point
 constexpr double kDriftPerM = 0.02;  // visual odometry with depth drifts by .2 to 1 %, among people more
-constexpr double kSpeedMPerS = 1;    // of a camera that is carried, or of a robot
+constexpr double kDriftRad = 0.01;
+constexpr double kDriftRadPerM = 0.003;  // four times what is measured in a room
+constexpr double kSpeedMPerS = 1;        // of a camera that is carried, or of a robot
+constexpr double kTurnRadPerS = 1;
 constexpr double kNsPerSecond = 1e9;
 
 double distance(const SlamMap& map, KeyframeId a, KeyframeId b) {
   return (map.keyframe(a)->map_from_camera.translation() - map.keyframe(b)->map_from_camera.translation())
       .norm();
+}
+
+double angle_of(const Pose& pose) {
+  return Eigen::AngleAxisd(pose.linear()).angle();
 }
 
 /// The shortest way over covisible keyframes (Dijkstra 1959).
@@ -79,21 +86,28 @@ std::optional<LoopDrift> drift_between_submaps(const SlamMap& map, const geometr
   const Pose earlier_from_later =
       map.pose_of(loop.earlier) * loop.earlier_from_later * map.pose_of(loop.later).inverse();
   const Pose older_from_younger = later_is_younger ? earlier_from_later : earlier_from_later.inverse();
-  const Eigen::Vector3d first = (older_from_younger * map.pose_of(border->first)).translation();
+  const Pose before_from_first =
+      map.pose_of(border->before).inverse() * older_from_younger * map.pose_of(border->first);
   const std::int64_t gap_ns = records[border->first].stamp_ns - records[border->before].stamp_ns;
-  return LoopDrift{(first - map.pose_of(border->before).translation()).norm(), *way + *way_on,
-                   static_cast<double>(gap_ns) / kNsPerSecond};
+  return LoopDrift{before_from_first.translation().norm(), *way + *way_on,
+                   static_cast<double>(gap_ns) / kNsPerSecond, angle_of(before_from_first)};
 }
 
 double sigma_m(const LoopDrift& drift) {
   return kDriftM + kDriftPerM * drift.way_m + kSpeedMPerS * drift.gap_s;
 }
 
+double sigma_rad(const LoopDrift& drift) {
+  return kDriftRad + kDriftRadPerM * drift.way_m + kTurnRadPerS * drift.gap_s;
+}
+
 }  // namespace
 
 double LoopDrift::log_odds() const {
   const double variance = std::pow(sigma_m(*this), 2);
-  const double here = std::exp(-moved_m * moved_m / (2 * variance)) / (2 * std::numbers::pi * variance);
+  const double turned = turned_rad / sigma_rad(*this);
+  const double here =
+      std::exp(-(moved_m * moved_m / variance + turned * turned) / 2) / (2 * std::numbers::pi * variance);
   return std::log((1 - kAstray) * here * kFloorM2 + kAstray);
 }
 
@@ -101,14 +115,15 @@ std::optional<LoopDrift> drift_of(const SlamMap& map, const geometry::LoopMatch&
   const Submaps& submaps = map.records().submaps();
   if (submaps.of(loop.earlier) != submaps.of(loop.later)) {
     const auto drift = drift_between_submaps(map, loop);
-    const bool is_known = drift && drift->gap_s >= 0 &&
-                          2 * std::numbers::pi * std::pow(sigma_m(*drift), 2) < kFloorM2;
+    const bool is_known =
+        drift && drift->gap_s >= 0 && 2 * std::numbers::pi * std::pow(sigma_m(*drift), 2) < kFloorM2;
     return is_known ? drift : std::nullopt;
   }
   const auto way = way_of(map, loop.earlier, loop.later);
   if (!way) return std::nullopt;
-  const Pose seen = map.pose_of(loop.earlier) * loop.earlier_from_later;
-  return LoopDrift{(seen.translation() - map.pose_of(loop.later).translation()).norm(), *way};
+  const Pose later_from_seen =
+      map.pose_of(loop.later).inverse() * map.pose_of(loop.earlier) * loop.earlier_from_later;
+  return LoopDrift{later_from_seen.translation().norm(), *way, 0, angle_of(later_from_seen)};
 }
 
 }  // namespace rds::tracker

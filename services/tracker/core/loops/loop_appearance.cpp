@@ -19,7 +19,7 @@ constexpr double kAlikeFromThere = 0.88;  // p(0)
 constexpr double kAngleRad = 0.87;  // by which p falls to 1/e: patches are taken as parallel to the picture
 constexpr double kAlikeElsewhere = 0.73;  // of p
 constexpr double kIndependent = 22;       // points, of all
-constexpr double kTwins = 0.1;            // of places that look alike, those that do so in every detail
+constexpr double kTwins = 0.05;           // of places that look alike, those that do so in every detail
 
 /// Whether the keyframe measured a surface at the point.
 bool is_measured(const Keyframe& keyframe, const Eigen::Vector3d& in_camera, int levels) {

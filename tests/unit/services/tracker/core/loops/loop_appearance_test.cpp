@@ -86,8 +86,8 @@ SeenAgain seen(int alike, int expected, double angle_deg = 5) {
 TEST(LoopAppearanceOdds, RiseWithTheShareAsFarAsTwinsAllow) {
   EXPECT_LT(seen(60, 100).log_odds(), -2);
   EXPECT_NEAR(seen(70, 100).log_odds(), 0, 0.3);
-  EXPECT_GT(seen(82, 100).log_odds(), 1.5);
-  EXPECT_LT(seen(100, 100).log_odds(), 2.4);
+  EXPECT_GT(seen(82, 100).log_odds(), 2);
+  EXPECT_LT(seen(100, 100).log_odds(), 3.1);
   EXPECT_EQ(seen(30, 30).log_odds(), 0);
 }
 

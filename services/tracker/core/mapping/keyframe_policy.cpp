@@ -27,15 +27,17 @@ KeyframeNeed keyframe_need(const KeyframeFacts& facts, const KeyframeConfig& con
   const bool scarce = facts.movable_or_changed && facts.inliers < kScarceInliers;
   const bool urgent = scarce && facts.inliers < kUrgentShare * kScarceInliers;
   const bool gives_points = facts.has_depth || facts.triangulates;
-  if (!gives_points || (facts.since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
+  // A keyframe for the detector gives the map nothing; it waits for its own last one.
+  const double since_last_s = scarce ? facts.since_map_s : facts.since_last_s;
+  if (!gives_points || (since_last_s < kMinIntervalS && !urgent)) return KeyframeNeed::kNone;
   const bool losing_reference = facts.seen < kReferenceRatio * facts.seen_by_reference;
   const bool close_points_wanted = facts.close_tracked < kMinCloseTracked && facts.close_new > kMinCloseNew;
   const double longest = facts.movable_or_changed ? config.movable_interval_s : config.static_interval_s;
   // Stamps jitter by milliseconds; a frame earlier is nearer than a frame later.
   constexpr double kJitter = 0.01;
   if (urgent || losing_reference || close_points_wanted || facts.view_change > 1) return KeyframeNeed::kMap;
-  const bool is_soon_after_last = facts.frames_since_last < kMinMovableFrames;
-  if (facts.since_last_s < longest - kJitter || is_soon_after_last) return KeyframeNeed::kNone;
+  const bool is_soon_after_last = !scarce && facts.frames_since_last < kMinMovableFrames;
+  if (since_last_s < longest - kJitter || is_soon_after_last) return KeyframeNeed::kNone;
   if (scarce) return KeyframeNeed::kMap;
   return facts.has_depth ? KeyframeNeed::kDetector : KeyframeNeed::kNone;
 }

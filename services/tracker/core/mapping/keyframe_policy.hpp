@@ -10,6 +10,7 @@ namespace rds::tracker {
 struct KeyframeFacts {
   double since_last_s = 0;          // since the last keyframe
   int frames_since_last = 1000;     // tracked since then
+  double since_map_s = 1000;        // since the last keyframe of the map
   int inliers = 0;                  // map points that support the frame's pose
   int seen = 0;                     // how much of the map shows: points, or cells of the picture with points
   int seen_by_reference = 0;        // the same of the view that it is compared with

@@ -64,9 +64,21 @@ TEST(KeyframePolicy, TheMapTakesWhatItCanGetWhileMovableObjectsHideMost) {
   EXPECT_EQ(need(facts), KeyframeNeed::kMap);
 }
 
+TEST(KeyframePolicy, WhereMovableObjectsHideMostTheMapDoesNotWaitForTheDetectorsKeyframes) {
+  KeyframeFacts facts = calm();
+  facts.movable_or_changed = true;
+  facts.inliers = facts.seen = facts.seen_by_reference = 120;
+  facts.since_last_s = 0.03;
+  facts.frames_since_last = 1;
+  facts.since_map_s = 0.13;
+  EXPECT_EQ(need(facts), KeyframeNeed::kMap);
+  facts.since_map_s = 0.03;
+  EXPECT_EQ(need(facts), KeyframeNeed::kNone);
+}
+
 TEST(KeyframePolicy, TheMapDoesNotWaitWhenHardlyAnythingIsLeft) {
   KeyframeFacts facts = calm();
-  facts.since_last_s = 0.03;
+  facts.since_last_s = facts.since_map_s = 0.03;
   facts.movable_or_changed = true;
   facts.inliers = facts.seen = facts.seen_by_reference = 100;
   EXPECT_EQ(need(facts), KeyframeNeed::kNone);

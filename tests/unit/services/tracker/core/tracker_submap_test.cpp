@@ -37,9 +37,9 @@ struct Walk {
     time_ns += kFrameNs;
     return result;
   }
-  FrameResult cover() {
+  FrameResult cover(int frames = kCovered) {
     FrameResult result;
-    for (int i = 0; i < kCovered; ++i, time_ns += kFrameNs) result = tracker.track(dark_picture(time_ns), {});
+    for (int i = 0; i < frames; ++i, time_ns += kFrameNs) result = tracker.track(dark_picture(time_ns), {});
     return result;
   }
   /// Maps half a metre, and is uncovered where the map shows nothing of.
@@ -117,6 +117,18 @@ TEST(TrackerSubmap, IsLeftWhereTheCameraFindsItselfInTheMapAndJoinedLater) {
   ASSERT_TRUE(walk.joined);
   EXPECT_EQ(walk.joined->submap, 1U) << "the map moves nowhere, the submap goes to it";
   EXPECT_LT(walk.error_m(), 0.05);
+}
+
+/// It may show nothing but people, who walk on.
+TEST(TrackerSubmap, IsGivenUpWhereTheCameraIsLostWithinASecond) {
+  for (const int tracked : {5, 40}) {  // frames
+    Walk walk;
+    walk.begin_submap();
+    const double there = kFarX + 0.005 * tracked;
+    EXPECT_EQ(walk.go(kFarX, there, tracked).submap, 1U);
+    EXPECT_EQ(walk.cover(5).state, State::kLost);
+    EXPECT_EQ(walk.go(there, there + 0.1, 10).submap, tracked == 5 ? 2U : 1U);
+  }
 }
 
 TEST(TrackerSubmap, IsNotJoinedByWhatLiesInOnePlane) {

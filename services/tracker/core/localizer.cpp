@@ -14,7 +14,6 @@ namespace {
 constexpr double kNsPerSecond = 1e9;
 constexpr int kMinInliersWeak = 15;      // below: lost
 constexpr double kMinFoundShare = 0.25;  // of the usual share of expected points found; below: weak
-constexpr double kYoungSubmapS = 1;      // of tracking in it
 constexpr double kWeakS = 1;             // of weak tracking in a row, then lost
 constexpr double kByDepthS = 0.5;        // of tracking by depth alone, then lost
 constexpr double kChangedShare = 0.35;   // drop of the share of expected points found that counts as a change
@@ -150,7 +149,7 @@ State Localizer::estimate(const TrackingContext& context, State before, const Ke
                           PoseEstimate& found) {
   TrackedFrame& frame = found.frame;
   const bool was_lost = before == State::kLost;
-  if (was_lost && is_in_young_submap(context.map))
+  if (was_lost && is_in_unproven_submap(context.map))
     return relocalize(context, frame) ? State::kRelocalised : State::kLost;
   const int inliers = features_.track(context, frame);
   const bool jumped = context.motion.is_jump(frame.camera_from_map);
@@ -211,27 +210,25 @@ bool Localizer::follow_expected(const TrackingContext& context, const Pose& expe
   return true;
 }
 
-/// Who is lost so soon after a submap began may have begun it with a picture of nothing but people: what is
-/// known of them tells nothing of the camera, and the next submap begins where they have passed.
-bool Localizer::is_in_young_submap(const SlamMap& map) const {
-  const Submaps& submaps = map.records().submaps();
-  const KeyframeId reference = features_.reference();
-  if (reference == kNoId || !features_.last() || submaps.of(reference) == Submaps::kMap) return false;
-  const auto row =
-      std::ranges::find(submaps.rows(), submaps.of(reference), [](const auto& r) { return r.second; });
-  const Keyframe* first = row == submaps.rows().end() ? nullptr : map.keyframe(row->first);
-  if (first == nullptr) return false;
-  return static_cast<double>(features_.last()->frame.time_ns - first->time_ns) < kYoungSubmapS * kNsPerSecond;
+/// Whether the camera is in a submap that is too young for any point to be known to be static: it may be
+/// found again by what moves.
+bool Localizer::is_in_unproven_submap(const SlamMap& map) const {
+  const Keyframe* reference = map.keyframe(features_.reference());
+  if (reference == nullptr || map.records().submaps().of(reference->id) == Submaps::kMap) return false;
+  return std::ranges::none_of(reference->points, [&](PointId id) {
+    const MapPoint* point = map.point(id);
+    return point != nullptr && static_weight(map, *point) == 1;
+  });
 }
 
 bool Localizer::relocalize(const TrackingContext& context, TrackedFrame& frame) {
   const auto around = [this](const Keyframe& k) { return sought_->contains(k.map_from_camera); };
   const Submaps& submaps = context.map.records().submaps();
   const KeyframeId last = features_.reference();
-  const bool is_young = is_in_young_submap(context.map);
+  const bool is_unproven = is_in_unproven_submap(context.map);
   const auto reachable = [&](const Keyframe& k) {
     return last == kNoId || submaps.of(k.id) != submaps.of(last) ||
-           (!is_young && context.motion.can_be_near(k.map_from_camera));
+           (!is_unproven && context.motion.can_be_near(k.map_from_camera));
   };
   const bool is_found = (sought_ && relocalizer_.localize(context, around, frame)) ||
                         relocalizer_.localize(context, reachable, frame);

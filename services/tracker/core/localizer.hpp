@@ -77,7 +77,7 @@ class Localizer {
   State estimate(const TrackingContext& context, State before, const KeyframeSelector& keyframes,
                  PoseEstimate& found);
   bool follow_expected(const TrackingContext& context, const Pose& expected, PoseEstimate& lost);
-  [[nodiscard]] bool is_in_young_submap(const SlamMap& map) const;
+  [[nodiscard]] bool is_in_unproven_submap(const SlamMap& map) const;
   bool relocalize(const TrackingContext& context, TrackedFrame& frame);
   bool find_carried(const TrackingContext& context, const KeyframeSelector& keyframes, TrackedFrame& frame);
   bool find_near(const TrackingContext& context, const Pose& by_depth, const KeyframeSelector& keyframes,

@@ -54,13 +54,11 @@ void SeenAgain::add(double angle_rad, bool is_alike) {
   const double same = kAlikeFromThere * std::exp(-angle_rad / kAngleRad);
   const double other = kAlikeElsewhere * same;
   ++expected;
-  alike += is_alike ? 1 : 0;
   log_ratios += is_alike ? std::log(same / other) : std::log((1 - same) / (1 - other));
 }
 
 void SeenAgain::operator+=(const SeenAgain& other) {
   expected += other.expected;
-  alike += other.alike;
   log_ratios += other.log_ratios;
 }
 

@@ -10,15 +10,12 @@ namespace rds::tracker {
 /// Map points on surfaces that a keyframe has measured where it should see them.
 struct SeenAgain {
   int expected = 0;
-  int alike = 0;          // whose surroundings look there as in the keyframes that saw them
   double log_ratios = 0;  // sum over the expected points
 
-  [[nodiscard]] double share() const { return expected > 0 ? static_cast<double>(alike) / expected : 0; }
   /// Log-odds that the place is the same one and not one that looks alike; 0 where too few points are
   /// expected, as in a saved map.
   ///
-  ///   −log( (1 − τ) · exp(−L) + τ ),  L = 22 · mean of ln( P(alike or not | same) / P(alike or not | other)
-  ///   )
+  ///   −log( (1 − τ) · exp(−L) + τ ),  L = 22 · mean of ln( P(seen | same) / P(seen | other) )
   ///
   /// Points beside each other say the same: all together are worth 22. One of so many places that look alike
   /// (τ) does so in every detail.

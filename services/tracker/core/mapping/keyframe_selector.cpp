@@ -102,7 +102,8 @@ KeyframeFacts KeyframeSelector::facts(const Candidate& candidate, double view_ch
   facts.view_change = view_change;
   facts.since_last_s = seconds(frame.time_ns - *last_ns_);
   facts.frames_since_last = frames_since_last_;
-  if (last_in_map_ns_) facts.since_map_s = seconds(frame.time_ns - *last_in_map_ns_);
+  if (const Keyframe* newest = candidate.context.map.keyframe(newest_in_map_))
+    facts.since_map_s = seconds(frame.time_ns - newest->time_ns);
   facts.movable_or_changed = frame.movable_in_view || candidate.scene_changed;
   return facts;
 }
@@ -133,7 +134,6 @@ KeyframeNeed KeyframeSelector::need_of_followed(const Candidate& candidate) {
 
 void KeyframeSelector::note_in_map(KeyframeId keyframe, std::int64_t time_ns) {
   newest_in_map_ = keyframe;
-  last_in_map_ns_ = time_ns;
   followed_view_ = kNoId;
   note_not_in_map(time_ns);
 }

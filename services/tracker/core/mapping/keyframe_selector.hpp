@@ -53,8 +53,7 @@ class KeyframeSelector {
 
   KeyframeConfig config_;
   KeyframeId newest_in_map_ = kNoId;
-  std::optional<std::int64_t> last_ns_;         // time of the last keyframe
-  std::optional<std::int64_t> last_in_map_ns_;  // of the last one of the map
+  std::optional<std::int64_t> last_ns_;  // time of the last keyframe
   int frames_since_last_ = 0;
   KeyframeId followed_view_ = kNoId;  // nearest_view() of the last followed frame
   int covered_at_view_ = 0;  // cells of the picture with followed points when that became the nearest

@@ -71,7 +71,7 @@ float at_least_finest(float scale2) {
   return std::max(scale2, kFinestScale * kFinestScale);
 }
 
-/// The scale of Student's t that the residuals are most likely of (Kerl et al. 2013, eq. 14).
+/// The scale of Student's t that the residuals are most likely of (Kerl et al. 2013, §III).
 /// @param scale2  where to start; 0: at their mean square. @return its square.
 float squared_scale(std::span<const Comparison> comparisons, float offset, float scale2) {
   const float pixels = static_cast<float>(comparisons.size()) * kArea;
@@ -97,7 +97,7 @@ float cost_of(std::span<const Comparison> comparisons, float offset, float scale
   float sum = 0;
   for (const Comparison& c : comparisons) {
     const Square factor = 1 + (c.difference - offset).square() / (kFreedom * scale2);
-    // Of the product of eight a float has room for: 1 + 255² / 5 each, at most.
+    // Of the product of eight a float has room for: 1 + 510² / 5 each, at most.
     sum += std::log(factor.topRows<2>().prod()) + std::log(factor.bottomRows<2>().prod());
   }
   const float pixels = static_cast<float>(comparisons.size()) * kArea;

@@ -119,8 +119,8 @@ TEST(TrackerSubmap, IsLeftWhereTheCameraFindsItselfInTheMapAndJoinedLater) {
   EXPECT_LT(walk.error_m(), 0.05);
 }
 
-/// It may show nothing but people, who walk on.
-TEST(TrackerSubmap, IsGivenUpWhereTheCameraIsLostWithinASecond) {
+/// It may be found again by people, who walk on.
+TEST(TrackerSubmap, IsGivenUpWhereTheCameraIsLostBeforeAnyPointIsKnownToBeStatic) {
   for (const int tracked : {5, 40}) {  // frames
     Walk walk;
     walk.begin_submap();

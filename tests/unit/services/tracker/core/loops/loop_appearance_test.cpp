@@ -44,21 +44,21 @@ class LoopAppearance : public testing::Test {
 TEST_F(LoopAppearance, ThePlaceItselfLooksTheSame) {
   const auto again = look();
   EXPECT_GT(again.expected, 100);
-  EXPECT_GT(again.share(), 0.8);
+  EXPECT_GT(again.log_odds(), 2);
 }
 
 TEST_F(LoopAppearance, TheSameShapeWithOtherPicturesDoesNot) {
   paint(1);
   const auto again = look();
   EXPECT_GT(again.expected, 100);
-  EXPECT_LT(again.share(), 0.1);
+  EXPECT_LT(again.log_odds(), -15);
 }
 
 TEST_F(LoopAppearance, ThatAPartIsTheSameIsNotEnough) {
   paint(0.5);
   const auto again = look();
-  EXPECT_GT(again.share(), 0.2);
-  EXPECT_LT(again.share(), 0.7);
+  EXPECT_GT(again.log_odds(), -15);
+  EXPECT_LT(again.log_odds(), -1);
 }
 
 TEST_F(LoopAppearance, WhatStandsElsewhereIsNotExpected) {

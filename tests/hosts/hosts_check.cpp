@@ -126,10 +126,10 @@ void expect_row(const Row& row) {
 
 void expect_split_cores(const CoreRows& rows) {
   if (const auto reason = HostNetwork::why_not(); !reason.empty()) GTEST_SKIP() << reason;
-  const HostFigures alone = run_row(rows.alone);
-  const HostFigures split = run_row(rows.split);
-  const HostFigures beside = run_row(rows.beside);
-  const HostFigures shared = run_row(rows.shared);
+  const HostFigures alone = run_row(rows.alone, false);
+  const HostFigures split = run_row(rows.split, false);
+  const HostFigures beside = run_row(rows.beside, false);
+  const HostFigures shared = run_row(rows.shared, false);
   fmt::print(
       "{}: p99 of a frame {:.1f} ms split, {:.1f} ms beside, {:.1f} ms shared, {:.1f} ms alone; medians of "
       "answers {:.0f}, "

@@ -56,6 +56,7 @@ std::vector<Row> kinds() {
           impaired("rate_40_loss_1", 40, {.delay_ms = 3, .loss = 0.01}, {.p95_ms = 500}),
           Row{.name = "by_address", .has_multicast = false},
           Row{.name = "bystanders", .has_bystanders = true},
+          Row{.name = "clocks_apart", .clock_shift_s = 300},
           routed("router", Way::kRouter, {}),
           routed("routers", Way::kRouters, {}),
           routed("routers_rate_40_loss_1", Way::kRouters,

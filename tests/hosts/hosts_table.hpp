@@ -61,6 +61,7 @@ struct Row {
   bool has_bystanders = false;  // a fourth host where nothing runs; a second reader of the camera on A
   Cores cores = Cores::kAny;    // what feeds the camera is on the second
   Way way = Way::kDirect;
+  int clock_shift_s = 0;  // by which B's clock is set late, and C's early
 
   /// Name and vendor, for GoogleTest.
   [[nodiscard]] std::string label() const { return name + "_" + bus::name_of(vendor); }

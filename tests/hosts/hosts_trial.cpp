@@ -61,6 +61,14 @@ std::vector<std::string> held(std::vector<std::string> command, Cores cores, con
   return command;
 }
 
+/// By the host's clock.
+std::vector<std::string> shifted(std::vector<std::string> command, int shift_s, const std::string& host) {
+  if (shift_s == 0 || host == kA) return command;
+  command.insert(command.begin(), {"/usr/bin/env", "LD_PRELOAD=" RDS_SHIFTED_CLOCK,
+                                   fmt::format("RDS_CLOCK_SHIFT_S={}", host == "B" ? shift_s : -shift_s)});
+  return command;
+}
+
 /// Topics that nobody reads, or whose readers take a transfer instead when they are on another machine.
 bool may_be_missing(const std::string& link, bool on_one_machine) {
   const auto is_of = [&](const std::string& topic) {
@@ -111,7 +119,7 @@ std::vector<run::ServiceCommand> HostsTrial::commands() const {
       if (placement().at(command.name) != host) continue;
       if (row_.cores == Cores::kOneForTracker && command.name != run::kTracker) continue;
       command.command.front() = RDS_BIN_DIR "/" + command.name;
-      command.command = held(command.command, row_.cores, host);
+      command.command = shifted(held(command.command, row_.cores, host), row_.clock_shift_s, host);
       if (const std::string settings = routers_.client_settings(host); !settings.empty())
         command.command.insert(command.command.begin(), {"/usr/bin/env", kZenohSettings + ("=" + settings)});
       if (!row_.on_one_machine) command.command = network_.on(host, command.command);

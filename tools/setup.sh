@@ -5,7 +5,7 @@
 #
 # --no-zenoh  without the compiler and sources of Zenoh (100 MB), so --bus zenoh is left out of the build.
 # --ros       also ROS 2 Jazzy's and Kilted's rclpy in .venv-jazzy and .venv-kilted, for the test beside ROS 2 programs, and readers of
-#             ROS 2's recordings in .venv-records, and other people's Zenoh in .venv-zenoh.
+#             ROS 2's recordings in .venv-records, and other people's Zenoh in .venv-zenoh and .venv-zenoh-1.5.
 # --viewer    also Chromium, Node.js and, in tests/viewer/node_modules, npm packages, for the tests of the viewer's page.
 # --docs      also mkdocs-material and doxygen, for the site of all documents (tools/docs.sh).
 # RDS_SHARED  folder whose models/ holds the paper's network; without it NanoDet-g is fetched.
@@ -73,6 +73,7 @@ set_up_ros() {
   done
   set_up_venv .venv-records "readers of recordings" "$root/tests/records/requirements.txt"
   set_up_venv .venv-zenoh "other programs on Zenoh" "$root/tests/integration/bus/zenoh_requirements.txt"
+  set_up_venv .venv-zenoh-1.5 "Zenoh 1.5" "$root/tests/integration/bus/zenoh_requirements_1.5.txt"
 }
 
 # A cargo of the user's own, else Debian's, with what checks the crate; what it is built of comes from crates.io.

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // One process on the bus, for the tests in Python; it stays until its standard input closes.
-//   bus_peer reader VENDOR DOMAIN                says the name (frame_id) of each picture it gets, "torn" of one
-//   that is made of several
-//   bus_peer talker VENDOR DOMAIN                writes ten small pictures a second, named "VENDOR NUMBER"
-//   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at
-//                                                30 Hz, then says {"refused": n, "slowest_ms": t}
-//   bus_peer census VENDOR DOMAIN COUNT          says {"seconds": t} when it has discovered COUNT of its kind
-//   bus_peer keeper VENDOR DOMAIN COUNT          writes the numbers from 0 to COUNT - 1, ten a second, of
-//   which
-//                                                late readers get the last 100
-//   bus_peer late VENDOR DOMAIN                  says each of these numbers that it gets
-//   bus_peer server VENDOR DOMAIN                serves "switch" (std_srvs/srv/SetBool), and answers what it
-//   was asked
+//   bus_peer MODE VENDOR DOMAIN …
+//   reader                says the name (frame_id) of each picture it gets, "torn" of one made of several
+//   talker                writes ten small pictures a second, named "VENDOR NUMBER"
+//   writer READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at 30 Hz, then says
+//                         {"refused": n, "slowest_ms": t}
+//   census COUNT          says {"seconds": t} when it has discovered COUNT of its kind
+//   keeper COUNT          writes the numbers below COUNT, ten a second; late readers get the last 100
+//   teller DEPTH          writes each line of its standard input; late readers get the last DEPTH
+//   late                  says each number or line that it gets
+//   server                serves "switch" (std_srvs/srv/SetBool), and answers what it was asked
 // --network before these: with multicast and on every interface, as services are; else on 127.0.0.1.
 // --peers LIST before these: as --network, and with these peers.
 // --secure FOLDER IDENTITY before these: in a secured domain.
@@ -28,6 +26,7 @@
 #include "common/bus/service_server.hpp"
 #include "sensor_msgs/msg/Image.h"
 #include "std_msgs/msg/Header.h"
+#include "std_msgs/msg/String.h"
 #include "std_srvs/srv/SetBool_Request.h"
 #include "std_srvs/srv/SetBool_Response.h"
 
@@ -35,6 +34,7 @@ namespace {
 
 using rds::bus::Participant;
 using sensor_msgs::msg::Image;
+using std_msgs::msg::String;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -104,11 +104,11 @@ void census(Participant& participant, std::ptrdiff_t count, Clock::time_point st
 }
 
 void keep(Participant& participant, int count) {
-  auto publisher = participant.advertise<std_msgs::msg::Header>("number", rds::bus::kLatchedEvery);
+  auto publisher = participant.advertise<String>("number", rds::bus::kLatchedEvery);
   const std::jthread writer([&](const std::stop_token& stop) {
-    std_msgs::msg::Header number;
+    String number;
     for (int i = 0; i < count && !stop.stop_requested(); ++i) {
-      number.frame_id(std::to_string(i));
+      number.data(std::to_string(i));
       publisher.write(number);
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
@@ -116,11 +116,16 @@ void keep(Participant& participant, int count) {
   stay();
 }
 
+void tell(Participant& participant, int depth) {
+  auto publisher = participant.advertise<String>("number", {.transient_local = true, .depth = depth});
+  String text;
+  while (std::getline(std::cin, text.data())) publisher.write(text);
+}
+
 void join_late(Participant& participant) {
-  auto subscription = participant.subscribe<std_msgs::msg::Header>(
-      "number", rds::bus::kLatchedEvery, [](const std::shared_ptr<const std_msgs::msg::Header>& number) {
-        std::cout << number->frame_id() << std::endl;
-      });
+  auto subscription = participant.subscribe<String>(
+      "number", rds::bus::kLatchedEvery,
+      [](const std::shared_ptr<const String>& number) { std::cout << number->data() << std::endl; });
   stay();
 }
 
@@ -168,6 +173,7 @@ int run(std::vector<std::string> arguments) {
   if (mode == "talker") talk(*participant, arguments.at(1));
   if (mode == "writer") write(*participant, std::stoi(arguments.at(3)), std::stoi(arguments.at(4)));
   if (mode == "keeper") keep(*participant, std::stoi(arguments.at(3)));
+  if (mode == "teller") tell(*participant, std::stoi(arguments.at(3)));
   if (mode == "late") join_late(*participant);
   if (mode == "server") serve(*participant);
   if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);

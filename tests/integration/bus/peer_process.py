@@ -29,6 +29,12 @@ class Peer:
     def send(self, number):
         self.process.send_signal(number)
 
+    def tell(self, lines):
+        """Writes lines to its standard input."""
+        for line in lines:
+            self.process.stdin.write(f"{line}\n")
+            self.process.stdin.flush()
+
     def lives(self):
         return self.process.poll() is None
 

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // One process on the bus, for the tests in Python; it stays until its standard input closes.
-//   bus_peer reader VENDOR DOMAIN                says the name (frame_id) of each picture it gets, "torn" of one
-//   that is made of several
-//   bus_peer talker VENDOR DOMAIN                writes ten small pictures a second, named "VENDOR NUMBER"
-//   bus_peer writer VENDOR DOMAIN READERS COUNT  waits for its readers, writes COUNT pictures of 1.5 MB at
-//                                                30 Hz, then says {"refused": n, "slowest_ms": t}
-//   bus_peer census VENDOR DOMAIN COUNT          says {"seconds": t} when it has discovered COUNT of its kind
-//   bus_peer keeper VENDOR DOMAIN COUNT          writes the numbers from 0 to COUNT - 1, ten a second, of
-//   which
-//                                                late readers get the last 100
-//   bus_peer late VENDOR DOMAIN                  says each of these numbers that it gets
-//   bus_peer server VENDOR DOMAIN                serves "switch" (std_srvs/srv/SetBool), and answers what it
-//   was asked
+//   bus_peer reader VENDOR DOMAIN
+//     says the name (frame_id) of each picture it gets, "torn" of one that is made of several
+//   bus_peer talker VENDOR DOMAIN
+//     writes ten small pictures a second, named "VENDOR NUMBER"
+//   bus_peer writer VENDOR DOMAIN READERS COUNT
+//     waits for its readers, writes COUNT pictures of 1.5 MB at 30 Hz, then says
+//     {"refused": n, "slowest_ms": t}
+//   bus_peer census VENDOR DOMAIN COUNT
+//     says {"seconds": t} when it has discovered COUNT of its kind
+//   bus_peer keeper VENDOR DOMAIN COUNT
+//     writes the numbers from 0 to COUNT - 1, ten a second, of which late readers get the last 100
+//   bus_peer late VENDOR DOMAIN
+//     says each of these numbers that it gets
+//   bus_peer meter VENDOR DOMAIN
+//     reads these numbers and pictures, and says five times a second
+//     {"number": {"messages": n, "dropped": n}, "picture": {"messages": n, "dropped": n}}
+//   bus_peer server VENDOR DOMAIN
+//     serves "switch" (std_srvs/srv/SetBool), and answers what it was asked
 // --network before these: with multicast and on every interface, as services are; else on 127.0.0.1.
 // --peers LIST before these: as --network, and with these peers.
 // --secure FOLDER IDENTITY before these: in a secured domain.
@@ -22,6 +28,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "common/bus/participant.hpp"
 #include "common/bus/peer_addresses.hpp"
@@ -124,6 +132,23 @@ void join_late(Participant& participant) {
   stay();
 }
 
+void measure(Participant& participant) {
+  const auto ignore = [](const auto&) {};
+  const auto numbers =
+      participant.subscribe<std_msgs::msg::Header>("number", rds::bus::kLatchedEvery, ignore);
+  const auto pictures = participant.subscribe<Image>("picture", rds::bus::kSensor, ignore);
+  const std::jthread speaker([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      nlohmann::json counts;
+      for (const auto& topic : participant.statistics())
+        counts[topic.topic] = {{"messages", topic.messages}, {"dropped", topic.dropped}};
+      std::cout << counts.dump() << std::endl;
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  });
+  stay();
+}
+
 void serve(Participant& participant) {
   using std_srvs::srv::SetBool_Request;
   using std_srvs::srv::SetBool_Response;
@@ -169,6 +194,7 @@ int run(std::vector<std::string> arguments) {
   if (mode == "writer") write(*participant, std::stoi(arguments.at(3)), std::stoi(arguments.at(4)));
   if (mode == "keeper") keep(*participant, std::stoi(arguments.at(3)));
   if (mode == "late") join_late(*participant);
+  if (mode == "meter") measure(*participant);
   if (mode == "server") serve(*participant);
   if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);
   return 0;

@@ -81,7 +81,7 @@ class Flood(unittest.TestCase):
         self.assertLessEqual(asked, 1000 * (1 + (SECONDS + 10) // 10))  # each is open for ten seconds
 
     def test_gaps_that_nobody_fills(self):
-        dropped, _ = self.flood("gaps", 450 if SOAK else 300)
+        dropped, _ = self.flood("gaps", 1000)
         self.assertGreater(dropped["number"], 100)
 
     def test_messages_of_the_largest_size(self):

@@ -11,7 +11,7 @@ use zenoh::sample::Sample;
 /// Publishers that a subscriber knows beside those that have a token.
 const MOST_SOURCES: usize = 1000;
 /// Samples that wait for what is missing before them, in all subscribers of the process [bytes].
-const MOST_HELD: usize = 128 << 20;
+const MOST_HELD: usize = 256 << 20;
 /// What the smallest sample may keep of the buffer that it was received in [bytes].
 const RECEIVED_IN: usize = 64 << 10;
 /// Questions to publishers, of all subscribers of the process.

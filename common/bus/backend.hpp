@@ -35,6 +35,8 @@ class BackendWriter {
  public:
   virtual ~BackendWriter() = default;
   virtual bool write(const void* message) = 0;
+  /// Messages that were taken by write() and went nowhere.
+  [[nodiscard]] virtual std::uint64_t lost() const { return 0; }
   [[nodiscard]] virtual int matched() const = 0;
   [[nodiscard]] virtual Guid guid() const = 0;
 };

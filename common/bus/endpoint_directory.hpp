@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -34,21 +35,16 @@ class EndpointDirectory {
   }
 
   void remove(const Key& key) {
-    remove_if([&key](const Key& other) { return other == key; });
+    const std::lock_guard lock(mutex_);
+    if (const auto entry = present_.find(key); entry != present_.end()) leave(entry);
+    ++revision_;
   }
 
   template <class Predicate>
   void remove_if(Predicate leaves) {
     const std::lock_guard lock(mutex_);
-    for (auto entry = present_.begin(); entry != present_.end();) {
-      if (!leaves(entry->first)) {
-        ++entry;
-        continue;
-      }
-      if (entry->second.endpoint.publisher) departed_.emplace_back(entry->first, std::move(entry->second));
-      entry = present_.erase(entry);
-    }
-    while (departed_.size() > kRemembered) departed_.pop_front();
+    for (auto entry = present_.begin(); entry != present_.end();)
+      entry = leaves(entry->first) ? leave(entry) : std::next(entry);
     ++revision_;
   }
 
@@ -101,6 +97,12 @@ class EndpointDirectory {
     DiscoveredEndpoint endpoint;
     Guid guid{};
   };
+  auto leave(typename std::map<Key, Entry>::iterator entry) {
+    if (entry->second.endpoint.publisher) departed_.emplace_back(entry->first, std::move(entry->second));
+    if (departed_.size() > kRemembered) departed_.pop_front();
+    return present_.erase(entry);
+  }
+
   mutable std::mutex mutex_;
   std::map<Key, Entry> present_;
   std::deque<std::pair<Key, Entry>> departed_;

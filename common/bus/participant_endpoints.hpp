@@ -32,7 +32,7 @@ class WriterEndpoint final : public PublisherEndpoint, public Endpoint {
 
  private:
   [[nodiscard]] Guid guid() const override { return writer_->guid(); }
-  [[nodiscard]] std::uint64_t lost() const override { return 0; }
+  [[nodiscard]] std::uint64_t lost() const override { return writer_->lost(); }
 
   std::unique_ptr<BackendWriter> writer_;
 };

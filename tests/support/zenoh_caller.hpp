@@ -67,7 +67,7 @@ class ZenohCaller {
   using Answers = bus::detail::ZenohInbox<bus::detail::ZenohSample>;
   static const RdsZenohApi& zenoh() { return bus::detail::zenoh_library(); }
   static void push(void* answers, RdsZenohSample* sample) {
-    (*static_cast<std::shared_ptr<Answers>*>(answers))->push(bus::detail::ZenohSample(sample));
+    (*static_cast<std::shared_ptr<Answers>*>(answers))->push(bus::detail::ZenohSample(sample), 0);
   }
   static void count(void* servers, const char* /*token*/, std::size_t /*size*/, int alive) {
     **static_cast<std::shared_ptr<std::atomic<int>>*>(servers) += alive != 0 ? 1 : -1;

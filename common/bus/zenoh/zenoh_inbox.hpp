@@ -6,24 +6,28 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <utility>
+
+#include "common/bus/zenoh/zenoh_settings.hpp"
 
 namespace rds::bus::detail {
 
-/// The newest that have come (samples or requests) and were not taken yet. Thread-safe.
+/// The newest that have come (samples or requests) and were not taken yet: so many, and no more bytes than
+/// one largest message has. Thread-safe.
 /// @tparam Item  a pointer that owns.
 template <class Item>
 class ZenohInbox {
  public:
   explicit ZenohInbox(std::size_t depth) : depth_(depth) {}
 
-  void push(Item item) {
-    Item displaced;  // ends without the lock
+  void push(Item item, std::size_t bytes) {
+    std::deque<Waiting> displaced;  // ends without the lock
     {
       const std::lock_guard lock(mutex_);
-      items_.push_back(std::move(item));
-      if (items_.size() > depth_) {
-        displaced = std::move(items_.front());
-        items_.pop_front();
+      items_.push_back({std::move(item), bytes});
+      bytes_ += bytes;
+      while (items_.size() > depth_ || (bytes_ > kLargestMessage && items_.size() > 1)) {
+        displaced.push_back(take_first());
         ++displaced_;
       }
     }
@@ -32,10 +36,7 @@ class ZenohInbox {
   /// @return null if there is none.
   Item pop() {
     const std::lock_guard lock(mutex_);
-    if (items_.empty()) return nullptr;
-    Item item = std::move(items_.front());
-    items_.pop_front();
-    return item;
+    return items_.empty() ? nullptr : take_first().item;
   }
   void wait() {
     std::unique_lock lock(mutex_);
@@ -57,10 +58,22 @@ class ZenohInbox {
   [[nodiscard]] std::uint64_t displaced() const { return displaced_; }
 
  private:
+  struct Waiting {
+    Item item;
+    std::size_t bytes;
+  };
+  Waiting take_first() {
+    Waiting first = std::move(items_.front());
+    items_.pop_front();
+    bytes_ -= first.bytes;
+    return first;
+  }
+
   std::size_t depth_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Item> items_;
+  std::deque<Waiting> items_;
+  std::size_t bytes_ = 0;  // of these
   bool woken_ = false;
   std::atomic<std::uint64_t> displaced_ = 0;
 };

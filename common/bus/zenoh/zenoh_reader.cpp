@@ -10,7 +10,10 @@ RdsZenohSubscriberOptions subscriber_options(const Qos& qos) {
 }
 
 void push_sample(void* inbox, RdsZenohSample* sample) {
-  (*static_cast<std::shared_ptr<ZenohInbox<ZenohSample>>*>(inbox))->push(ZenohSample(sample));
+  RdsZenohView view{};
+  zenoh_library().view(sample, &view);
+  (*static_cast<std::shared_ptr<ZenohInbox<ZenohSample>>*>(inbox))
+      ->push(ZenohSample(sample), view.size + view.attachment_size);
 }
 
 }  // namespace

@@ -12,7 +12,10 @@ using std::chrono::system_clock;
 constexpr std::size_t kRequests = 10;
 
 void push_query(void* inbox, RdsZenohQuery* query) {
-  (*static_cast<std::shared_ptr<ZenohInbox<ZenohQuery>>*>(inbox))->push(ZenohQuery(query));
+  RdsZenohView view{};
+  zenoh_library().view_query(query, &view);
+  (*static_cast<std::shared_ptr<ZenohInbox<ZenohQuery>>*>(inbox))
+      ->push(ZenohQuery(query), view.size + view.attachment_size);
 }
 
 std::int64_t now_ns() {
@@ -102,7 +105,7 @@ bool ZenohService::reply(const Caller& caller, const void* response) {
   const std::size_t size = response_.encoded_size(response);
   std::uint8_t* bytes = nullptr;
   ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, false, &bytes));
-  if (response_.encode(response, bytes, size) == 0) return false;
+  if (buffer == nullptr || response_.encode(response, bytes, size) == 0) return false;
   replies_->push(std::move(query), std::move(buffer), {caller.request, now_ns(), caller.client});
   return true;
 }

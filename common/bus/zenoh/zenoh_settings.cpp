@@ -22,7 +22,6 @@ constexpr int kWaitBeforeCloseUs = 10'000'000;
 /// Parts of 64 kB that may wait on a link in the class of pictures, for a reader that is not scheduled for a
 /// while.
 constexpr int kPictureBatches = 16;
-constexpr int kLargestMessage = 256 << 20;  // bytes
 /// What a process that shares memory takes of /dev/shm for its messages on their way [bytes].
 constexpr int kSharedMemory = 16 << 20;
 /// What the kernel may hold of a link to other machines [bytes]: that cannot be overtaken any more, and its
@@ -75,9 +74,7 @@ json link_settings() {
 json shared_memory_settings() {
   return {{"enabled", false},
           {"transport_optimization",
-           {{"pool_size", kSharedMemory},
-            {"message_size_threshold", kLeastShared},
-            {"messages", {"put"}}}}};
+           {{"pool_size", kSharedMemory}, {"message_size_threshold", kLeastShared}, {"messages", {"put"}}}}};
 }
 
 /// What a router and a participant have in common.

@@ -12,6 +12,8 @@ namespace rds::bus::detail {
 
 /// Bytes from which a message goes through shared memory, where there is any: less is faster through a link.
 inline constexpr std::size_t kLeastShared = 64 << 10;
+/// Bytes of the largest message that is taken.
+inline constexpr std::size_t kLargestMessage = 256 << 20;
 
 // A session's configuration in Zenoh's own form; common/bus/zenoh/README.md explains it.
 

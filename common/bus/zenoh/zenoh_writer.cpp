@@ -83,11 +83,14 @@ bool ZenohWriter::write(const void* message) {
   std::uint8_t* bytes = nullptr;
   const bool share = !keeps_ && size >= kLeastShared;
   ZenohBuffer buffer(zenoh_library().make_buffer(node_.session().get(), size, share, &bytes));
-  if (type_.encode(message, bytes, size) == 0) return false;
+  if (buffer == nullptr || type_.encode(message, bytes, size) == 0) return false;
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back({std::move(buffer), {++sequence_, now_ns(), gid_}});
-    if (waiting_.size() > depth_) waiting_.pop_front();
+    if (waiting_.size() > depth_) {
+      waiting_.pop_front();
+      ++lost_;
+    }
   }
   changed_.notify_one();
   return true;
@@ -104,7 +107,8 @@ void ZenohWriter::send_all() {
     waiting_.pop_front();
     lock.unlock();
     const auto attachment = to_bytes(next.attachment);
-    zenoh_library().put(publisher_.get(), next.buffer.release(), attachment.data(), attachment.size());
+    if (!zenoh_library().put(publisher_.get(), next.buffer.release(), attachment.data(), attachment.size()))
+      ++lost_;
     lock.lock();
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -25,6 +26,7 @@ class ZenohWriter final : public BackendWriter {
   ZenohWriter& operator=(const ZenohWriter&) = delete;
 
   bool write(const void* message) override;
+  [[nodiscard]] std::uint64_t lost() const override { return lost_; }
   [[nodiscard]] int matched() const override { return node_.graph().matched(topic_, type_.dds_name, true); }
   [[nodiscard]] Guid guid() const override { return gid_; }
 
@@ -49,7 +51,8 @@ class ZenohWriter final : public BackendWriter {
   std::deque<Waiting> waiting_;
   std::int64_t sequence_ = 0;
   bool closing_ = false;
-  std::thread sender_;  // last: it uses the others
+  std::atomic<std::uint64_t> lost_ = 0;  // displaced while they waited, or refused by Zenoh
+  std::thread sender_;                   // last: it uses the others
 };
 
 }  // namespace rds::bus::detail

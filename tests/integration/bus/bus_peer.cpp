@@ -9,6 +9,8 @@
 //   keeper COUNT          writes the numbers below COUNT, ten a second; late readers get the last 100
 //   teller DEPTH          writes each line of its standard input; late readers get the last DEPTH
 //   late                  says each number or line that it gets
+//   meter                 reads these numbers and pictures, and says five times a second
+//                         {"number": {"messages": n, "dropped": n}, "picture": {"messages": n, "dropped": n}}
 //   server                serves "switch" (std_srvs/srv/SetBool), and answers what it was asked
 // --network before these: with multicast and on every interface, as services are; else on 127.0.0.1.
 // --peers LIST before these: as --network, and with these peers.
@@ -20,6 +22,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "common/bus/participant.hpp"
 #include "common/bus/peer_addresses.hpp"
@@ -129,6 +133,23 @@ void join_late(Participant& participant) {
   stay();
 }
 
+void measure(Participant& participant) {
+  const auto ignore = [](const auto&) {};
+  const auto numbers =
+      participant.subscribe<std_msgs::msg::Header>("number", rds::bus::kLatchedEvery, ignore);
+  const auto pictures = participant.subscribe<Image>("picture", rds::bus::kSensor, ignore);
+  const std::jthread speaker([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      nlohmann::json counts;
+      for (const auto& topic : participant.statistics())
+        counts[topic.topic] = {{"messages", topic.messages}, {"dropped", topic.dropped}};
+      std::cout << counts.dump() << std::endl;
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  });
+  stay();
+}
+
 void serve(Participant& participant) {
   using std_srvs::srv::SetBool_Request;
   using std_srvs::srv::SetBool_Response;
@@ -175,6 +196,7 @@ int run(std::vector<std::string> arguments) {
   if (mode == "keeper") keep(*participant, std::stoi(arguments.at(3)));
   if (mode == "teller") tell(*participant, std::stoi(arguments.at(3)));
   if (mode == "late") join_late(*participant);
+  if (mode == "meter") measure(*participant);
   if (mode == "server") serve(*participant);
   if (mode == "census") census(*participant, std::stoi(arguments.at(3)), start);
   return 0;

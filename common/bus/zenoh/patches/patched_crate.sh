@@ -37,6 +37,8 @@ patch_crates() {
     patch_crate "$name" "$1.new/$name"
   done
   cp patches/shared_stream.rs "$1.new/zenoh-link-tls/src"
+  cp patches/bounded.rs "$1.new/zenoh-ext/src"
+  cp patches/declared.rs "$1.new/zenoh/src/net/routing/dispatcher"
   mv "$1.new" "$1"
 }
 

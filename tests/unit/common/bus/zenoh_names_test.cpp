@@ -2,8 +2,6 @@
 // What rmw_zenoh writes on the network, and what anybody may write there.
 #include "common/bus/zenoh/wire/zenoh_names.hpp"
 
-#include <random>
-
 #include <gtest/gtest.h>
 
 #include "common/bus/zenoh/wire/zenoh_attachment.hpp"
@@ -112,11 +110,37 @@ TEST(ZenohNames, ASessionIsHexadecimal) {
   EXPECT_FALSE(session_guid(std::string(33, '0')));
 }
 
-/// XXH3's published vector for no bytes without seed: 99aa06d3014798d8 (high), 6001c324468d497f (low).
+/// The bytes that xxHash's own checks are made of.
+std::string xxhash_bytes(std::size_t count) {
+  std::string bytes;
+  std::uint64_t generator = 2654435761U;
+  for (std::size_t i = 0; i < count; ++i, generator *= 11400714785074694797U)
+    bytes.push_back(static_cast<char>(generator >> 56U));
+  return bytes;
+}
+
+/// Without seed: those of 0 to 512 bytes but for 16, 128, 240 and 241 are published with xxHash
+/// (XSUM_XXH128_testdata); those four are what its program xxhsum 0.8.1 (-H2) says.
 TEST(ZenohNames, AGidIsXxh3WithTheLowHalfFirst) {
-  const Guid expected{0x7f, 0x49, 0x8d, 0x46, 0x24, 0xc3, 0x01, 0x60,
-                      0xd8, 0x98, 0x47, 0x01, 0xd3, 0x06, 0xaa, 0x99};
-  EXPECT_EQ(gid_of_token(""), expected);
+  struct Vector {
+    std::size_t bytes;
+    std::uint64_t low;
+    std::uint64_t high;
+  };
+  constexpr Vector kVectors[] = {
+      {0, 0x6001c324468d497f, 0x99aa06d3014798d8},   {1, 0xc44bdff4074eecdb, 0xa6cd5e9392000f6a},
+      {6, 0x3e7039bdda43cfc6, 0x082afe0b8162d12a},   {12, 0x061a192713f69ad9, 0x6e3efd8fc7802b18},
+      {16, 0x562980258a998629, 0xc68c368ecf8a9c05},  {24, 0x1e7044d28b1b901d, 0x0ce966e4678d3761},
+      {48, 0xf942219aed80f67b, 0xa002ac4e5478227e},  {81, 0x5e8bafb9f95fb803, 0x4952f58181ab0042},
+      {128, 0xebb15e34a7fb5ab1, 0x39992220e045260a}, {222, 0xf1aebd597cec6b3a, 0x337e09641b948717},
+      {240, 0x5c9aae94c8ebe5a0, 0xaa4202daa2769dc8}, {241, 0xc5a639ecd2030e5e, 0x99a80ecf0ecfc647},
+      {403, 0xcdeb804d65c6dea4, 0x1b6de21e332dd73d}, {512, 0x617e49599013cb6b, 0x18d2d110dcc9bca1}};
+  for (const Vector& vector : kVectors) {
+    Guid expected{};
+    for (std::size_t i = 0; i < 16; ++i)
+      expected[i] = static_cast<std::uint8_t>((i < 8 ? vector.low : vector.high) >> (8 * (i % 8)));
+    EXPECT_EQ(gid_of_token(xxhash_bytes(vector.bytes)), expected) << vector.bytes << " bytes";
+  }
 }
 
 TEST(ZenohAttachment, ReadsBack) {
@@ -159,79 +183,6 @@ TEST(ZenohGraph, BelievesNobodyWhoSpeaksInItsName) {
   ZenohGraph graph(*session_guid(kSession));
   graph.take(kToken, true);
   EXPECT_TRUE(graph.discovered().empty());
-}
-
-// Hostile input: whatever is read is whole, and the rest is refused.
-constexpr int kMutations = 10'000;
-
-/// Changes, inserts or removes up to four bytes.
-template <class Bytes>
-Bytes mutated(Bytes bytes, std::mt19937& random) {
-  const auto below = [&](std::size_t limit) {
-    return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
-  };
-  for (std::size_t count = 1 + below(4); count > 0 && !bytes.empty(); --count) {
-    const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(below(bytes.size()));
-    const auto byte = static_cast<typename Bytes::value_type>(below(256));
-    switch (below(3)) {
-      case 0:
-        *at = byte;
-        break;
-      case 1:
-        bytes.insert(at, byte);
-        break;
-      default:
-        bytes.erase(at,
-                    at + static_cast<std::ptrdiff_t>(1 + below(static_cast<std::size_t>(bytes.end() - at))));
-    }
-  }
-  return bytes;
-}
-
-TEST(ZenohHostile, TokensAreReadWholeOrNot) {
-  std::mt19937 random(1);
-  ZenohGraph graph(*session_guid("1"));
-  int refused = 0;
-  for (int i = 0; i < kMutations; ++i) {
-    const std::string token = mutated(kToken, random);
-    const auto read = parse_endpoint_token(token);
-    graph.take(token, true);
-    if (!read) {
-      ++refused;
-      continue;
-    }
-    EXPECT_FALSE(read->endpoint.topic.empty());
-    EXPECT_FALSE(read->endpoint.type.empty());
-    EXPECT_TRUE(read->endpoint.type_hash.empty() || read->endpoint.type_hash.size() == kHash.size());
-  }
-  EXPECT_GT(refused, kMutations / 4);
-  EXPECT_LE(graph.discovered().size(), static_cast<std::size_t>(kMutations - refused));
-}
-
-TEST(ZenohHostile, AttachmentsAreReadWholeOrNot) {
-  std::mt19937 random(2);
-  const auto good = to_bytes({7, 1, gid_of_token(kToken)});
-  SequenceGaps gaps;
-  int refused = 0;
-  for (int i = 0; i < kMutations; ++i) {
-    const auto bytes = mutated(std::vector<std::uint8_t>(good.begin(), good.end()), random);
-    const auto read = parse_attachment(bytes);
-    if (!read) {
-      ++refused;
-      continue;
-    }
-    EXPECT_EQ(bytes.size(), kAttachmentSize);
-    EXPECT_GE(read->sequence, 0);
-    (void)gaps.count(*read);
-  }
-  EXPECT_GT(refused, kMutations / 4);
-}
-
-TEST(ZenohHostile, NobodyFillsTheMemoryWithNames) {
-  ZenohGraph graph(*session_guid("1"));
-  for (int i = 0; i < 3 * kMutations; ++i)
-    graph.take(endpoint_token({0, "2", "n"}, i, "t", string_type(), kStream, true), true);
-  EXPECT_EQ(graph.discovered().size(), 10'000U);
 }
 
 }  // namespace

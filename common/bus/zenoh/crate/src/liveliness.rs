@@ -44,7 +44,7 @@ pub unsafe extern "C" fn declare_watch(
             .callback(move |sample| {
                 let token = sample.key_expr().as_str();
                 let alive = c_int::from(sample.kind() == SampleKind::Put);
-                callback(object.get(), token.as_ptr().cast(), token.len(), alive);
+                object.tell(|object| callback(object, token.as_ptr().cast(), token.len(), alive));
             })
             .wait()
     })

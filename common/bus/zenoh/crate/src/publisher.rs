@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 use std::ffi::{c_char, c_int};
-use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::time::Duration;
 
 use zenoh::bytes::ZBytes;
@@ -9,7 +8,7 @@ use zenoh::shm::{Defragment, ZShmMut};
 use zenoh::Wait;
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig, RepliesConfig};
 
-use crate::border::{done, key, made};
+use crate::border::{bytes, done, guarded, key, made};
 use crate::session::Session;
 
 #[repr(C)]
@@ -102,19 +101,22 @@ pub unsafe extern "C" fn make_buffer(
 ) -> *mut Buffer {
     let memory = match share {
         0 => None,
-        _ => catch_unwind(AssertUnwindSafe(|| shared(&*session, size)))
-            .ok()
-            .flatten(),
+        _ => guarded(|| shared(&*session, size)).flatten(),
     };
-    let mut buffer = match memory {
-        Some(memory) => Buffer::Shared(memory),
-        None => Buffer::Own(uncleared(size)),
+    let made = guarded(|| {
+        Box::new(match memory {
+            Some(memory) => Buffer::Shared(memory),
+            None => Buffer::Own(uncleared(size)),
+        })
+    });
+    let Some(mut buffer) = made else {
+        return std::ptr::null_mut();
     };
-    *data = match &mut buffer {
+    *data = match &mut *buffer {
         Buffer::Own(bytes) => bytes.as_mut_ptr(),
         Buffer::Shared(bytes) => bytes.as_mut().as_mut_ptr(),
     };
-    Box::into_raw(Box::new(buffer))
+    Box::into_raw(buffer)
 }
 
 /// The caller writes all of it: to clear it first costs as much as the message's copy.
@@ -131,7 +133,11 @@ pub unsafe extern "C" fn put(
     attachment: *const u8,
     attachment_size: usize,
 ) -> c_int {
-    let payload = Buffer::into_bytes(buffer);
-    let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
-    c_int::from(done(|| (*publisher).put(payload).attachment(attachment).wait()))
+    c_int::from(done(|| {
+        let payload = Buffer::into_bytes(buffer);
+        (*publisher)
+            .put(payload)
+            .attachment(bytes(attachment, attachment_size))
+            .wait()
+    }))
 }

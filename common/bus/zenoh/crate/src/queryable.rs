@@ -2,14 +2,13 @@
 use std::ffi::{c_char, c_int, c_void};
 use std::time::Duration;
 
-use zenoh::bytes::ZBytes;
 use zenoh::query::{ConsolidationMode, Query, QueryTarget};
 use zenoh::Wait;
 
-use crate::border::{done, key, made, Object, OnQuery, OnSample, Release};
+use crate::border::{bytes, done, guarded, key, made, Object, OnQuery, OnSample, Release};
 use crate::publisher::Buffer;
 use crate::session::Session;
-use crate::subscriber::{gather_into, show, View};
+use crate::subscriber::{gather_into, shown, View};
 
 pub type Queryable = zenoh::query::Queryable<()>;
 
@@ -29,26 +28,18 @@ pub unsafe extern "C" fn declare_queryable(
             .session
             .declare_queryable(key(key_expression)?)
             .complete(true)
-            .callback(move |query| callback(object.get(), Box::into_raw(Box::new(query))))
+            .callback(move |query| object.tell(|object| callback(object, Box::into_raw(Box::new(query)))))
             .wait()
     })
 }
 
 pub unsafe extern "C" fn view_query(query: *const Query, view: *mut View) {
     let q = &*query;
-    show(
-        &mut *view,
-        q.key_expr().as_str(),
-        q.payload(),
-        q.attachment(),
-        q.source_info(),
-    );
+    *view = shown(|| (q.key_expr().as_str(), q.payload(), q.attachment(), q.source_info()));
 }
 
 pub unsafe extern "C" fn gather_query(query: *const Query, data: *mut u8) {
-    if let Some(payload) = (*query).payload() {
-        gather_into(payload, data);
-    }
+    guarded(|| (*query).payload().map(|payload| gather_into(payload, data)));
 }
 
 pub unsafe extern "C" fn reply(
@@ -57,13 +48,12 @@ pub unsafe extern "C" fn reply(
     attachment: *const u8,
     attachment_size: usize,
 ) -> c_int {
-    let payload = Buffer::into_bytes(buffer);
-    let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
-    let query = &*query;
     c_int::from(done(|| {
+        let payload = Buffer::into_bytes(buffer);
+        let query = &*query;
         query
             .reply(query.key_expr().clone(), payload)
-            .attachment(attachment)
+            .attachment(bytes(attachment, attachment_size))
             .wait()
     }))
 }
@@ -80,21 +70,20 @@ pub unsafe extern "C" fn get(
     object: *mut c_void,
     release: Release,
 ) -> c_int {
-    let payload = Buffer::into_bytes(buffer);
-    let attachment = ZBytes::from(std::slice::from_raw_parts(attachment, attachment_size));
     let object = Object::new(object, release);
     c_int::from(done(|| {
+        let payload = Buffer::into_bytes(buffer);
         (*session)
             .session
             .get(key(key_expression)?)
             .payload(payload)
-            .attachment(attachment)
+            .attachment(bytes(attachment, attachment_size))
             .target(QueryTarget::AllComplete)
             .consolidation(ConsolidationMode::None)
             .timeout(Duration::from_millis(timeout_ms))
             .callback(move |reply| {
                 if let Ok(sample) = reply.into_result() {
-                    callback(object.get(), Box::into_raw(Box::new(sample)));
+                    object.tell(|object| callback(object, Box::into_raw(Box::new(sample))));
                 }
             })
             .wait()

@@ -4,7 +4,7 @@ use std::ffi::c_char;
 use serde_json::Value;
 use zenoh::{Config, Wait};
 
-use crate::border::{done, made, text, Failure};
+use crate::border::{done, guarded, made, text, Failure};
 
 pub struct Session {
     pub session: zenoh::Session,
@@ -51,7 +51,10 @@ pub unsafe extern "C" fn close(session: *mut Session) {
 }
 
 pub unsafe extern "C" fn id(session: *const Session, out: *mut c_char) {
-    write_text(&(*session).session.zid().to_string(), out);
+    write_text(
+        &guarded(|| (*session).session.zid().to_string()).unwrap_or_default(),
+        out,
+    );
 }
 
 /// `out` has room for 33 bytes.

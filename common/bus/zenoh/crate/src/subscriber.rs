@@ -8,7 +8,7 @@ use zenoh::shm::ShmBuf;
 use zenoh::Wait;
 use zenoh_ext::{AdvancedSubscriber, AdvancedSubscriberBuilderExt, HistoryConfig, RecoveryConfig};
 
-use crate::border::{key, made, Object, OnSample, Release};
+use crate::border::{guarded, key, made, Object, OnSample, Release};
 use crate::session::{write_text, Session};
 
 /// How long the state of a publisher is kept that nobody knows to be alive: a bound for made-up ones.
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn declare_subscriber(
         let builder = (*session)
             .session
             .declare_subscriber(key(key_expression)?)
-            .callback(move |sample| callback(object.get(), Box::into_raw(Box::new(sample))));
+            .callback(move |sample| object.tell(|object| callback(object, Box::into_raw(Box::new(sample)))));
         if options.history == 0 && options.recover == 0 {
             return Ok(Subscriber::Plain(builder.wait()?));
         }
@@ -74,18 +74,14 @@ pub unsafe extern "C" fn declare_subscriber(
     })
 }
 
-/// Shows a message: `source` is the writing session's identifier.
-pub unsafe fn show(
-    view: &mut View,
-    key: &str,
-    payload: Option<&ZBytes>,
-    attachment: Option<&ZBytes>,
-    source: Option<&SourceInfo>,
-) {
+/// What a view shows of a message or a request: key, payload, attachment, source (the writing session's identifier).
+type Parts<'a> = (&'a str, Option<&'a ZBytes>, Option<&'a ZBytes>, Option<&'a SourceInfo>);
+
+unsafe fn show((key, payload, attachment, source): Parts) -> View {
+    let mut view: View = std::mem::zeroed();
     view.key = key.as_ptr().cast();
     view.key_size = key.len();
     view.size = payload.map_or(0, |p| p.len());
-    view.data = std::ptr::null();
     if let Some(payload) = payload {
         let mut pieces = payload.slices();
         if let (Some(only), None) = (pieces.next(), pieces.next()) {
@@ -100,6 +96,12 @@ pub unsafe fn show(
     }
     let source = source.map_or(String::new(), |s| s.source_id().zid().to_string());
     write_text(&source, view.source.as_mut_ptr());
+    view
+}
+
+/// @return all zeros, which is a message without an attachment, if that panics.
+pub unsafe fn shown<'a>(parts: impl FnOnce() -> Parts<'a>) -> View {
+    guarded(|| show(parts())).unwrap_or_else(|| std::mem::zeroed())
 }
 
 /// Writes a payload into one piece.
@@ -112,21 +114,23 @@ pub unsafe fn gather_into(payload: &ZBytes, mut data: *mut u8) {
 
 pub unsafe extern "C" fn view(sample: *const Sample, view: *mut View) {
     let s = &*sample;
-    show(
-        &mut *view,
-        s.key_expr().as_str(),
-        Some(s.payload()),
-        s.attachment(),
-        s.source_info(),
-    );
+    *view = shown(|| {
+        (
+            s.key_expr().as_str(),
+            Some(s.payload()),
+            s.attachment(),
+            s.source_info(),
+        )
+    });
 }
 
 /// Whether what view() has shown is still the message: memory that is shared goes back to its writer when a
 /// reader stands still.
 pub unsafe extern "C" fn intact(sample: *const Sample) -> c_int {
-    c_int::from(!matches!((*sample).payload().as_shm(), Some(memory) if !memory.is_valid()))
+    let lost = guarded(|| matches!((*sample).payload().as_shm(), Some(memory) if !memory.is_valid()));
+    c_int::from(lost == Some(false))
 }
 
 pub unsafe extern "C" fn gather(sample: *const Sample, data: *mut u8) {
-    gather_into((*sample).payload(), data);
+    guarded(|| gather_into((*sample).payload(), data));
 }

@@ -107,8 +107,8 @@ class Processes(unittest.TestCase):
         with Peer("reader", "zenoh", next(DOMAINS)) as peer:
             time.sleep(3)
             with open(f"/proc/{peer.process.pid}/status", encoding="utf-8") as status:
-                resident_mb = next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
-        print(f"idle participant: {resident_mb:.1f} MiB resident", file=sys.stderr)
+                resident_mb = next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) * 1024 / 1e6
+        print(f"idle participant: {resident_mb:.1f} MB resident", file=sys.stderr)
         self.assertLess(resident_mb, 32)
 
     def test_a_program_without_the_library_says_so(self):

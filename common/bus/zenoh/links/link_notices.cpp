@@ -22,7 +22,7 @@ constexpr std::string_view kHint = ". Hint: increase the system open file limit.
 constexpr std::string_view kNotListed = " did not match any configured ACL subject";
 
 /// Parts of errors, as rustls and Zenoh write them, in plain words.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kPlainWords{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kPlainWords{{
     {"invalid peer certificate: BadSignature", "its certificate is of another authority"},
     {"invalid peer certificate: UnknownIssuer", "its certificate is of another authority"},
     {"invalid peer certificate: Expired", "its certificate has expired"},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kPlainWo
     {"alert: UnknownCA", "the other side takes our certificate for one of another authority"},
     {"alert: CertificateExpired", "the other side says that our certificate has expired"},
     {"peer sent no certificates", "the other side shows no certificate"},
+    {"(reason 2) in response to an InitSyn", "it refuses our version of Zenoh's protocol"},
     {"InvalidContentType", "the other side does not encrypt"},
     {"remote certificate chain expired", "its certificate has expired"},
 }};

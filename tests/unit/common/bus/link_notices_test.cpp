@@ -67,7 +67,14 @@ TEST_F(LinkNoticesTest, AnotherVersionOfTheProtocolIsTold) {
       "Rejecting InitSyn on tcp/1 => tcp/2 because of unsupported Zenoh protocol version (expected: 9, "
       "received: "
       "8) from: b2c1 at /x/zenoh-transport/src/unicast/establishment/accept.rs:187.");
-  EXPECT_THAT(said_, ElementsAre("a program is refused: it speaks another version of Zenoh's protocol"));
+  not_reached(
+      "tcp/10.0.0.7:7447",
+      "Received a close message (reason 2) in response to an InitSyn on: tcp/1 => tcp/2 at /x/open.rs:12.");
+  EXPECT_THAT(
+      said_,
+      ElementsAre(
+          "a program is refused: it speaks another version of Zenoh's protocol",
+          "tcp/10.0.0.7:7447 is not reached: it refuses our version of Zenoh's protocol; it is tried again"));
 }
 
 TEST_F(LinkNoticesTest, WhatIsCutOrUnknownHarmsNothing) {

@@ -13,6 +13,7 @@
 #include "common/bus/peer_addresses.hpp"
 #include "common/bus/security.hpp"
 #include "common/bus/versions/vendor_versions.hpp"
+#include "common/bus/zenoh/links/link_policy.hpp"
 #include "common/command_line/document_option.hpp"
 #include "common/concurrency/priority.hpp"
 #include "common/service/process/freed_memory.hpp"
@@ -155,6 +156,7 @@ int start(const std::string& name, const Options& options, const std::string& sh
                                         .node_namespace = options.node_namespace,
                                         .remappings = options.remappings,
                                         .ros_distro = bus::ros_distro_from_name(options.ros_distro)};
+  bus::set_link_policy({.tell = [](const std::string& sentence) { spdlog::warn("{}", sentence); }});
   auto participant = bus::Participant::create(joining);
   Diagnostics diagnostics;
   ServiceContext context{.name = name,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/bus/versions/vendor_versions.hpp"
+#include "common/bus/zenoh/links/link_policy.hpp"
 #include "common/command_line/document_option.hpp"
 #include "tools/rds/cli/commands.hpp"
 
@@ -12,6 +13,9 @@ int main(int argc, char** argv) {
   rds.set_version_flag("--version", [] { return RDS_VERSION "\n" + rds::bus::vendor_versions(); });
   rds::command_line::add_document_option(rds, RDS_VERSION);
   rds.require_subcommand(1);
+  rds::bus::set_link_policy(
+      {.tell = [](const std::string& sentence) { fmt::print(stderr, "rds: {}\n", sentence); },
+       .reach_within = std::chrono::seconds(5)});
   rds::run::add_run_command(rds);
   rds::play::add_play_command(rds);
   rds::record::add_record_command(rds);

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define RDS_ZENOH_VERSION 4 /* of this file; the crate has the same number */
+#define RDS_ZENOH_VERSION 5 /* of this file; the crate has the same number */
 
 typedef struct RdsZenohSession RdsZenohSession;
 typedef struct RdsZenohPublisher RdsZenohPublisher;
@@ -53,10 +53,14 @@ typedef struct {
 typedef void (*RdsZenohOnSample)(void* object, RdsZenohSample* sample); /* the callback owns the sample */
 typedef void (*RdsZenohOnQuery)(void* object, RdsZenohQuery* query);    /* the callback owns the query */
 typedef void (*RdsZenohOnToken)(void* object, const char* key, size_t key_size, int alive);
+typedef void (*RdsZenohOnLog)(const char* text, size_t size);
 typedef void (*RdsZenohRelease)(void* object);
 
 typedef struct {
   uint32_t version;
+  /* From now on the callback gets what Zenoh logs of links that do not come about or break, of all sessions. Once. Who
+   * sets RUST_LOG has Zenoh's own log on the standard output in place of it. */
+  void (*listen_to_log)(RdsZenohOnLog callback);
   /* settings: a Zenoh configuration in JSON5. over: a file of the same form that wins over it, element by element;
    * NULL: none. */
   RdsZenohSession* (*open)(const char* settings, const char* over, char* error, size_t capacity);

@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 
 #include "common/bus/participant.hpp"
+#include "common/bus/zenoh/links/link_policy.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -46,7 +47,10 @@ const RdsZenohApi& load() {
     void* library = dlopen(file, RTLD_NOW | RTLD_LOCAL);  // never closed: Zenoh keeps threads
     if (library == nullptr) continue;
     const auto api = reinterpret_cast<decltype(rds_zenoh_api)*>(dlsym(library, "rds_zenoh_api"));
-    if (api != nullptr && api()->version == RDS_ZENOH_VERSION) return *api();
+    if (api != nullptr && api()->version == RDS_ZENOH_VERSION) {
+      api()->listen_to_log(&take_log_line);
+      return *api();
+    }
     throw BusError("librds_zenoh.so is of another build than this program");
   }
   throw BusError(

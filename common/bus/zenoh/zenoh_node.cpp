@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "common/bus/zenoh/links/link_policy.hpp"
 #include "common/bus/zenoh/zenoh_settings.hpp"
 
 namespace rds::bus::detail {
@@ -14,6 +15,11 @@ std::string id_of(const ZenohSession& session) {
   return text.data();
 }
 
+ZenohSession open_node(const ParticipantOptions& options, const ZenohAccess* access) {
+  ignore_endpoint(unnamed_endpoint(options, access));
+  return open_zenoh(zenoh_settings(options, access), users_settings());
+}
+
 void take_token(void* graph, const char* token, std::size_t size, int alive) {
   (*static_cast<std::shared_ptr<ZenohGraph>*>(graph))->take({token, size}, alive != 0);
 }
@@ -21,7 +27,7 @@ void take_token(void* graph, const char* token, std::size_t size, int alive) {
 }  // namespace
 
 ZenohNode::ZenohNode(const ParticipantOptions& options, const ZenohAccess* access)
-    : session_(open_zenoh(zenoh_settings(options, access), users_settings())),
+    : session_(open_node(options, access)),
       name_{options.domain, id_of(session_), options.node_name, normal_namespace(options.node_namespace)},
       guid_(session_guid(name_.session).value_or(Guid{})),
       graph_(std::make_shared<ZenohGraph>(guid_)),

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/bus/zenoh/zenoh_settings.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "common/bus/zenoh/links/link_policy.hpp"
+#include "common/bus/zenoh/zenoh_library.hpp"
 
 namespace rds::bus::detail {
 namespace {
@@ -107,11 +113,20 @@ json connections(const Endpoints& endpoints, int timeout_ms) {
 
 }  // namespace
 
+std::string unnamed_endpoint(const ParticipantOptions& options, const ZenohAccess* access) {
+  const Endpoints endpoints = options.peers.empty() ? connected(options, access) : Endpoints{};
+  if (endpoints.empty()) return "";
+  std::ifstream file(users_settings() == nullptr ? "" : users_settings());
+  const std::string users{std::istreambuf_iterator<char>(file), {}};
+  return users.find(endpoints.front()) == std::string::npos ? endpoints.front() : "";
+}
+
 std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess* access) {
   const bool elsewhere = !options.loopback_only && !options.peers.empty();
+  const int reach_within = static_cast<int>(link_policy().reach_within.count());
   json settings = common_settings(access, elsewhere);
   settings["mode"] = "peer";
-  settings["connect"] = connections(connected(options, access), -1);
+  settings["connect"] = connections(connected(options, access), reach_within > 0 ? reach_within : -1);
   settings["listen"] = connections(listened(options, access), elsewhere ? -1 : 0);
   settings["open"] = {{"return_conditions", {{"connect_scouted", true}, {"declares", true}}}};
   settings["scouting"] = {{"delay", kFindingMs},

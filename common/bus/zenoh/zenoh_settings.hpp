@@ -22,6 +22,10 @@ inline constexpr std::size_t kLargestMessage = 256 << 20;
 ///                if a peer is named by another kind of link.
 std::string zenoh_settings(const ParticipantOptions& options, const ZenohAccess* access = nullptr);
 
+/// Where a session looks for a router though nobody has named one, neither by `--peers` nor in the user's
+/// file; "" if it does not.
+std::string unnamed_endpoint(const ParticipantOptions& options, const ZenohAccess* access);
+
 /// Of a router, for all domains. Endpoints, names or addresses; @throws BusError as above.
 std::string zenoh_router_settings(const std::vector<std::string>& listen,
                                   const std::vector<std::string>& connect,

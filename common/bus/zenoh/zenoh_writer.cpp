@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include <pthread.h>
+#include <sched.h>
+
 #include "common/bus/zenoh/zenoh_settings.hpp"
 
 namespace rds::bus::detail {
@@ -48,6 +51,14 @@ RdsZenohPublisherOptions publisher_options(const Qos& qos) {
           .latched = qos.transient_local,
           .cache = keeps(qos) ? static_cast<std::size_t>(history_depth(qos)) : 0,
           .heartbeat_ms = recovers(qos) ? kHeartbeatMs : 0};
+}
+
+/// Of the calling thread: else the kernel lets it send at once in the place of the thread that wrote, which
+/// then waits for a core again, as long as a busy machine takes. It still wakes up on another core if one is
+/// idle.
+void never_preempt_who_wakes() {
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_BATCH, &none);
 }
 
 std::int64_t now_ns() {
@@ -97,6 +108,7 @@ bool ZenohWriter::write(const void* message) {
 }
 
 void ZenohWriter::send_all() {
+  never_preempt_who_wakes();
   steady_clock::time_point end = steady_clock::time_point::max();
   std::unique_lock lock(mutex_);
   for (;;) {

@@ -28,6 +28,12 @@ def free_port():
         return socket_.getsockname()[1]
 
 
+def init_syn(version):
+    """The first message of a peer of Zenoh, with its length before it."""
+    message = bytes([1, version, 0x31]) + bytes(range(1, 5))  # InitSyn; a peer, with an identifier of 4 bytes
+    return len(message).to_bytes(2, "little") + message
+
+
 class Router(unittest.TestCase):
     """Each peer is a client of its router: it dials out, and nobody can dial it. Unless a test says otherwise."""
 
@@ -38,11 +44,15 @@ class Router(unittest.TestCase):
         self.port = free_port()
         self.peer = self.peers_of(self.port)
 
-    def peers_of(self, port):
+    def client(self, port):
+        """The environment of a client of the router at this port."""
         settings = pathlib.Path(self.place.name) / f"{port}.json5"
         settings.write_text(json.dumps({"mode": "client", "connect": {"endpoints": [f"tcp/127.0.0.1:{port}"]}, "listen": {"endpoints": []},
                                         "scouting": {"multicast": {"enabled": False}}}))
-        return functools.partial(peer_process.Peer, PEER, environment=os.environ | {"ZENOH_CONFIG": str(settings)})
+        return os.environ | {"ZENOH_CONFIG": str(settings)}
+
+    def peers_of(self, port):
+        return functools.partial(peer_process.Peer, PEER, environment=self.client(port))
 
     def router(self, port=None, *options):
         router = peer_process.Peer(RDS, "router", "--listen", f"127.0.0.1:{port or self.port}", *options)
@@ -119,6 +129,48 @@ class Router(unittest.TestCase):
             router.send(signal.SIGKILL)
             self.assertTrue(reader.wait_for(lambda lines: lines and lines[-1] == "79"), reader.lines[-3:])
             self.assertEqual(reader.lines, [str(i) for i in range(80)])
+
+    def asked_in_vain(self, environment=None, *options):
+        """What a tool says that reaches nobody."""
+        command = [RDS, "topic", "list", "--bus", "zenoh", "--domain", str(self.domain), "--timeout", "1", *options]
+        result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=30)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn(f"tcp/127.0.0.1:{self.port} is not reached: Connection refused", lines[0])
+        return lines[1]
+
+    def test_no_router_is_one_sentence(self):
+        self.assertIn("nobody was heard of", self.asked_in_vain(None, "--peers", f"tcp/127.0.0.1:{self.port}"))
+        self.assertIn("Unable to connect to any of", self.asked_in_vain(self.client(self.port)))
+
+    def test_a_router_that_comes_is_told(self):
+        said = pathlib.Path(self.place.name) / "said"
+        with said.open("w") as stderr:
+            waiting = subprocess.Popen([RDS, "topic", "echo", "number", "--bus", "zenoh", "--domain", str(self.domain), "--peers",
+                                        f"tcp/127.0.0.1:{self.port}"], stdout=subprocess.DEVNULL, stderr=stderr)
+        time.sleep(1.5)
+        router = self.router()
+        time.sleep(4)
+        waiting.terminate()
+        waiting.wait(20)
+        self.end(router)
+        lines = said.read_text().splitlines()
+        self.assertEqual([line for line in lines if line.endswith("is reached")], [f"rds: tcp/127.0.0.1:{self.port} is reached"], lines)
+        self.assertEqual(sum("is not reached" in line for line in lines), 1, lines)
+
+    def test_a_foreign_version_is_one_sentence(self):
+        said = pathlib.Path(self.place.name) / "said"
+        with said.open("w") as stderr:
+            router = subprocess.Popen([RDS, "router", "--listen", f"127.0.0.1:{self.port}"], stderr=stderr)
+        for _ in range(3):
+            time.sleep(1)
+            with socket.create_connection(("127.0.0.1", self.port)) as stranger:
+                stranger.sendall(init_syn(version=8))
+                self.assertEqual(len(stranger.recv(1)), 1)  # a message that closes
+        router.terminate()
+        self.assertEqual(router.wait(20), 0)
+        self.assertEqual(sum("another version of Zenoh's protocol" in line for line in said.read_text().splitlines()), 1, said.read_text())
 
     def test_a_port_that_is_taken_is_one_sentence(self):
         router = self.router()

@@ -172,6 +172,22 @@ class Secured(unittest.TestCase):
                     self.assertTrue(router.lives(), router.process.returncode)
             router.send(signal.SIGTERM)
 
+    def test_a_certificate_of_another_authority_is_one_sentence_on_each_side(self):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        said = pathlib.Path(self.place.name) / "said"
+        with said.open("w") as stderr:
+            router = subprocess.Popen([RDS, "router", "--listen", f"127.0.0.1:{port}", "--secure", self.folder], stderr=stderr)
+        self.addCleanup(router.kill)
+        time.sleep(1)
+        command = [RDS, "topic", "list", "--bus", "zenoh", "--domain", str(self.domain), "--secure", self.foreign, "--peers", f"tls/127.0.0.1:{port}"]
+        refused = subprocess.run(command, capture_output=True, text=True, check=False)
+        router.terminate()
+        self.assertEqual((router.wait(20), refused.returncode), (0, 1))
+        self.assertEqual(refused.stderr.count("its certificate is of another authority"), 1, refused.stderr)
+        self.assertEqual(said.read_text().count("takes our certificate for one of another authority"), 1, said.read_text())
+
     def test_what_is_wrong_is_one_sentence(self):
         def refusal(*arguments, secured=self.folder):
             command = [RDS, "topic", "list", "--bus", "zenoh", "--domain", str(self.domain), "--secure", secured, *arguments]

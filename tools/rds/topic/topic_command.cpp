@@ -62,6 +62,8 @@ void list(const TopicOptions& options) {
   const auto participant = join(options.bus);
   wait_until(Clock::now() + seconds(options.discovery_s), interrupt.token(), [] { return false; });
   const auto topics = summarise(participant->discovered());
+  if (topics.empty() && !options.bus.peers.empty())
+    exit_with(kExitFault, fmt::format("nobody was heard of in {} s", options.discovery_s));
   auto json = nlohmann::ordered_json::array();
   for (const auto& topic : topics) {
     if (options.json)

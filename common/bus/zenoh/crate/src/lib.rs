@@ -3,6 +3,7 @@
 
 mod border;
 mod liveliness;
+mod log;
 mod publisher;
 mod queryable;
 mod session;
@@ -11,6 +12,7 @@ mod subscriber;
 use std::ffi::{c_char, c_int, c_void};
 
 use border::{OnQuery, OnSample, OnToken, Release};
+use log::OnLog;
 use publisher::{Buffer, Publisher, PublisherOptions};
 use queryable::Queryable;
 use session::Session;
@@ -27,6 +29,7 @@ type Error = *mut c_char;
 #[repr(C)]
 pub struct Api {
     version: u32,
+    listen_to_log: unsafe extern "C" fn(OnLog),
     open: unsafe extern "C" fn(Text, Text, Error, usize) -> *mut Session,
     close: unsafe extern "C" fn(*mut Session),
     id: unsafe extern "C" fn(*const Session, *mut c_char),
@@ -77,7 +80,8 @@ pub struct Api {
 }
 
 static API: Api = Api {
-    version: 4,
+    version: 5,
+    listen_to_log: log::listen_to_log,
     open: session::open,
     close: session::close,
     id: session::id,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 use std::ffi::{c_char, c_int};
-use std::time::Duration;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 use zenoh::bytes::ZBytes;
 use zenoh::qos::{CongestionControl, Priority, Reliability};
-use zenoh::shm::{Defragment, ZShmMut};
+use zenoh::shm::{Defragment, ShmProviderState, ZShmMut};
 use zenoh::Wait;
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig, RepliesConfig};
 
@@ -45,6 +46,19 @@ fn shared(session: &Session, size: usize) -> Option<ZShmMut> {
     provider.alloc(size).with_policy::<Defragment>().wait().ok()
 }
 
+/// Zenoh makes its tables with a process's first piece of shared memory, which takes 8 ms of processor time: not while a message waits.
+fn prepare(session: &Session) {
+    let end = Instant::now() + Duration::from_secs(1);
+    loop {
+        match session.session.get_shm_provider() {
+            ShmProviderState::Ready(provider) => return drop(provider.alloc(1).wait()),
+            // its wait() would take the provider away from the session
+            ShmProviderState::Initializing(_) if Instant::now() < end => sleep(Duration::from_millis(1)),
+            _ => return,
+        }
+    }
+}
+
 pub unsafe extern "C" fn declare_publisher(
     session: *const Session,
     key_expression: *const c_char,
@@ -54,6 +68,9 @@ pub unsafe extern "C" fn declare_publisher(
 ) -> *mut Publisher {
     made(error, capacity, || {
         let options = &*options;
+        if options.cache == 0 {
+            prepare(&*session); // what is kept is not shared
+        }
         let priority = Priority::try_from(options.priority)?;
         let reliability = match options.reliable {
             0 => Reliability::BestEffort,

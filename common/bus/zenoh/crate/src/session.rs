@@ -39,7 +39,6 @@ pub unsafe extern "C" fn open(
     capacity: usize,
 ) -> *mut Session {
     made(error, capacity, || {
-        zenoh::init_log_from_env_or("error");
         let file = if over.is_null() { None } else { Some(text(over)?) };
         let session = zenoh::open(settings(text(ours)?, file)?).wait()?;
         Ok(Session { session })

@@ -93,7 +93,7 @@ void ItemClient::step() {
 
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   const std::size_t rows = offers.streams().size();
-  if (offers.oldest().size() != rows || offers.newest().size() != rows)
+  if (offers.oldest().size() != rows || offers.newest().size() != rows || offers.lost().size() != rows)
     return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kInvalid,
                                        "rows of different lengths");
   if (!source_.followed.accept(offers.instance(),
@@ -104,7 +104,7 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   TimedOffer heard{now() + callbacks_.gives_way};
   for (std::size_t i = 0; i < rows; ++i)
     if (static_cast<Stream>(offers.streams()[i]) == self_.stream)
-      heard.offer = Offer{offers.oldest()[i], offers.newest()[i]};
+      heard.offer = Offer{offers.oldest()[i], offers.newest()[i], offers.lost()[i]};
   source_.offers.push_back(heard);
 }
 
@@ -177,6 +177,10 @@ void ItemClient::send(std::span<const Request> requests) {
   message.writer(source_.instance);
   message.map_epoch(source_.map_epoch);
   message.lacking(static_cast<std::uint32_t>(receiver_.lacking()));
+  message.arrived(receiver_.statistics().items);
+  message.given_up(receiver_.statistics().given_up);
+  message.round_trip_us(static_cast<std::uint32_t>(receiver_.window().round_trip() / std::chrono::microseconds(1)));
+  message.link_kbit_s(static_cast<std::uint32_t>(receiver_.window().bits_per_s() / 1e3));
   message.reader(static_cast<std::uint8_t>(self_.process));
   for (const Request& request : requests) {
     message.streams().push_back(static_cast<std::uint8_t>(self_.stream));

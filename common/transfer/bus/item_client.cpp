@@ -52,6 +52,7 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
 
 void ItemClient::tell(service::Diagnostics& diagnostics) {
   diagnostics.gauge("transfer items lacking", [this] { return figures_.backlog.items(); });
+  diagnostics.gauge("transfer items given up", [this] { return figures_.given_up.items(); });
   diagnostics.gauge("transfer round trip us", [this] { return figures_.round_trip_us.load(); });
   diagnostics.gauge("transfer chunks asked again", [this] { return figures_.asked_again.load(); });
   diagnostics.gauge("transfer chunks impossible", [this] { return figures_.impossible.load(); });
@@ -59,6 +60,11 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
     const auto behind = figures_.backlog.behind(now());
     if (!behind) return std::nullopt;
     return fmt::format("behind: {} items of {} have not come yet", *behind, channel_.writer);
+  });
+  diagnostics.warning("transfer given up", [this]() -> std::optional<std::string> {
+    const auto given_up = figures_.given_up.lately(now());
+    if (!given_up) return std::nullopt;
+    return fmt::format("{} items of {} cannot be had any more", *given_up, channel_.writer);
   });
 }
 
@@ -165,6 +171,7 @@ void ItemClient::ask(Time now) {
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
   if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
   figures_.backlog.set(receiver_.lacking(), now);
+  figures_.given_up.set(receiver_.statistics().given_up, now);
   figures_.asked_again = receiver_.statistics().asked_again;
   figures_.impossible = receiver_.statistics().impossible;
   figures_.round_trip_us =

@@ -139,6 +139,11 @@ TEST_P(TransferBus, WhatIsNotKeptIsCountedAtBothEnds) {
   ASSERT_TRUE(warnings.contains("rds/transfer/mapper given up"));
   EXPECT_EQ(warnings.at("rds/transfer/mapper given up"),
             fmt::format("rds/transfer/mapper: {} items cannot be had any more", lost));
+  EXPECT_EQ(there_.figure("transfer items given up"), lost);
+  const auto warnings_there = there_.diagnostics.warnings();
+  ASSERT_TRUE(warnings_there.contains("transfer given up"));
+  EXPECT_EQ(warnings_there.at("transfer given up"),
+            fmt::format("{} items of rds-tracker cannot be had any more", lost));
 }
 
 TEST_P(TransferBus, WhatCannotBeMadeInTimeIsCountedAtBothEnds) {

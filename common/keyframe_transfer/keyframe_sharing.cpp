@@ -10,15 +10,16 @@ namespace {
 
 using transfer::Stream;
 
-/// A minute and a half of five keyframes a second: what a machine misses that is away for so long, and what
-/// one that was started again begins with.
-constexpr std::size_t kMemoryBytes = std::size_t{100} << 20U;
+/// Half a minute of five keyframes a second, and what is older, some 40 minutes of keyframes among people:
+/// what a machine misses that is away for so long, and what one begins with that is started later.
+constexpr transfer::ItemServer::Room kKeyframeRoom{.memory_bytes = std::size_t{32} << 20U,
+                                                   .file_bytes = std::size_t{2} << 30U};
 
 }  // namespace
 
 KeyframeSharing::KeyframeSharing(service::ServiceContext& context, std::uint64_t map_epoch)
     : compressor_(std::make_shared<keyframe_codec::KeyframeCompressor>()),
-      server_(context, topics::kTracker, transfer::kKeyframes, kMemoryBytes) {
+      server_(context, topics::kTracker, transfer::kKeyframes, kKeyframeRoom) {
   begin(map_epoch);
 }
 

@@ -10,8 +10,8 @@
 
 namespace rds::keyframe_transfer {
 
-/// A tracker's keyframes for readers on other machines: compressed, and kept while there is room, on a thread
-/// of its own. Costs nothing before such a reader is there.
+/// A tracker's keyframes for readers on other machines, those too that come later: compressed, and kept while
+/// there is room, on a thread of its own. Costs nothing on the loopback interface.
 class KeyframeSharing {
  public:
   KeyframeSharing(service::ServiceContext& context, std::uint64_t map_epoch);

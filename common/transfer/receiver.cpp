@@ -2,11 +2,13 @@
 #include "common/transfer/receiver.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rds::transfer {
 
 void Receiver::offer(const Offer& offer) {
-  wanted_.offer(offer);
+  if (!std::exchange(was_offered_, true)) statistics_.given_up += offer.lost;
+  statistics_.given_up += wanted_.offer(offer);
   while (!begun_.empty() && begun_.begin()->first < offer.oldest) finish(begun_.begin()->first);
 }
 
@@ -17,14 +19,15 @@ std::optional<Item> Receiver::take(const Chunk& chunk, Time now) {
     ++statistics_.repeated;
     return std::nullopt;
   }
-  if (chunk.item_bytes == 0) {
-    ++statistics_.absent;
+  if (chunk.item_bytes == kAbsent || chunk.item_bytes == kLost) {
+    ++(chunk.item_bytes == kLost ? statistics_.given_up : statistics_.absent);
     finish(chunk.number);
     return std::nullopt;
   }
   Assembly& assembly = begun->second.assembly;
   add(chunk, assembly);
   if (!assembly.complete()) return std::nullopt;
+  ++statistics_.items;
   latest_chunks_ = chunks_in(assembly.size());
   Item item{chunk.number, std::move(assembly.bytes())};
   finish(chunk.number);

@@ -26,11 +26,14 @@ enum class Order : std::uint8_t {
 };
 
 struct ReceiverStatistics {
+  std::uint64_t items = 0;        // that have come
   std::uint64_t chunks = 0;       // of use
   std::uint64_t repeated = 0;     // came twice, or when nobody waited for them
   std::uint64_t asked_again = 0;  // chunks that were lost
-  std::uint64_t absent = 0;       // items that the writer does not have
-  std::uint64_t impossible = 0;   // chunks that cannot be right
+  std::uint64_t absent = 0;       // numbers of which there never was an item
+  std::uint64_t given_up =
+      0;  // items that are lacking and cannot be had, those from before the first offer too
+  std::uint64_t impossible = 0;  // chunks that cannot be right
 };
 
 /// Fetches the items of one writer's stream. An item that has been begun is finished first, so a slow link
@@ -81,6 +84,7 @@ class Receiver {
   [[nodiscard]] std::uint32_t first_chunks() const;
 
   Order order_;
+  bool was_offered_ = false;
   std::uint32_t latest_chunks_ = 0;  // of the item that was whole last
   Wanted wanted_;
   std::map<std::uint64_t, Begun> begun_;

@@ -19,6 +19,7 @@ class SentChunks {
   /// Takes note that a chunk is sent. @return true if it was sent to this reader before; never of one that
   /// says that there is no such item
   bool note(std::uint64_t reader, Stream stream, const Chunk& chunk) {
+    if (chunk.item_bytes == kAbsent || chunk.item_bytes == kLost) return false;
     std::vector<bool>& chunks = chunks_of({reader, stream, chunk.number});
     chunks.resize(chunks_in(chunk.item_bytes));  // what is asked for may lie anywhere
     if (chunk.index >= chunks.size()) return false;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 /// Large data to readers on other machines. A reader asks for pieces of what is offered, each small enough
@@ -32,9 +33,15 @@ enum class Stream : std::uint8_t { kKeyframeImages, kKeyframeFeatures, kMapUpdat
 struct Offer {
   std::uint64_t oldest = 0;
   std::uint64_t newest = 0;
+  std::uint64_t lost = 0;  // older items that were there and cannot be had any more
 
   bool operator==(const Offer&) const = default;
 };
+
+/// In place of the bytes of an item that the writer does not have: there never was one of this number; there
+/// was one, and nobody has it any more.
+inline constexpr std::uint32_t kAbsent = 0;
+inline constexpr std::uint32_t kLost = std::numeric_limits<std::uint32_t>::max();
 
 /// Asks for chunks first … first + count - 1 of an item; those beyond its end are not answered.
 struct Request {
@@ -45,7 +52,7 @@ struct Request {
 
 struct Chunk {
   std::uint64_t number = 0;      // of the item
-  std::uint32_t item_bytes = 0;  // of the whole item; 0: the writer does not have it
+  std::uint32_t item_bytes = 0;  // of the whole item; or kAbsent, kLost
   std::uint32_t index = 0;
   std::span<const std::uint8_t> data;  // kChunkBytes, fewer in the last one
 };

@@ -25,6 +25,11 @@ Time Window::timeout() const {
   return std::min(once * (1 << std::min(silences_, 8)), kLongestTimeout);
 }
 
+double Window::bits_per_s() const {
+  if (smoothed_ == Time{}) return 0;
+  return chunks_ * 8 * kChunkBytes / std::chrono::duration<double>(smoothed_).count();
+}
+
 Time Window::reordering() const {
   return std::max(4 * variation_, kShortestReordering);
 }

@@ -20,6 +20,8 @@ class Window {
 
   [[nodiscard]] std::size_t chunks() const { return static_cast<std::size_t>(chunks_); }
   [[nodiscard]] Time round_trip() const { return smoothed_; }
+  /// What the link is taken to carry, of chunks [bit/s]; 0 before anything was measured.
+  [[nodiscard]] double bits_per_s() const;
   /// Without an arrival for so long everything that was asked for counts as lost (RFC 6298).
   [[nodiscard]] Time timeout() const;
   /// By how much chunks may overtake each other.

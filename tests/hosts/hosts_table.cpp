@@ -18,6 +18,7 @@ constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds};
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kLongS = 55;           // 5 before an absence of 20, 30 after it
 constexpr double kLongestS = 95;        // and of 60
+constexpr double kLateS = 60;           // 30 before who comes late, 30 after
 constexpr double kAfterAbsence = 0.01;  // of recall and residue, 30 s later
 
 /// Of one vendor, and without name of it.
@@ -36,7 +37,8 @@ std::vector<Row> kinds() {
                .length_s = length_s};
   };
   const auto routed = [](std::string name, Way way, Link link) {
-    return Row{.name = std::move(name), .link = link, .bounds = {.p95_ms = 500}, .has_multicast = false, .way = way};
+    return Row{
+        .name = std::move(name), .link = link, .bounds = {.p95_ms = 500}, .has_multicast = false, .way = way};
   };
   Row no_router = absent("router_killed", {.host = "R", .kind = Absence::Kind::kNoRouter}, kLongS);
   no_router.has_multicast = false;
@@ -46,9 +48,13 @@ std::vector<Row> kinds() {
           rate("rate_40", 40, {.p95_ms = 300}),
           rate("rate_20", 20, {.answered = 0.9, .p95_ms = 600}),
           absent("c_away", {.host = "C", .for_s = 10}, kLongS),
+          absent("c_away_20", {.host = "C", .for_s = 20}, kLongS),
+          absent("b_away_10", {.host = "B", .for_s = 10}, kLongS),
           absent("b_away", {.host = "B", .for_s = 20}, kLongS),
+          absent("b_away_60", {.host = "B", .for_s = 60}, kLongestS),
           absent("c_away_60", {.host = "C", .for_s = 60}, kLongestS),
           absent("c_replaced", {.host = "C", .kind = Absence::Kind::kReplaced}, kLongS),
+          absent("c_late", {.host = "C", .kind = Absence::Kind::kLate, .from_s = 0, .for_s = 30}, kLateS),
           impaired("loss_0_1", 1000, {.loss = 0.001}, {.p95_ms = 150}),
           impaired("loss_1", 1000, {.loss = 0.01}, {.p95_ms = 200}),
           impaired("loss_5", 1000, {.loss = 0.05}, {.answered = 0.95, .p95_ms = 600}),
@@ -66,7 +72,8 @@ std::vector<Row> kinds() {
 
 /// Routers are Zenoh's, which in turn does not go by multicast between machines.
 bool fits(const Row& row, bus::Vendor vendor) {
-  return vendor == bus::Vendor::kZenoh ? row.has_multicast || row.way != Way::kDirect : row.way == Way::kDirect;
+  return vendor == bus::Vendor::kZenoh ? row.has_multicast || row.way != Way::kDirect
+                                       : row.way == Way::kDirect;
 }
 
 Row of(Row row, bus::Vendor vendor) {
@@ -96,7 +103,7 @@ void PrintTo(const Row& row, std::ostream* out) {
 std::vector<Row> one_machine_rows() {
   std::vector<Row> rows;
   for (const bus::Vendor vendor : kVendors)
-    for (const double length_s : {0.0, kLongS, kLongestS})
+    for (const double length_s : {0.0, kLongS, kLateS, kLongestS})
       rows.push_back(on_one_machine({.vendor = vendor, .length_s = length_s}));
   return rows;
 }
@@ -105,7 +112,8 @@ std::vector<Row> short_rows() {
   std::vector<Row> rows;
   std::size_t next = 0;
   for (const Row& row : kinds()) {
-    if (!is_short(row) || std::ranges::none_of(kVendors, [&](auto vendor) { return fits(row, vendor); })) continue;
+    if (!is_short(row) || std::ranges::none_of(kVendors, [&](auto vendor) { return fits(row, vendor); }))
+      continue;
     while (!fits(row, kVendors[next % kVendors.size()])) ++next;
     rows.push_back(of(row, kVendors[next++ % kVendors.size()]));
   }

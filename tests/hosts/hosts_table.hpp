@@ -16,6 +16,7 @@ struct Absence {
   enum class Kind {
     kUnplugged,  // its link is pulled out, and plugged in again
     kReplaced,   // its services are killed, and start at once with an empty disk
+    kLate,       // its services start for the first time at the end of the absence
     kNoRouter,   // its router is killed, and started again
   };
   std::string host = {};

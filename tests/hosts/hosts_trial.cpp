@@ -93,7 +93,7 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
       commander_(*bus_),
       arrivals_(*bus_),
       camera_(*bus_, dataset_, {}),
-      fleet_(commands()) {}
+      fleet_(commands(false)) {}
 
 /// As the other programs on A.
 std::unique_ptr<bus::Participant> HostsTrial::join() const {
@@ -107,10 +107,16 @@ std::unique_ptr<bus::Participant> HostsTrial::join() const {
   return bus;
 }
 
-/// On each host as `rds run` would start them there.
-std::vector<run::ServiceCommand> HostsTrial::commands() const {
+bool HostsTrial::is_late(const std::string& host) const {
+  return row_.absence && row_.absence->kind == Absence::Kind::kLate && row_.absence->host == host;
+}
+
+/// On each host as `rds run` would start them there. @param late  on the host that comes late, or on the
+/// others
+std::vector<run::ServiceCommand> HostsTrial::commands(bool late) const {
   std::vector<run::ServiceCommand> all;
   for (const std::string host : {"A", "B", "C"}) {
+    if (is_late(host) != late) continue;
     run::RunOptions options;
     options.default_vendor = row_.vendor;
     options.network = true;
@@ -219,12 +225,14 @@ void HostsTrial::be_absent(double at_s) {
     phase_ = Phase::kDuring;
     if (absence.kind == Absence::Kind::kUnplugged) return network_.unplug(absence.host);
     if (absence.kind == Absence::Kind::kNoRouter) return routers_.kill();
-    return replace(absence.host);
+    if (absence.kind == Absence::Kind::kReplaced) return replace(absence.host);
   }
   if (phase_ != Phase::kDuring || at_s < absence.from_s + absence.for_s) return;
   phase_ = Phase::kAfter;
   if (absence.kind == Absence::Kind::kUnplugged) network_.plug(absence.host);
   if (absence.kind == Absence::Kind::kNoRouter) routers_.start();
+  if (absence.kind == Absence::Kind::kLate)
+    for (run::ServiceCommand& command : commands(true)) fleet_.start(std::move(command));
 }
 
 /// Whoever looks after the services starts them again.

@@ -32,7 +32,8 @@ class HostsTrial {
   HostFigures run();
 
  private:
-  std::vector<run::ServiceCommand> commands() const;
+  [[nodiscard]] bool is_late(const std::string& host) const;
+  [[nodiscard]] std::vector<run::ServiceCommand> commands(bool late) const;
   [[nodiscard]] std::unique_ptr<bus::Participant> join() const;
   [[nodiscard]] std::string peers_of(const std::string& host) const;
   void add_second_reader();

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "common/transfer/transfer.hpp"
@@ -13,6 +14,28 @@ namespace rds::transfer {
 inline Time now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
+
+/// How many items a reader lacks for ever, told by one thread and read by others.
+class GivenUp {
+ public:
+  void set(std::uint64_t items, Time now) {
+    if (items > items_) grown_at_ = now;
+    items_ = items;
+  }
+  [[nodiscard]] std::uint64_t items() const { return items_; }
+  /// The items, if they have become more of late.
+  [[nodiscard]] std::optional<std::uint64_t> lately(Time now) const {
+    const std::uint64_t items = items_;
+    if (items == 0 || now - grown_at_.load() > kLately) return std::nullopt;
+    return items;
+  }
+
+ private:
+  static constexpr std::chrono::seconds kLately{10};
+
+  std::atomic<std::uint64_t> items_ = 0;
+  std::atomic<Time> grown_at_{};
+};
 
 /// How many items a reader lacks, told by one thread and read by others.
 class Backlog {

@@ -11,6 +11,7 @@
 #include "common/bus/participant.hpp"
 #include "common/service/peers/peers.hpp"
 #include "common/topics/topics.hpp"
+#include "common/transfer/transfer.hpp"
 
 namespace rds::transfer {
 

@@ -52,6 +52,7 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
 
 void ItemClient::tell(service::Diagnostics& diagnostics) {
   diagnostics.gauge("transfer items lacking", [this] { return figures_.backlog.items(); });
+  diagnostics.gauge("transfer items given up", [this] { return figures_.given_up.items(); });
   diagnostics.gauge("transfer round trip us", [this] { return figures_.round_trip_us.load(); });
   diagnostics.gauge("transfer chunks asked again", [this] { return figures_.asked_again.load(); });
   diagnostics.gauge("transfer chunks impossible", [this] { return figures_.impossible.load(); });
@@ -59,6 +60,11 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
     const auto behind = figures_.backlog.behind(now());
     if (!behind) return std::nullopt;
     return fmt::format("behind: {} items of {} have not come yet", *behind, channel_.writer);
+  });
+  diagnostics.warning("transfer given up", [this]() -> std::optional<std::string> {
+    const auto given_up = figures_.given_up.lately(now());
+    if (!given_up) return std::nullopt;
+    return fmt::format("{} items of {} cannot be had any more", *given_up, channel_.writer);
   });
 }
 
@@ -93,7 +99,7 @@ void ItemClient::step() {
 
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   const std::size_t rows = offers.streams().size();
-  if (offers.oldest().size() != rows || offers.newest().size() != rows)
+  if (offers.oldest().size() != rows || offers.newest().size() != rows || offers.lost().size() != rows)
     return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kInvalid,
                                        "rows of different lengths");
   if (!source_.followed.accept(offers.instance(),
@@ -104,7 +110,7 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
   TimedOffer heard{now() + callbacks_.gives_way};
   for (std::size_t i = 0; i < rows; ++i)
     if (static_cast<Stream>(offers.streams()[i]) == self_.stream)
-      heard.offer = Offer{offers.oldest()[i], offers.newest()[i]};
+      heard.offer = Offer{offers.oldest()[i], offers.newest()[i], offers.lost()[i]};
   source_.offers.push_back(heard);
 }
 
@@ -165,6 +171,7 @@ void ItemClient::ask(Time now) {
   if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
   if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
   figures_.backlog.set(receiver_.lacking(), now);
+  figures_.given_up.set(receiver_.statistics().given_up, now);
   figures_.asked_again = receiver_.statistics().asked_again;
   figures_.impossible = receiver_.statistics().impossible;
   figures_.round_trip_us =
@@ -177,6 +184,10 @@ void ItemClient::send(std::span<const Request> requests) {
   message.writer(source_.instance);
   message.map_epoch(source_.map_epoch);
   message.lacking(static_cast<std::uint32_t>(receiver_.lacking()));
+  message.arrived(receiver_.statistics().items);
+  message.given_up(receiver_.statistics().given_up);
+  message.round_trip_us(static_cast<std::uint32_t>(receiver_.window().round_trip() / std::chrono::microseconds(1)));
+  message.link_kbit_s(static_cast<std::uint32_t>(receiver_.window().bits_per_s() / 1e3));
   message.reader(static_cast<std::uint8_t>(self_.process));
   for (const Request& request : requests) {
     message.streams().push_back(static_cast<std::uint8_t>(self_.stream));

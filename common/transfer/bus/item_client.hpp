@@ -76,6 +76,7 @@ class ItemClient {
   /// For diagnostics.
   struct Figures {
     Backlog backlog;
+    GivenUp given_up;
     std::atomic<std::uint64_t> round_trip_us = 0;
     std::atomic<std::uint64_t> asked_again = 0;
     std::atomic<std::uint64_t> impossible = 0;

@@ -13,11 +13,10 @@
 namespace rds::transfer {
 namespace {
 
-// Each holds a keyframe's pictures until they are compressed.
-constexpr std::size_t kMostWaiting = 8;
+/// Every second one holds a keyframe's pictures until they are compressed, 25 MB together.
+constexpr std::size_t kMostWaiting = 32;
+constexpr std::size_t kMostTold = 1024;  // with those that are lost because so many wait
 constexpr std::size_t kMostRequests = 256;
-constexpr std::size_t kMostSpilledBytes = std::size_t{2}
-                                          << 30U;  // of keyframes among people about 40 minutes
 /// Of one request; a reader's window is smaller.
 constexpr std::uint32_t kMostChunks = 4096;
 constexpr int kNice = 10;  // tracking has the processor first
@@ -26,82 +25,102 @@ constexpr std::chrono::milliseconds kMakingPeriod{250};  // of what is made for 
 constexpr std::size_t kMostReaders = 32;
 constexpr std::array kServices{topics::kDetector, topics::kMapper, topics::kLoopCloser};
 
+/// Name before figures of what is shared, and of a service that reads it.
+std::string figures_of(Stream stream) {
+  return stream == Stream::kKeyframeImages ? topics::kKeyframeImages.name : topics::kKeyframeFeatures.name;
+}
+std::string figures_of(topics::Process reader) {
+  const auto stream = reader == topics::kLoopCloser ? Stream::kKeyframeFeatures : Stream::kKeyframeImages;
+  const std::string to = topics::transfer_to(reader).name;
+  return figures_of(stream) + to.substr(to.rfind('/'));
+}
+
 }  // namespace
 
 ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
-                       std::size_t memory_bytes, std::uint64_t host)
-    : ItemServer(context, process, channel, memory_bytes, nullptr, host) {}
+                       const Room& room, std::uint64_t host)
+    : ItemServer(context, process, channel, room, nullptr, host) {}
 
 ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
                        ItemMaker& maker, std::uint64_t host)
-    : ItemServer(context, process, channel, 0, &maker, host) {}
+    : ItemServer(context, process, channel, Room{}, &maker, host) {}
 
 ItemServer::ItemServer(service::ServiceContext& context, topics::Process process, const Channel& channel,
-                       std::size_t memory_bytes, ItemMaker* maker, std::uint64_t host)
+                       const Room& room, ItemMaker* maker, std::uint64_t host)
     : context_(context),
       process_(process),
       channel_(channel),
       maker_(maker),
       host_(host),
-      items_(memory_bytes, std::make_unique<ItemFile>(), kMostSpilledBytes),
+      items_(room.memory_bytes, std::make_unique<ItemFile>(), room.file_bytes),
       offers_(topics::advertise(context.bus, channel.offers, process)),
       chunks_sent_(context.diagnostics.counter("transfer chunks sent")),
       chunks_sent_again_(context.diagnostics.counter("transfer chunks sent again")),
-      shared_(mailbox_, kMostWaiting),
+      shared_(mailbox_, kMostTold),
       requests_(mailbox_, kMostRequests) {
   for (const topics::Process reader : kServices)
     if (contains(channel.readers, reader)) warn_of(reader);
   subscription_ = topics::subscribe(context.bus, channel.requests, process, [this](const Request& request) {
     if (request->writer() == context_.instance) requests_.push(request);
   });
-  if (maker == nullptr)
-    context.diagnostics.gauge("transfer items not made", [this] { return shared_.dropped(); });
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-ItemServer::Reader& ItemServer::add_reader(topics::Process process, const std::string& topic) {
+FarReader& ItemServer::add_reader(topics::Process process, const std::string& topic) {
   const auto advertise = [this, process, topic] {
     return topics::advertise(context_.bus, topics::transfer_to(process).named(topic), process_);
   };
-  return readers_.try_emplace(topic, lanes_of(channel_, context_.participant.vendor), advertise).first->second;
+  return readers_.try_emplace(topic, lanes_of(channel_, context_.participant.vendor), advertise)
+      .first->second;
 }
 
-/// A service that is behind is told of; how far a reader of the map is behind is its own affair.
+/// A service that is behind, or lacks something for ever, is told of; how far a reader of the map is behind
+/// is its own affair.
 void ItemServer::warn_of(topics::Process process) {
   const std::string topic = chunk_topic(process, 0);
-  const Reader& reader = add_reader(process, topic);
+  const FarReader& reader = add_reader(process, topic);
   context_.diagnostics.warning(topic, [&reader, topic]() -> std::optional<std::string> {
-    const auto behind = reader.backlog.behind(now());
+    const auto behind = reader.backlog().behind(now());
     if (!behind) return std::nullopt;
     return fmt::format("{}: the reader is behind by {} items", topic, *behind);
+  });
+  context_.diagnostics.warning(topic + " given up", [&reader, topic]() -> std::optional<std::string> {
+    const auto given_up = reader.given_up().lately(now());
+    if (!given_up) return std::nullopt;
+    return fmt::format("{}: {} items cannot be had any more", topic, *given_up);
   });
 }
 
 /// nullptr for one that has no place here.
-ItemServer::Reader* ItemServer::reader_of(const rds_msgs::msg::TransferRequest& request) {
+FarReader* ItemServer::reader_of(const rds_msgs::msg::TransferRequest& request) {
   const auto process = static_cast<topics::Process>(request.reader());
   const bool is_tool = process == topics::kTool && contains(channel_.readers, process);
   if (!is_tool && std::ranges::find(kServices, process) == kServices.end()) return nullptr;
   const std::string topic = chunk_topic(process, request.instance());
-  if (const auto known = readers_.find(topic); known != readers_.end()) return &known->second;
+  if (const auto known = readers_.find(topic); known != readers_.end()) {
+    if (!is_tool) known->second.show(context_.diagnostics, figures_of(process));
+    return &known->second;
+  }
   if (!is_tool) return nullptr;
   if (readers_.size() >= kMostReaders) {
     context_.diagnostics.reject(channel_.requests.name, service::Rejection::kUnexpected, "too many readers");
     return nullptr;
   }
-  Reader& reader = add_reader(process, topic);
-  reader.chunks.open();
+  FarReader& reader = add_reader(process, topic);
+  reader.open();
   return &reader;
 }
 
 void ItemServer::forget_silent() {
   if (!contains(channel_.readers, topics::kTool)) return;
-  std::erase_if(readers_, [](const auto& entry) { return now() - entry.second.heard > kSilent; });
+  std::erase_if(readers_, [](const auto& entry) { return now() - entry.second.heard() > kSilent; });
 }
 
 void ItemServer::share(std::uint64_t map_epoch, Stream stream, std::uint64_t number,
                        std::function<Bytes()> make) {
-  if (has_readers_) shared_.push({map_epoch, stream, number, std::move(make)});
+  if (context_.participant.loopback_only) return;
+  if (shared_.size() >= kMostWaiting) make = [] { return Bytes(); };
+  shared_.push({map_epoch, stream, number, std::move(make)});
 }
 
 void ItemServer::run(const std::stop_token& stop) {
@@ -122,7 +141,20 @@ void ItemServer::run(const std::stop_token& stop) {
 void ItemServer::take(const Shared& shared) {
   if (std::exchange(map_epoch_, shared.map_epoch) != shared.map_epoch) items_.clear();
   looked_ = {};
-  if (shared.make) items_.put(shared.stream, shared.number, shared.make());
+  if (!shared.make) return;
+  ++context_.diagnostics.counter(figures_of(shared.stream) + "/items shared");
+  items_.put(shared.stream, shared.number, made(shared));
+  context_.diagnostics.counter(figures_of(shared.stream) + "/items lost") = items_.lost(shared.stream);
+}
+
+/// Empty if it cannot be.
+ItemServer::Bytes ItemServer::made(const Shared& shared) {
+  try {
+    return shared.make();
+  } catch (const std::exception& e) {
+    context_.diagnostics.reject(channel_.offers.name, service::Rejection::kFailed, e.what());
+    return {};
+  }
 }
 
 /// Offers what is there, if that has changed or was not said for a while.
@@ -147,27 +179,29 @@ void ItemServer::write(const ItemMaker::Offers& offers) {
     offer.streams().push_back(static_cast<std::uint8_t>(stream));
     offer.oldest().push_back(range.oldest);
     offer.newest().push_back(range.newest);
+    offer.lost().push_back(range.lost);
   }
   offers_.write(offer);
 }
 
 void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
-  Reader* to = reader_of(request);
+  FarReader* to = reader_of(request);
   if (to == nullptr) return;
-  has_readers_ = true;
-  asked_ = to->heard = now();
+  asked_ = now();
+  to->hear(request, asked_);
   const std::size_t rows = request.streams().size();
   if (request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
-  to->backlog.set(request.lacking(), now());
+  to->hear_of_items(request, asked_);
   for (std::size_t i = 0; i < rows; ++i) {
     const auto stream = static_cast<Stream>(request.streams()[i]);
     const std::uint64_t number = request.numbers()[i];
     const std::uint64_t first = request.firsts()[i];
     const Bytes* item = find(stream, number);
     if (item == nullptr) {
-      send({number, 0, request.firsts()[i], {}}, stream, request.instance(), *to);
+      const std::uint32_t why = items_.is_lost(stream, number) ? kLost : kAbsent;
+      send({number, why, request.firsts()[i], {}}, stream, request.instance(), *to);
       continue;
     }
     const std::uint64_t end =
@@ -181,9 +215,7 @@ const ItemServer::Bytes* ItemServer::find(Stream stream, std::uint64_t number) {
   return maker_ != nullptr ? maker_->find(stream, number) : items_.find(stream, number);
 }
 
-void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader, Reader& to) {
-  ++chunks_sent_;
-  if (to.sent.note(reader, stream, chunk)) ++chunks_sent_again_;
+void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader, FarReader& to) {
   rds_msgs::msg::TransferChunk message;
   message.instance(context_.instance);
   message.reader(reader);
@@ -193,7 +225,8 @@ void ItemServer::send(const Chunk& chunk, Stream stream, std::uint64_t reader, R
   message.item_bytes(chunk.item_bytes);
   message.index(chunk.index);
   message.data().assign(chunk.data.begin(), chunk.data.end());
-  to.chunks.write(message);
+  ++chunks_sent_;
+  if (to.send(message)) ++chunks_sent_again_;
 }
 
 }  // namespace rds::transfer

@@ -25,6 +25,13 @@ TEST(ItemStore, OffersWhatItHas) {
   EXPECT_EQ(offers.at(Stream::kKeyframeImages).oldest, 3U);
   EXPECT_EQ(offers.at(Stream::kKeyframeImages).newest, 5U);
   EXPECT_EQ(offers.at(Stream::kKeyframeFeatures).newest, 5U) << "what is empty is not there";
+  EXPECT_EQ(offers.at(Stream::kKeyframeFeatures).lost, 0U) << "none that is older";
+  EXPECT_EQ(store.lost(Stream::kKeyframeFeatures), 1U);
+  EXPECT_TRUE(store.is_lost(Stream::kKeyframeFeatures, 6));
+  EXPECT_FALSE(store.is_lost(Stream::kKeyframeFeatures, 4)) << "there never was one";
+  EXPECT_FALSE(store.is_lost(Stream::kKeyframeImages, 6));
+  store.put(Stream::kKeyframeFeatures, 6, Bytes(10, 1));
+  EXPECT_EQ(store.lost(Stream::kKeyframeFeatures), 0U);
   store.clear();
   EXPECT_TRUE(store.offers().empty());
 }
@@ -89,6 +96,27 @@ TEST_F(SpillingStore, KeepsOlderItemsOnTheDisk) {
   EXPECT_TRUE(has(2));
   EXPECT_EQ(offer().oldest, 2U);
   EXPECT_EQ(disk_.size(), 4U);
+}
+
+TEST_F(SpillingStore, CountsWhatIsLost) {
+  put(1, 2);
+  put(3, 3, 0);  // cannot be made
+  put(4, 8);
+  EXPECT_EQ(offer(), (Offer{2, 8, 1})) << "there is room for two and four; the third never came";
+  EXPECT_EQ(store_.lost(Stream::kKeyframeImages), 2U);
+  EXPECT_TRUE(store_.is_lost(Stream::kKeyframeImages, 1));
+  EXPECT_TRUE(store_.is_lost(Stream::kKeyframeImages, 3));
+  EXPECT_FALSE(store_.is_lost(Stream::kKeyframeImages, 2));
+  put(9, 12);
+  EXPECT_EQ(offer(), (Offer{7, 12, 6}));
+  EXPECT_TRUE(store_.is_lost(Stream::kKeyframeImages, 3));
+  disk_.erase({Stream::kKeyframeImages, 8});
+  EXPECT_FALSE(has(8));
+  EXPECT_EQ(offer(), (Offer{7, 12, 6}));
+  EXPECT_EQ(store_.lost(Stream::kKeyframeImages), 7U);
+  EXPECT_TRUE(store_.is_lost(Stream::kKeyframeImages, 8));
+  store_.clear();
+  EXPECT_FALSE(store_.is_lost(Stream::kKeyframeImages, 3));
 }
 
 TEST_F(SpillingStore, ForgetsWhatTheDiskDoesNotTakeOrGiveBack) {

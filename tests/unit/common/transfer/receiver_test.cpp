@@ -80,6 +80,22 @@ TEST(Receiver, WhatIsOfferedNoMoreIsGivenUp) {
   ASSERT_FALSE(receiver.due(1s).empty());
   receiver.offer({4, 5});
   EXPECT_EQ(fetch_all(receiver, 10, 2s), (Numbers{5, 4}));
+  EXPECT_EQ(receiver.statistics().given_up, 1U);
+  EXPECT_EQ(receiver.statistics().items, 2U);
+}
+
+TEST(Receiver, CountsWhatCannotBeHadAnyMore) {
+  Receiver receiver(Order::kNewest);
+  receiver.offer({10, 12, 7});
+  EXPECT_EQ(receiver.statistics().given_up, 7U) << "of before it came";
+  ASSERT_FALSE(receiver.due(1s).empty());
+  receiver.take({11, kLost, 0, {}}, 1s);
+  EXPECT_EQ(receiver.statistics().given_up, 8U);
+  EXPECT_EQ(receiver.lacking(), 2U);
+  receiver.offer({12, 13, 9});
+  EXPECT_EQ(receiver.statistics().given_up, 9U) << "and the tenth, which was asked for";
+  EXPECT_EQ(fetch_all(receiver, 10, 2s), (Numbers{12, 13})) << "the one that was begun first";
+  EXPECT_EQ(receiver.statistics().given_up, 9U);
 }
 
 TEST(Receiver, GivesUpWhatTheWriterDoesNotHave) {
@@ -89,6 +105,7 @@ TEST(Receiver, GivesUpWhatTheWriterDoesNotHave) {
   EXPECT_EQ(receiver.take({4, 0, 0, {}}, 1s), std::nullopt);
   EXPECT_EQ(receiver.lacking(), 0U);
   EXPECT_EQ(receiver.statistics().absent, 1U);
+  EXPECT_EQ(receiver.statistics().given_up, 0U) << "there never was one";
   EXPECT_EQ(receiver.next_due(), std::nullopt);
 }
 

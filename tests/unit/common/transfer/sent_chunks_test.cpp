@@ -45,7 +45,8 @@ TEST(SentChunks, RemembersAFewItemsOnly) {
 TEST(SentChunks, KeepsNothingOfWhatIsNotThere) {
   SentChunks sent;
   constexpr auto kFar = std::numeric_limits<std::uint32_t>::max();
-  for (int i = 0; i < 2; ++i) EXPECT_FALSE(sent.note(1, kStream, {7, 0, kFar, {}}));
+  for (const std::uint32_t why : {kAbsent, kLost, kAbsent, kLost})
+    EXPECT_FALSE(sent.note(1, kStream, {7, why, kFar, {}}));
 }
 
 }  // namespace

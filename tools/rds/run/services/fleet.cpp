@@ -23,11 +23,13 @@ std::string contents(const std::filesystem::path& path) {
 }  // namespace
 
 Fleet::Fleet(std::vector<ServiceCommand> services) {
-  for (ServiceCommand& service : services) {
-    usage_[service.name] = {};
-    ChildProcess process(service.command, service.log);
-    members_.push_back({std::move(service), std::move(process)});
-  }
+  for (ServiceCommand& service : services) start(std::move(service));
+}
+
+void Fleet::start(ServiceCommand service) {
+  usage_[service.name] = {};
+  ChildProcess process(service.command, service.log);
+  members_.push_back({std::move(service), std::move(process)});
 }
 
 void Fleet::account(const std::string& name, const ChildExit& exit) {

@@ -28,11 +28,13 @@ struct ServiceUsage {
   std::vector<int> failures;  // exit statuses that were not asked for
 };
 
-/// The services of one run: started together, watched, restarted when they die, stopped together.
+/// The services of one run: watched, restarted when they die, stopped together.
 class Fleet {
  public:
   /// @throws std::runtime_error if one cannot be started.
   explicit Fleet(std::vector<ServiceCommand> services);
+  /// One more, likewise.
+  void start(ServiceCommand service);
 
   /// Restarts services that died, at most `kMaxRestarts` times each.
   /// @throws StartupFailure if one exited with status 2: its configuration or usage is wrong.

@@ -2,18 +2,22 @@
 // Server and client over a real bus, in one process that pretends to be two machines.
 #include <algorithm>
 #include <condition_variable>
+#include <future>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <ranges>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/transfer/bus/item_client.hpp"
 #include "common/transfer/bus/item_server.hpp"
-#include "tests/support/test_domain.hpp"
 #include "tests/unit/common/bus/bus_test_support.hpp"
+#include "tests/unit/common/transfer/bus/node.hpp"
 
 namespace rds::transfer {
 namespace {
@@ -23,26 +27,15 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t kRobot = 1;
 constexpr std::uint64_t kServerRoom = 2;
 constexpr std::uint64_t kEpoch = 77;
-constexpr std::size_t kMemory = std::size_t{16} << 20U;
+constexpr ItemServer::Room kRoom{.memory_bytes = 2'000'000, .file_bytes = 64'000'000};
+const std::string kImages = "rds/keyframe/images";
+const std::string kMapper = kImages + "/mapper";
 
 ItemServer::Bytes item_of(std::uint64_t number) {
-  ItemServer::Bytes item(100'000 + 1000 * (number % 1000));
+  ItemServer::Bytes item(20'000 + 1000 * (number % 100));
   for (std::size_t i = 0; i < item.size(); ++i) item[i] = static_cast<std::uint8_t>(i * 31 + number);
   return item;
 }
-
-/// A process on the bus.
-struct Node {
-  Node(bus::Vendor vendor, const std::string& name)
-      : bus(bus::Participant::create({.vendor = vendor,
-                                      .domain = test::test_domain(),
-                                      .node_name = name,
-                                      .loopback_only = true})),
-        context{name, *bus, diagnostics} {}
-  std::unique_ptr<bus::Participant> bus;
-  service::Diagnostics diagnostics;
-  service::ServiceContext context;
-};
 
 class TransferBus : public testing::TestWithParam<bus::Vendor> {
  protected:
@@ -71,7 +64,6 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, limit, condition);
   }
-  /// Until readers are known nothing is kept.
   void share(ItemServer& server, std::uint64_t number) {
     server.share(kEpoch, Stream::kKeyframeImages, number, [this, number] {
       made(number);
@@ -83,21 +75,16 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
     made_ = number;
     changed_.notify_all();
   }
-  /// As long as it takes for the first one to arrive. @return the next number
-  std::uint64_t share_until_readers_are_known(ItemServer& server) {
-    std::uint64_t number = 0;
-    for (; !wait_for([&] { return !arrived_.empty(); }, 0s) && number < 1000; ++number) {
-      share(server, number);
-      std::this_thread::sleep_for(50ms);
-    }
-    return number;
-  }
-  /// No faster than they are made: of what waits the server forgets the oldest.
+  /// No faster than they are made: what finds no room to wait for it is lost.
   void share_each(ItemServer& server, std::uint64_t first, std::uint64_t end) {
     for (std::uint64_t number = first; number < end; ++number) {
       share(server, number);
       ASSERT_TRUE(wait_for([&] { return made_ == number; })) << number;
     }
+  }
+  bool all_arrive(std::uint64_t first, std::uint64_t end) {
+    const auto is_here = [&](std::uint64_t number) { return arrived_.contains(number); };
+    return wait_for([&] { return std::ranges::all_of(std::views::iota(first, end), is_here); });
   }
 
   Node here_{GetParam(), "tracker"};
@@ -110,60 +97,98 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
 };
 
 TEST_P(TransferBus, EveryItemComesOnce) {
-  ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kRoom, kRobot);
   const auto client = make_client(kServerRoom);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kElsewhere; }));
-  const std::uint64_t first = share_until_readers_are_known(server);
-  share_each(server, first, first + 30);
-  const auto is_here = [&](std::uint64_t number) { return arrived_.contains(number); };
-  EXPECT_TRUE(wait_for([&] { return std::ranges::all_of(std::views::iota(first, first + 30), is_here); }))
-      << arrived_.size();
+  share_each(server, 0, 30);
+  EXPECT_TRUE(all_arrive(0, 30)) << arrived_.size();
   const std::lock_guard lock(mutex_);
   for (const auto& [id, times] : arrived_) EXPECT_EQ(times, 1) << id;
 }
 
-TEST_P(TransferBus, WhoComesLaterHasEverythingThatIsKept) {
-  ItemServer server(here_.context, topics::kTracker, kKeyframes, 2'000'000, kRobot);
-  {
-    const auto first = make_client(kServerRoom);
-    share_until_readers_are_known(server);
-  }
-  arrived_.clear();
-  share_each(server, 1100, 1120);
-  const auto later = make_client(kServerRoom);
-  const auto is_here = [&](std::uint64_t number) { return arrived_.contains(number); };
-  EXPECT_TRUE(wait_for([&] { return std::ranges::all_of(std::views::iota(1100U, 1120U), is_here); }))
-      << "nine of 218 kB are in the two megabytes of memory, the others in the file: " << arrived_.size();
+TEST_P(TransferBus, WhoComesLaterHasEverythingThatWasSharedBefore) {
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kRoom, kRobot);
+  share_each(server, 0, 100);
+  const auto client = make_client(kServerRoom);
+  EXPECT_TRUE(all_arrive(0, 100)) << "two of seven megabytes are in memory, the others in the file: "
+                                  << arrived_.size();
+  EXPECT_EQ(here_.figure(kImages + "/items shared"), 100U);
+  EXPECT_TRUE(bus::eventually([&] { return here_.figure(kMapper + "/items arrived") == 100; }));
+  EXPECT_EQ(here_.figure(kMapper + "/items lacking"), 0U);
+  EXPECT_EQ(here_.figure(kMapper + "/items given up"), 0U);
+  EXPECT_GE(here_.figure(kMapper + "/chunks sent"), 100U * 20'000 / kChunkBytes);
+  EXPECT_GT(here_.figure(kMapper + "/round trip us"), 0U);
+  EXPECT_GT(here_.figure(kMapper + "/link kbit_s"), 0U);
+  EXPECT_EQ(here_.figure(kImages + "/detector/chunks sent"), 0U) << "nobody is there";
+}
+
+TEST_P(TransferBus, WhatIsNotKeptIsCountedAtBothEnds) {
+  ItemServer server(here_.context, topics::kTracker, kKeyframes,
+                    {.memory_bytes = 300'000, .file_bytes = 1'000'000}, kRobot);
+  share_each(server, 0, 60);
+  const auto client = make_client(kServerRoom);
+  EXPECT_TRUE(all_arrive(50, 60));
+  EXPECT_TRUE(bus::eventually([&] {
+    return here_.figure(kMapper + "/items arrived") + here_.figure(kMapper + "/items given up") == 60;
+  }));
+  const std::uint64_t lost = here_.figure(kImages + "/items lost");
+  EXPECT_EQ(lost, here_.figure(kMapper + "/items given up"));
+  EXPECT_EQ(lost, 60 - arrived_.size());
+  EXPECT_GT(lost, 30U) << "1.3 of 3 megabytes have room";
+  const auto warnings = here_.diagnostics.warnings();
+  ASSERT_TRUE(warnings.contains("rds/transfer/mapper given up"));
+  EXPECT_EQ(warnings.at("rds/transfer/mapper given up"),
+            fmt::format("rds/transfer/mapper: {} items cannot be had any more", lost));
+  EXPECT_EQ(there_.figure("transfer items given up"), lost);
+  const auto warnings_there = there_.diagnostics.warnings();
+  ASSERT_TRUE(warnings_there.contains("transfer given up"));
+  EXPECT_EQ(warnings_there.at("transfer given up"),
+            fmt::format("{} items of rds-tracker cannot be had any more", lost));
+}
+
+TEST_P(TransferBus, WhatCannotBeMadeInTimeIsCountedAtBothEnds) {
+  std::promise<void> go_on;
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kRoom, kRobot);
+  server.share(kEpoch, Stream::kKeyframeImages, 0, [&go_on] {
+    go_on.get_future().wait();
+    return item_of(0);
+  });
+  for (std::uint64_t number = 1; number < 60; ++number) share(server, number);
+  server.share(kEpoch, Stream::kKeyframeImages, 60, [] { return item_of(60); });
+  go_on.set_value();
+  ASSERT_TRUE(bus::eventually([&] { return here_.figure(kImages + "/items shared") == 61; }));
+  server.share(kEpoch, Stream::kKeyframeImages, 61,
+               []() -> ItemServer::Bytes { throw std::runtime_error("no keyframe"); });
+  share_each(server, 62, 63);
+  const auto client = make_client(kServerRoom);
+  EXPECT_TRUE(all_arrive(0, 32));
+  EXPECT_TRUE(all_arrive(62, 63));
+  EXPECT_TRUE(bus::eventually([&] {
+    return here_.figure(kMapper + "/items arrived") + here_.figure(kMapper + "/items given up") == 63;
+  }));
+  EXPECT_GE(here_.figure(kMapper + "/items given up"), 28U);
+  EXPECT_EQ(here_.figure(kMapper + "/items given up"), here_.figure(kImages + "/items lost"));
 }
 
 TEST_P(TransferBus, ARestartedServerIsFollowed) {
   const auto client = make_client(kServerRoom);
   for (const std::uint64_t from : {0U, 1000U}) {
     Node node(GetParam(), "tracker" + std::to_string(from));  // another instance each time
-    ItemServer server(node.context, topics::kTracker, kKeyframes, kMemory, kRobot);
+    ItemServer server(node.context, topics::kTracker, kKeyframes, kRoom, kRobot);
     server.begin(kEpoch);
-    for (std::uint64_t number = from; number < from + 200; ++number) {
-      if (wait_for([&] { return !arrived_.empty() && arrived_.rbegin()->first >= from; }, 0s)) break;
-      share(server, number);
-      std::this_thread::sleep_for(50ms);
-    }
-    EXPECT_TRUE(wait_for([&] { return !arrived_.empty() && arrived_.rbegin()->first >= from; }, 0s)) << from;
+    share_each(server, from, from + 5);
+    EXPECT_TRUE(all_arrive(from, from + 5)) << from;
   }
 }
 
-TEST_P(TransferBus, OnOneMachineNothingIsMade) {
-  ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
+TEST_P(TransferBus, OnTheLoopbackInterfaceNothingIsMade) {
+  here_.context.participant.loopback_only = true;
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kRoom, kRobot);
   const auto client = make_client(kRobot);
   ASSERT_TRUE(wait_for([&] { return where_ == ItemClient::Where::kHere; }));
-  std::atomic<bool> made = false;
-  for (std::uint64_t number = 0; number < 20; ++number) {
-    server.share(kEpoch, Stream::kKeyframeImages, number, [&] {
-      made = true;
-      return item_of(0);
-    });
-    std::this_thread::sleep_for(50ms);
-  }
-  EXPECT_FALSE(made);
+  for (std::uint64_t number = 0; number < 20; ++number) share(server, number);
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(made_, std::nullopt);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::ValuesIn(bus::kAllVendors),

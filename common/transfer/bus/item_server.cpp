@@ -44,6 +44,7 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       maker_(maker),
       host_(host),
       items_(memory_bytes, std::make_unique<ItemFile>(), kMostSpilledBytes),
+      peers_(context.bus),
       offers_(topics::advertise(context.bus, channel.offers, process)),
       chunks_sent_(context.diagnostics.counter("transfer chunks sent")),
       chunks_sent_again_(context.diagnostics.counter("transfer chunks sent again")),
@@ -70,10 +71,11 @@ ItemServer::Reader& ItemServer::add_reader(topics::Process process, const std::s
 void ItemServer::warn_of(topics::Process process) {
   const std::string topic = chunk_topic(process, 0);
   const Reader& reader = add_reader(process, topic);
-  context_.diagnostics.warning(topic, [&reader, topic]() -> std::optional<std::string> {
+  context_.diagnostics.warning(topic, [this, &reader, topic]() -> std::optional<std::string> {
     const auto behind = reader.backlog.behind(now());
     if (!behind) return std::nullopt;
-    return fmt::format("{}: the reader is behind by {} items", topic, *behind);
+    return fmt::format("{} is behind: {} items have not come in time",
+                       peers_.name_of(reader.instance).value_or(topic), *behind);
   });
 }
 
@@ -160,6 +162,7 @@ void ItemServer::answer(const rds_msgs::msg::TransferRequest& request) {
   if (request.map_epoch() != map_epoch_ || request.numbers().size() != rows ||
       request.firsts().size() != rows || request.counts().size() != rows)
     return;
+  to->instance = request.instance();
   to->backlog.set(request.lacking(), now());
   for (std::size_t i = 0; i < rows; ++i) {
     const auto stream = static_cast<Stream>(request.streams()[i]);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/concurrency/mailbox.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/backlog.hpp"
 #include "common/transfer/bus/channel.hpp"
@@ -58,6 +59,7 @@ class ItemServer {
         : chunks(lanes, std::move(advertise)) {}
     Lanes<rds_msgs::msg::TransferChunk> chunks;
     Backlog backlog;  // as it says
+    std::atomic<std::uint64_t> instance = 0;
     SentChunks sent;
     Time heard{};
   };
@@ -94,6 +96,7 @@ class ItemServer {
   std::uint64_t map_epoch_ = 0;
   ItemStore items_;
   std::map<std::string, Reader> readers_;  // by topic
+  service::Peers peers_;
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
   service::Diagnostics::Counter& chunks_sent_;
   service::Diagnostics::Counter& chunks_sent_again_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Server and client over a real bus, in one process that pretends to be two machines.
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -8,8 +9,9 @@
 #include <ranges>
 #include <thread>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "common/service/presence.hpp"
 #include "common/transfer/bus/item_client.hpp"
 #include "common/transfer/bus/item_server.hpp"
 #include "tests/support/test_domain.hpp"
@@ -19,6 +21,8 @@ namespace rds::transfer {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
 
 constexpr std::uint64_t kRobot = 1;
 constexpr std::uint64_t kServerRoom = 2;
@@ -34,11 +38,9 @@ ItemServer::Bytes item_of(std::uint64_t number) {
 /// A process on the bus.
 struct Node {
   Node(bus::Vendor vendor, const std::string& name)
-      : bus(bus::Participant::create({.vendor = vendor,
-                                      .domain = test::test_domain(),
-                                      .node_name = name,
-                                      .loopback_only = true})),
-        context{name, *bus, diagnostics} {}
+      : bus(bus::Participant::create(
+            {.vendor = vendor, .domain = test::test_domain(), .node_name = name, .loopback_only = true})),
+        context{"rds-" + name, *bus, diagnostics} {}
   std::unique_ptr<bus::Participant> bus;
   service::Diagnostics diagnostics;
   service::ServiceContext context;
@@ -51,7 +53,8 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
         there_.context, topics::kMapper, kKeyframes, Stream::kKeyframeImages, Order::kNewest,
         ItemClient::Callbacks{
             .item = [this](std::uint64_t epoch, Item item) { take(epoch, std::move(item)); },
-            .where = [this](ItemClient::Where where) { say(where); }},
+            .where = [this](ItemClient::Where where) { say(where); },
+            .has_room = [this] { return has_room_.load(); }},
         host);
   }
   void take(std::uint64_t epoch, Item item) {
@@ -106,6 +109,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   std::condition_variable changed_;
   std::map<std::uint64_t, int> arrived_;
   std::optional<std::uint64_t> made_;
+  std::atomic<bool> has_room_ = true;
   ItemClient::Where where_ = ItemClient::Where::kUnknown;
 };
 
@@ -164,6 +168,33 @@ TEST_P(TransferBus, OnOneMachineNothingIsMade) {
     std::this_thread::sleep_for(50ms);
   }
   EXPECT_FALSE(made);
+}
+
+/// What waits for room is a gap as any other.
+TEST_P(TransferBus, AGapIsAWarningAtBothEndsWhileItLasts) {
+  service::Presence tracker(here_.context, {});
+  service::Presence mapper(there_.context, {});
+  tracker.set_active(true);
+  mapper.set_active(true);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kMemory, kRobot);
+  const auto client = make_client(kServerRoom);
+  const std::uint64_t next = share_until_readers_are_known(server);
+  has_room_ = false;
+  share_each(server, next, next + 3);
+  const auto warning_of = [](const Node& node) {
+    const auto warnings = node.diagnostics.warnings();
+    return warnings.empty() ? std::string() : warnings.begin()->second;
+  };
+  const auto both = [&](bool warn) {
+    return bus::eventually(
+        [&] { return warning_of(here_).empty() != warn && warning_of(there_).empty() != warn; });
+  };
+  ASSERT_TRUE(both(true)) << warning_of(here_) << "; " << warning_of(there_);
+  EXPECT_THAT(warning_of(there_),
+              AllOf(HasSubstr(" items of rds-tracker on "), HasSubstr("in time")));
+  EXPECT_THAT(warning_of(here_), AllOf(HasSubstr("rds-mapper on "), HasSubstr(" is behind: ")));
+  has_room_ = true;
+  EXPECT_TRUE(both(false)) << warning_of(here_) << "; " << warning_of(there_);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::ValuesIn(bus::kAllVendors),

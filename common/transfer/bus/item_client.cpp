@@ -51,6 +51,7 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
 void ItemClient::tell(service::Diagnostics& diagnostics) {
   diagnostics.gauge("transfer items lacking", [this] { return figures_.backlog.items(); });
   diagnostics.gauge("transfer round trip us", [this] { return figures_.round_trip_us.load(); });
+  diagnostics.gauge("transfer link kbit_s", [this] { return figures_.link_kbit_s.load(); });
   diagnostics.gauge("transfer chunks asked again", [this] { return figures_.asked_again.load(); });
   diagnostics.gauge("transfer chunks impossible", [this] { return figures_.impossible.load(); });
   diagnostics.warning("transfer", [this]() -> std::optional<std::string> {
@@ -182,8 +183,11 @@ void ItemClient::ask(Time now) {
   figures_.followed = source_.instance;
   figures_.asked_again = receiver_.statistics().asked_again;
   figures_.impossible = receiver_.statistics().impossible;
-  figures_.round_trip_us =
+  const auto round_trip_us =
       static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
+  figures_.round_trip_us = round_trip_us;
+  if (round_trip_us > 0)  // its window in a round trip
+    figures_.link_kbit_s = receiver_.window().chunks() * kChunkBytes * 8 * 1000 / round_trip_us;
 }
 
 void ItemClient::send(std::span<const Request> requests) {

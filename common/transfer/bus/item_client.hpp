@@ -82,6 +82,7 @@ class ItemClient {
     Backlog backlog;
     std::atomic<std::uint64_t> followed = 0;  // instance
     std::atomic<std::uint64_t> round_trip_us = 0;
+    std::atomic<std::uint64_t> link_kbit_s = 0;
     std::atomic<std::uint64_t> asked_again = 0;
     std::atomic<std::uint64_t> impossible = 0;
   };

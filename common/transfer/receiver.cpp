@@ -6,9 +6,10 @@
 
 namespace rds::transfer {
 
-void Receiver::offer(const Offer& offer) {
+void Receiver::offer(const Offer& offer, Time now) {
   if (!std::exchange(was_offered_, true)) statistics_.given_up += offer.lost;
   statistics_.given_up += wanted_.offer(offer);
+  if (lacking() > 0) deadlines_.note(*wanted_.missing().rbegin(), now);
   while (!begun_.empty() && begun_.begin()->first < offer.oldest) finish(begun_.begin()->first);
 }
 
@@ -58,6 +59,19 @@ std::optional<Time> Receiver::next_due() const {
   const Time silent = std::max(last_arrival_, in_flight_.rbegin()->second.at) + window_.timeout();
   if (order >= overtaken_) return silent;
   return std::min(silent, oldest.at + window_.round_trip() + window_.reordering());
+}
+
+std::size_t Receiver::overdue(Time now) const {
+  const auto newest = deadlines_.passed(now);
+  if (!newest) return 0;
+  const auto& missing = wanted_.missing();
+  std::size_t in_time = 0;  // few
+  for (auto it = missing.rbegin(); it != missing.rend() && *it > *newest; ++it) ++in_time;
+  return missing.size() - in_time;
+}
+
+std::optional<Time> Receiver::next_overdue(Time now) const {
+  return lacking() > 0 ? deadlines_.next(now) : std::nullopt;
 }
 
 /// What was asked for is there, whatever becomes of it.

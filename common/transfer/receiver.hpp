@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/transfer/assembly.hpp"
+#include "common/transfer/deadlines.hpp"
 #include "common/transfer/transfer.hpp"
 #include "common/transfer/wanted.hpp"
 #include "common/transfer/window.hpp"
@@ -47,7 +48,7 @@ class Receiver {
 
   explicit Receiver(Order order, Way way = Way::kDatagrams) : order_(order), window_(way) {}
 
-  void offer(const Offer& offer);
+  void offer(const Offer& offer, Time now);
   /// @return the item, if this chunk completes it
   std::optional<Item> take(const Chunk& chunk, Time now);
   /// What to ask for now. @param may_begin  false: only for the rest of items that have been begun
@@ -57,6 +58,10 @@ class Receiver {
 
   /// Items that are offered and not here yet.
   [[nodiscard]] std::size_t lacking() const { return wanted_.missing().size(); }
+  /// Of these, those that should be here by now (Deadlines): the link is full, or they cannot be had for now.
+  [[nodiscard]] std::size_t overdue(Time now) const;
+  /// When further ones would be.
+  [[nodiscard]] std::optional<Time> next_overdue(Time now) const;
   [[nodiscard]] const ReceiverStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const Window& window() const { return window_; }
 
@@ -87,6 +92,7 @@ class Receiver {
   bool was_offered_ = false;
   std::uint32_t latest_chunks_ = 0;  // of the item that was whole last
   Wanted wanted_;
+  Deadlines deadlines_;
   std::map<std::uint64_t, Begun> begun_;
   Orders in_flight_;
   std::map<ChunkId, std::uint64_t> order_of_;  // of what is in flight

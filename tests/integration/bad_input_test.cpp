@@ -124,5 +124,14 @@ TEST_F(BadInput, MissingNetworkSaysHowToGetIt) {
   EXPECT_THAT(result.standard_error, HasSubstr("yolox_nano"));
 }
 
+TEST(BadPeers, ANameThatNobodyHasIsRefusedInASentence) {
+  const ProcessResult result =
+      run_process({RDS_BIN_DIR "/rds-tracker", "--domain", "7", "--peers", "127.0.0.1,no-such-host.invalid"},
+                  std::chrono::seconds(60));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.standard_error, HasSubstr("peer 'no-such-host.invalid': "));
+  EXPECT_EQ(std::ranges::count(result.standard_error, '\n'), 1) << result.standard_error;
+}
+
 }  // namespace
 }  // namespace rds::test

@@ -6,17 +6,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "common/service/process/printable.hpp"
-
 namespace rds::service {
 namespace {
 
 namespace Role = rds_msgs::msg::ServiceStatus_Constants;
-
-std::string name_of(const std::string& kind, const std::string& machine) {
-  return machine.empty() ? printable(kind, 32)
-                         : fmt::format("{} on {}", printable(kind, 32), printable(machine, 64));
-}
 
 }  // namespace
 
@@ -32,7 +25,7 @@ void PeerWatch::learn(std::span<const Peer> known) {
       seen_.erase(kind);
     } else if (seen_.contains(kind) || seen_.size() < kMostKinds) {
       Seen& seen = seen_[kind];
-      seen.machine = peer->status.machine();
+      seen.name = name_of(peer->status);
       seen.heard = std::max(seen.heard, peer->heard);
     }
   }
@@ -47,13 +40,13 @@ std::optional<std::string> PeerWatch::look(std::span<const Peer> known, Clock::t
   for (auto& [kind, seen] : seen_) {
     const Clock::duration silent = now - std::max(seen.heard, resumed_);
     const bool was_silent = std::exchange(seen.is_silent, silent > kSilentAfter);
-    const std::string name = name_of(kind, seen.machine);
-    if (seen.is_silent && !was_silent) spdlog::warn("{} is silent: killed, hanging, or out of reach", name);
-    if (!seen.is_silent && was_silent) spdlog::info("{} is heard again", name);
+    if (seen.is_silent && !was_silent)
+      spdlog::warn("{} is silent: killed, hanging, or out of reach", seen.name);
+    if (!seen.is_silent && was_silent) spdlog::info("{} is heard again", seen.name);
     if (silent <= longest) continue;
     longest = silent;
-    worst =
-        fmt::format("{} has been silent for {:.0f} s", name, std::chrono::duration<double>(silent).count());
+    worst = fmt::format("{} has been silent for {:.0f} s", seen.name,
+                        std::chrono::duration<double>(silent).count());
   }
   return worst;
 }

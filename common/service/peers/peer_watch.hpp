@@ -30,7 +30,7 @@ class PeerWatch {
   static constexpr std::chrono::seconds kStoppedAfter{1};
 
   struct Seen {
-    std::string machine;
+    std::string name;  // with its machine
     Clock::time_point heard;
     bool is_silent = false;
   };

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include <fmt/format.h>
+
+#include "common/service/process/printable.hpp"
 #include "common/topics/topics.hpp"
 
 namespace rds::service {
@@ -23,6 +26,11 @@ bool is_short(const ServiceStatus& status) {
 }
 
 }  // namespace
+
+std::string name_of(const ServiceStatus& status) {
+  const std::string kind = printable(status.service(), 32);
+  return status.machine().empty() ? kind : fmt::format("{} on {}", kind, printable(status.machine(), 64));
+}
 
 Peers::Peers(bus::Participant& bus, std::function<void()> changed, const bus::Qos& qos)
     : changed_(std::move(changed)),
@@ -82,6 +90,12 @@ std::optional<Peers::Clock::duration> Peers::silent_for(std::uint64_t instance) 
   const std::lock_guard lock(mutex_);
   const auto peer = peers_.find(instance);
   return peer == peers_.end() ? std::nullopt : std::optional(Clock::now() - peer->second.heard);
+}
+
+std::optional<std::string> Peers::name_of(std::uint64_t instance) const {
+  const std::lock_guard lock(mutex_);
+  const auto peer = peers_.find(instance);
+  return peer == peers_.end() ? std::nullopt : std::optional(service::name_of(peer->second.status));
 }
 
 bool Peers::has_left(std::uint64_t instance) const {

@@ -30,6 +30,9 @@ struct Peer {
   double clock_ahead_s = 0;  // of its machine, against this one's; what the message took counts as behind
 };
 
+/// "rds-mapper on nas", printable.
+std::string name_of(const rds_msgs::msg::ServiceStatus& status);
+
 /// Who of the services is on the bus, from their statuses. Safe to use from any thread.
 class Peers {
  public:
@@ -52,6 +55,8 @@ class Peers {
   [[nodiscard]] bool hears_another_than(std::uint64_t instance) const;
   /// Since its last status; nullopt if none was heard.
   [[nodiscard]] std::optional<Clock::duration> silent_for(std::uint64_t instance) const;
+  /// As name_of(); nullopt if it is not known.
+  [[nodiscard]] std::optional<std::string> name_of(std::uint64_t instance) const;
   /// Whether it said good-bye.
   [[nodiscard]] bool has_left(std::uint64_t instance) const;
   /// All that are remembered, those too that are silent or have left.
@@ -82,9 +87,13 @@ class FollowedWriter {
 
   /// Whether a message of this instance is to be used; then it is the one that is followed from now on.
   ///
-  /// @param same_map  the message goes on with the map that the reader knows: a service that was started again
-  /// in the place of the one that was followed is taken at once.
+  /// @param same_map  the message goes on with the map that the reader knows: a service that was started
+  /// again in the place of the one that was followed is taken at once.
   bool accept(std::uint64_t instance, bool same_map);
+  /// "rds-mapper on nas", the kind alone of one that says nothing of itself. Of any thread.
+  [[nodiscard]] std::string name_of(std::uint64_t instance) const {
+    return peers_.name_of(instance).value_or(std::string(kind_));
+  }
 
  private:
   [[nodiscard]] bool may_replace(std::uint64_t newcomer, bool same_map) const;

@@ -37,26 +37,26 @@ class GivenUp {
   std::atomic<Time> grown_at_{};
 };
 
-/// How many items a reader lacks, told by one thread and read by others.
+/// How many items a reader lacks that should be there, told by one thread and read by others.
 class Backlog {
  public:
   void set(std::size_t items, Time now) {
     items_ = items;
-    if (items == 0) none_at_ = now;
+    told_at_ = now;
   }
   [[nodiscard]] std::size_t items() const { return items_; }
-  /// The items, if some have been lacking for longer than a link takes that carries them all.
+  /// The items, if there are any, and the reader still says so: it does each second.
   [[nodiscard]] std::optional<std::size_t> behind(Time now) const {
     const std::size_t items = items_;
-    if (items == 0 || now - none_at_.load() < kLong) return std::nullopt;
+    if (items == 0 || now - told_at_.load() > kSilent) return std::nullopt;
     return items;
   }
 
  private:
-  static constexpr std::chrono::milliseconds kLong{1500};
+  static constexpr std::chrono::seconds kSilent{3};
 
   std::atomic<std::size_t> items_ = 0;
-  std::atomic<Time> none_at_{};
+  std::atomic<Time> told_at_{};
 };
 
 }  // namespace rds::transfer

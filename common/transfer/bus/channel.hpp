@@ -41,6 +41,12 @@ inline std::size_t lanes_of(const Channel& channel, bus::Vendor vendor) {
   return way_of(vendor) == Way::kStream ? 1 : channel.lanes;
 }
 
+/// Name of the topic that carries the same to readers on the writer's machine.
+inline const char* near_topic(Stream stream) {
+  if (stream == Stream::kMapUpdates) return topics::kMapFull.name;
+  return stream == Stream::kKeyframeImages ? topics::kKeyframeImages.name : topics::kKeyframeFeatures.name;
+}
+
 /// Name of the topic on which a reader hears its chunks, and no other reader.
 inline std::string chunk_topic(topics::Process reader, std::uint64_t instance) {
   const char* name = topics::transfer_to(reader).name;

@@ -20,6 +20,7 @@ void FarReader::hear(const rds_msgs::msg::TransferRequest& request, Time now) {
 }
 
 void FarReader::hear_of_items(const rds_msgs::msg::TransferRequest& request, Time now) {
+  instance_ = request.instance();
   backlog_.set(request.lacking(), now);
   given_up_.set(request.given_up(), now);
   if (!figures_) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ class FarReader {
   /// Of any thread.
   [[nodiscard]] const Backlog& backlog() const { return backlog_; }
   [[nodiscard]] const GivenUp& given_up() const { return given_up_; }
+  /// Of the service that asked last.
+  [[nodiscard]] std::uint64_t instance() const { return instance_; }
 
  private:
   using Counter = service::Diagnostics::Counter;
@@ -59,6 +62,7 @@ class FarReader {
   SentChunks sent_;
   Backlog backlog_;
   GivenUp given_up_;
+  std::atomic<std::uint64_t> instance_ = 0;
   Time heard_{};
   std::optional<Figures> figures_;
 };

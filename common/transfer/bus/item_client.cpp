@@ -14,10 +14,8 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t kMostOffers = 100;
 constexpr std::size_t kMostChunks = 8192;  // 10 MB
-constexpr Time kHelloPeriod = std::chrono::seconds(1);
 constexpr milliseconds kLongestWait{500};
 constexpr milliseconds kWaitForRoom{50};
-constexpr Time kPatience = std::chrono::seconds(2);
 constexpr std::size_t kMostRows = 40;  // in one datagram
 
 }  // namespace
@@ -32,12 +30,12 @@ ItemClient::ItemClient(service::ServiceContext& context, topics::Process process
       callbacks_(std::move(callbacks)),
       source_{.followed = {context.bus, channel.writer}},
       receiver_(new_receiver()),
-      requests_(lanes_of(channel, context.participant.vendor), [this, process] {
-        return topics::advertise(context_.bus, channel_.requests, process);
-      }) {
+      requests_(lanes_of(channel, context.participant.vendor),
+                [this, process] { return topics::advertise(context_.bus, channel_.requests, process); }) {
   subscriptions_.push_back(topics::subscribe(context.bus, channel.offers, process,
                                              [this](Offers offers, const bus::ParticipantId& writer) {
-    if (owners_.owns(writer, offers->instance())) inboxes_.offers.push(std::move(offers));
+                                               if (owners_.owns(writer, offers->instance()))
+                                                 inboxes_.offers.push(std::move(offers));
                                              }));
   const std::string topic = chunk_topic(process, context.instance);
   subscriptions_.push_back(topics::subscribe(context.bus, topics::transfer_to(process).named(topic), process,
@@ -54,17 +52,20 @@ void ItemClient::tell(service::Diagnostics& diagnostics) {
   diagnostics.gauge("transfer items lacking", [this] { return figures_.backlog.items(); });
   diagnostics.gauge("transfer items given up", [this] { return figures_.given_up.items(); });
   diagnostics.gauge("transfer round trip us", [this] { return figures_.round_trip_us.load(); });
+  diagnostics.gauge("transfer link kbit_s", [this] { return figures_.link_kbit_s.load(); });
   diagnostics.gauge("transfer chunks asked again", [this] { return figures_.asked_again.load(); });
   diagnostics.gauge("transfer chunks impossible", [this] { return figures_.impossible.load(); });
   diagnostics.warning("transfer", [this]() -> std::optional<std::string> {
     const auto behind = figures_.backlog.behind(now());
     if (!behind) return std::nullopt;
-    return fmt::format("behind: {} items of {} have not come yet", *behind, channel_.writer);
+    return fmt::format("behind: {} items of {} have not come in time", *behind,
+                       source_.followed.name_of(figures_.followed));
   });
   diagnostics.warning("transfer given up", [this]() -> std::optional<std::string> {
     const auto given_up = figures_.given_up.lately(now());
     if (!given_up) return std::nullopt;
-    return fmt::format("{} items of {} cannot be had any more", *given_up, channel_.writer);
+    return fmt::format("{} items of {} cannot be had any more", *given_up,
+                       source_.followed.name_of(figures_.followed));
   });
 }
 
@@ -74,11 +75,8 @@ Receiver ItemClient::new_receiver() const {
 
 void ItemClient::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    auto due = receiver_.next_due();
-    if (!source_.offers.empty()) due = std::min(due.value_or(Time::max()), source_.offers.front().due);
-    const auto wait = due ? std::chrono::ceil<milliseconds>(*due - now()) : kLongestWait;
     const auto longest = receiver_.lacking() > 0 && !callbacks_.has_room() ? kWaitForRoom : kLongestWait;
-    inboxes_.mailbox.wait_for(stop, std::clamp(wait, milliseconds(0), longest), [this] {
+    inboxes_.mailbox.wait_for(stop, std::clamp(until_due(), milliseconds(0), longest), [this] {
       return !inboxes_.offers.locked_empty() || !inboxes_.chunks.locked_empty();
     });
     try {
@@ -89,12 +87,31 @@ void ItemClient::run(const std::stop_token& stop) {
   }
 }
 
+/// Until there is something to ask for or to tell, if nothing comes.
+milliseconds ItemClient::until_due() const {
+  const Time time = now();
+  Time due = std::min(receiver_.next_due().value_or(Time::max()),
+                      receiver_.next_overdue(time).value_or(Time::max()));
+  if (!source_.offers.empty()) due = std::min(due, source_.offers.front().due);
+  return due == Time::max() ? kLongestWait : std::chrono::ceil<milliseconds>(due - time);
+}
+
 void ItemClient::step() {
   while (const auto offers = inboxes_.offers.try_pop()) take(**offers);
   while (const auto chunk = inboxes_.chunks.try_pop()) take(**chunk, now());
   hear_due_offers(now());
-  if (source_.where == Where::kUnknown && now() - source_.started > kPatience) be(Where::kHere);
+  if (source_.where == Where::kUnknown && is_here_without_offer(now())) be(Where::kHere);
   if (source_.where == Where::kElsewhere) ask(now());
+}
+
+/// On the loopback interface everything is.
+bool ItemClient::is_here_without_offer(Time now) {
+  if (context_.participant.loopback_only) return true;
+  const std::string topic = context_.bus.full_name(near_topic(self_.stream));
+  const auto writes = [&topic](const auto& endpoint) {
+    return endpoint.publisher && endpoint.topic == topic;
+  };
+  return source_.patience.is_over(std::ranges::any_of(context_.bus.discovered(), writes), now);
 }
 
 void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
@@ -104,8 +121,7 @@ void ItemClient::take(const rds_msgs::msg::TransferOffer& offers) {
                                        "rows of different lengths");
   if (!source_.followed.accept(offers.instance(),
                                offers.map_epoch() == source_.map_epoch && source_.map_epoch != 0))
-    return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kForeign,
-                                       "another service");
+    return context_.diagnostics.reject(channel_.offers.name, service::Rejection::kForeign, "another service");
   follow(offers);
   TimedOffer heard{now() + callbacks_.gives_way};
   for (std::size_t i = 0; i < rows; ++i)
@@ -125,13 +141,13 @@ void ItemClient::hear_due_offers(Time now) {
 /// All that is offered, or one item after the other.
 void ItemClient::want() {
   if (!source_.offer) return;
-  if (!callbacks_.next) return receiver_.offer(*source_.offer);
+  if (!callbacks_.next) return receiver_.offer(*source_.offer, now());
   if (receiver_.lacking() > 0) return;
   const auto next = callbacks_.next(source_.map_epoch, *source_.offer);
   if (!next) return;
   if (*next <= last_wanted_) receiver_ = new_receiver();  // the numbers of one go up
   last_wanted_ = *next;
-  receiver_.offer({*next, *next});
+  receiver_.offer({*next, *next}, now());
 }
 
 void ItemClient::follow(const rds_msgs::msg::TransferOffer& offers) {
@@ -168,14 +184,23 @@ void ItemClient::ask(Time now) {
   const std::vector<Request> due = receiver_.due(now, callbacks_.has_room());
   for (std::size_t i = 0; i < due.size(); i += kMostRows)
     send(std::span(due).subspan(i, std::min(kMostRows, due.size() - i)));
-  if (due.empty() && now - last_hello_ >= kHelloPeriod) send({});
-  if (now - last_hello_ >= kHelloPeriod) last_hello_ = now;
-  figures_.backlog.set(receiver_.lacking(), now);
+  const std::size_t overdue = receiver_.overdue(now);
+  if (hello_.is_due(overdue, now) && due.empty()) send({});
+  figures_.backlog.set(overdue, now);
   figures_.given_up.set(receiver_.statistics().given_up, now);
+  figures_.followed = source_.instance;
   figures_.asked_again = receiver_.statistics().asked_again;
   figures_.impossible = receiver_.statistics().impossible;
-  figures_.round_trip_us =
-      static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
+  figures_.round_trip_us = round_trip_us();
+  figures_.link_kbit_s = link_kbit_s();
+}
+
+std::uint64_t ItemClient::round_trip_us() const {
+  return static_cast<std::uint64_t>(receiver_.window().round_trip() / std::chrono::microseconds(1));
+}
+
+std::uint64_t ItemClient::link_kbit_s() const {
+  return static_cast<std::uint64_t>(receiver_.window().bits_per_s() / 1e3);
 }
 
 void ItemClient::send(std::span<const Request> requests) {
@@ -183,11 +208,11 @@ void ItemClient::send(std::span<const Request> requests) {
   message.instance(context_.instance);
   message.writer(source_.instance);
   message.map_epoch(source_.map_epoch);
-  message.lacking(static_cast<std::uint32_t>(receiver_.lacking()));
+  message.lacking(static_cast<std::uint32_t>(receiver_.overdue(now())));
   message.arrived(receiver_.statistics().items);
   message.given_up(receiver_.statistics().given_up);
-  message.round_trip_us(static_cast<std::uint32_t>(receiver_.window().round_trip() / std::chrono::microseconds(1)));
-  message.link_kbit_s(static_cast<std::uint32_t>(receiver_.window().bits_per_s() / 1e3));
+  message.round_trip_us(static_cast<std::uint32_t>(round_trip_us()));
+  message.link_kbit_s(static_cast<std::uint32_t>(link_kbit_s()));
   message.reader(static_cast<std::uint8_t>(self_.process));
   for (const Request& request : requests) {
     message.streams().push_back(static_cast<std::uint8_t>(self_.stream));

@@ -19,6 +19,8 @@
 #include "common/transfer/bus/channel.hpp"
 #include "common/transfer/bus/host.hpp"
 #include "common/transfer/bus/lanes.hpp"
+#include "common/transfer/hello.hpp"
+#include "common/transfer/patience.hpp"
 #include "common/transfer/receiver.hpp"
 #include "rds_msgs/msg/TransferChunk.h"
 #include "rds_msgs/msg/TransferOffer.h"
@@ -29,19 +31,21 @@ namespace rds::transfer {
 /// Fetches what a service on another machine offers, on a thread of its own.
 class ItemClient {
  public:
-  /// Where the service is whose offers are followed; kHere too for one that has offered nothing for 2 s.
+  /// Where the service is whose offers are followed; kHere too for one that writes for its own machine and
+  /// offers nothing (Patience).
   enum class Where : std::uint8_t { kUnknown, kHere, kElsewhere };
   struct Callbacks {
     std::function<void(std::uint64_t map_epoch, Item)> item;  // a whole item, on the client's thread
     std::function<void(Where)> where = [](Where) {};          // on the client's thread, when it changes
-    /// Whether kMostBegun more items can be taken; else no further ones are asked for. On the client's thread.
+    /// Whether kMostBegun more items can be taken; else no further ones are asked for. On the client's
+    /// thread.
     std::function<bool()> has_room = [] { return true; };
     /// For items that are made when they are asked for: the number of the next one, if any is wanted. Called
     /// with each offer, and when an item has come; never while one is on its way. Empty: all are fetched that
     /// are offered.
     std::function<std::optional<std::uint64_t>(std::uint64_t map_epoch, const Offer&)> next = {};
-    /// How long an item is offered before it is asked for: what a link carries then is for readers in more of a
-    /// hurry.
+    /// How long an item is offered before it is asked for: what a link carries then is for readers in more of
+    /// a hurry.
     Time gives_way = {};
   };
 
@@ -71,13 +75,15 @@ class ItemClient {
     std::deque<TimedOffer> offers = {};  // that are not due yet
     std::optional<Offer> offer = {};     // the latest that was
     Where where = Where::kUnknown;
-    Time started = now();
+    Patience patience = {};
   };
   /// For diagnostics.
   struct Figures {
     Backlog backlog;
     GivenUp given_up;
+    std::atomic<std::uint64_t> followed = 0;  // instance
     std::atomic<std::uint64_t> round_trip_us = 0;
+    std::atomic<std::uint64_t> link_kbit_s = 0;
     std::atomic<std::uint64_t> asked_again = 0;
     std::atomic<std::uint64_t> impossible = 0;
   };
@@ -91,15 +97,19 @@ class ItemClient {
   void tell(service::Diagnostics& diagnostics);
   [[nodiscard]] Receiver new_receiver() const;
   void run(const std::stop_token& stop);
+  [[nodiscard]] std::chrono::milliseconds until_due() const;
   void step();
   void take(const rds_msgs::msg::TransferOffer& offers);
   void follow(const rds_msgs::msg::TransferOffer& offers);
   void hear_due_offers(Time now);
   void want();
   void take(const rds_msgs::msg::TransferChunk& chunk, Time now);
+  [[nodiscard]] bool is_here_without_offer(Time now);
   void be(Where where);
   void ask(Time now);
   void send(std::span<const Request> requests);
+  [[nodiscard]] std::uint64_t round_trip_us() const;
+  [[nodiscard]] std::uint64_t link_kbit_s() const;
 
   service::ServiceContext& context_;
   Channel channel_;
@@ -109,7 +119,7 @@ class ItemClient {
   Source source_;
   Receiver receiver_;
   std::uint64_t last_wanted_ = 0;  // number that the receiver has been told to fetch
-  Time last_hello_{};
+  Hello hello_;
   Figures figures_;
   Lanes<rds_msgs::msg::TransferRequest> requests_;
   Inboxes inboxes_;

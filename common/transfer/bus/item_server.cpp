@@ -53,6 +53,7 @@ ItemServer::ItemServer(service::ServiceContext& context, topics::Process process
       maker_(maker),
       host_(host),
       items_(room.memory_bytes, std::make_unique<ItemFile>(), room.file_bytes),
+      peers_(context.bus),
       offers_(topics::advertise(context.bus, channel.offers, process)),
       chunks_sent_(context.diagnostics.counter("transfer chunks sent")),
       chunks_sent_again_(context.diagnostics.counter("transfer chunks sent again")),
@@ -79,15 +80,17 @@ FarReader& ItemServer::add_reader(topics::Process process, const std::string& to
 void ItemServer::warn_of(topics::Process process) {
   const std::string topic = chunk_topic(process, 0);
   const FarReader& reader = add_reader(process, topic);
-  context_.diagnostics.warning(topic, [&reader, topic]() -> std::optional<std::string> {
+  context_.diagnostics.warning(topic, [this, &reader, topic]() -> std::optional<std::string> {
     const auto behind = reader.backlog().behind(now());
     if (!behind) return std::nullopt;
-    return fmt::format("{}: the reader is behind by {} items", topic, *behind);
+    return fmt::format("{} is behind: {} items have not come in time",
+                       peers_.name_of(reader.instance()).value_or(topic), *behind);
   });
-  context_.diagnostics.warning(topic + " given up", [&reader, topic]() -> std::optional<std::string> {
+  context_.diagnostics.warning(topic + " given up", [this, &reader, topic]() -> std::optional<std::string> {
     const auto given_up = reader.given_up().lately(now());
     if (!given_up) return std::nullopt;
-    return fmt::format("{}: {} items cannot be had any more", topic, *given_up);
+    return fmt::format("{} lacks {} items that cannot be had any more",
+                       peers_.name_of(reader.instance()).value_or(topic), *given_up);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "common/concurrency/mailbox.hpp"
+#include "common/service/peers/peers.hpp"
 #include "common/service/service.hpp"
 #include "common/transfer/bus/channel.hpp"
 #include "common/transfer/bus/far_reader.hpp"
@@ -86,6 +87,7 @@ class ItemServer {
   std::uint64_t map_epoch_ = 0;
   ItemStore items_;
   std::map<std::string, FarReader> readers_;  // by topic
+  service::Peers peers_;
   bus::Publisher<rds_msgs::msg::TransferOffer> offers_;
   service::Diagnostics::Counter& chunks_sent_;
   service::Diagnostics::Counter& chunks_sent_again_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/messages/json.hpp"
+#include "common/topics/topics.hpp"
 #include "tools/rds/cli/bus_options.hpp"
 #include "tools/rds/cli/commands.hpp"
 #include "tools/rds/cli/exit.hpp"
@@ -46,19 +48,30 @@ std::vector<service::Peer> rows(std::vector<service::Peer> present, const Status
   return present;
 }
 
-/// Listens until all is well or the time is over. Only what is said now counts, not a latched status of before:
-/// a process that is stopped may have left one.
+/// Whether diagnostics of all these have come: they follow a status at once.
+bool has_heard_all(const ServiceReport& report) {
+  return std::ranges::all_of(report.services, [&](const service::Peer& peer) {
+    return report.transfers.contains(peer.status.instance());
+  });
+}
+
+/// Listens until all is well or the time is over. Only what is said now counts, not a latched status of
+/// before: a process that is stopped may have left one.
 ServiceReport listen(const StatusOptions& options) {
   const Interrupt interrupt;
-  const auto deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.wait_s));
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(options.wait_s));
   const auto participant = bus::Participant::create(options.bus.participant("rds_status"));
   const service::Peers peers(*participant, {}, bus::kStream);
+  TransfersHeard transfers;
+  const auto diagnostics = participant->subscribe<diagnostic_msgs::msg::DiagnosticArray>(
+      topics::kDiagnostics.name, bus::kStream, [&](const auto& heard) { transfers.take(*heard); });
   const auto expected = expected_services(options);
   ServiceReport report;
   wait_until(deadline, interrupt.token(), [&] {
     report = report_on(rows(peers.present(), options), expected, Clock::now());
-    return report.problems.empty();
+    report.transfers = transfers.figures();
+    return report.problems.empty() && has_heard_all(report);
   });
   return report;
 }
@@ -81,7 +94,8 @@ void show_status(const StatusOptions& options) {
 
 void add_status_command(CLI::App& rds) {
   const auto options = std::make_shared<StatusOptions>();
-  auto* command = rds.add_subcommand("status", "Whether the services are there and well; exit status 1 if not");
+  auto* command =
+      rds.add_subcommand("status", "Whether the services are there and well; exit status 1 if not");
   command->add_option("--service", options->services,
                       "Only this one, e.g. tracker; may be given again (default: all five)");
   command->add_option("--wait", options->wait_s, "Listen until all is well, at most so long [s]")

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/transfer/bus/backlog.hpp"
+#include "common/transfer/hello.hpp"
 #include "common/transfer/receiver.hpp"
 #include "tests/unit/common/transfer/link.hpp"
 
@@ -27,12 +29,14 @@ class Transfer {
   Transfer(const LinkQuality& quality, int readers)
       : uplink_(events_, quality, 1), downlink_(events_, quality, 2) {
     const Way way = quality.in_order ? Way::kStream : Way::kDatagrams;
-    readers_.resize(static_cast<std::size_t>(readers), {.receiver = Receiver(Order::kNewest, way)});
+    for (int i = 0; i < readers; ++i) readers_.push_back({.receiver = Receiver(Order::kNewest, way)});
   }
 
   void run(int keyframes, std::size_t bytes, Time period = 200ms) {
     for (int i = 0; i < keyframes; ++i) events_.at(i * period, [this, i, bytes] { make(i, bytes); });
-    events_.run(keyframes * period + 10s);
+    const Time end = keyframes * period + 10s;
+    for (Time t{}; t < end; t += 250ms) events_.at(t, [this] { look(); });
+    events_.run(end);
   }
   void cut(Time from, Time to) {
     events_.at(from, [this] { uplink_.connected = downlink_.connected = false; });
@@ -54,6 +58,9 @@ class Transfer {
     }
     return repeated / all;
   }
+  /// When somebody looked, four times a second, and either end knew of a reader that is behind.
+  [[nodiscard]] const std::vector<Time>& behind_at_reader() const { return behind_at_reader_; }
+  [[nodiscard]] const std::vector<Time>& behind_at_writer() const { return behind_at_writer_; }
   [[nodiscard]] const Receiver& receiver(int reader) const { return readers_[reader].receiver; }
 
  private:
@@ -63,6 +70,9 @@ class Transfer {
     std::array<std::uint64_t, kLanes> heard{};  // the newest of each
     std::vector<Time> delays{};
     std::uint64_t timer = 0;
+    Hello hello{};
+    std::unique_ptr<Backlog> at_reader = std::make_unique<Backlog>();
+    std::unique_ptr<Backlog> at_writer = std::make_unique<Backlog>();
   };
 
   void make(int number, std::size_t bytes) {
@@ -83,18 +93,34 @@ class Transfer {
     events_.at(events_.now() + kRepair, [=, this] { send_offer(i, number, heard); });
   }
   void offer(std::size_t i, int newest) {
-    readers_[i].receiver.offer({0, static_cast<std::uint64_t>(newest)});
+    readers_[i].receiver.offer({0, static_cast<std::uint64_t>(newest)}, events_.now());
     ask(i);
   }
   void ask(std::size_t i) {
     Reader& reader = readers_[i];
-    for (const Request& request : reader.receiver.due(events_.now()))
-      downlink_.send(kHeaderBytes, [this, i, request] { answer(i, request); });
-    const std::uint64_t timer = ++reader.timer;
-    if (const auto due = reader.receiver.next_due())
-      events_.at(*due, [this, i, timer] {
-        if (readers_[i].timer == timer) ask(i);
+    const Time now = events_.now();
+    const std::vector<Request> due = reader.receiver.due(now);
+    const std::size_t overdue = reader.receiver.overdue(now);
+    reader.at_reader->set(overdue, now);
+    for (const Request& request : due)
+      downlink_.send(kHeaderBytes, [=, this] {
+        readers_[i].at_writer->set(overdue, events_.now());
+        answer(i, request);
       });
+    if (reader.hello.is_due(overdue, now) && due.empty())
+      downlink_.send(kHeaderBytes, [=, this] { readers_[i].at_writer->set(overdue, events_.now()); });
+    const Time next = std::min(reader.receiver.next_due().value_or(now + 500ms),
+                               reader.receiver.next_overdue(now).value_or(now + 500ms));
+    events_.at(next, [this, i, timer = ++reader.timer] {
+      if (readers_[i].timer == timer) ask(i);
+    });
+  }
+  /// As who tells of warnings.
+  void look() {
+    for (const Reader& reader : readers_) {
+      if (reader.at_reader->behind(events_.now())) behind_at_reader_.push_back(events_.now());
+      if (reader.at_writer->behind(events_.now())) behind_at_writer_.push_back(events_.now());
+    }
   }
   void answer(std::size_t i, const Request& request) {
     const auto& item = items_.at(static_cast<int>(request.number));
@@ -126,6 +152,8 @@ class Transfer {
   std::map<int, std::vector<std::uint8_t>> items_;
   std::map<int, Time> made_;
   std::vector<Reader> readers_;
+  std::vector<Time> behind_at_reader_;
+  std::vector<Time> behind_at_writer_;
 };
 
 struct Case {
@@ -147,6 +175,8 @@ TEST_P(TransferOnLinks, NothingIsMissingAndLittleRepeated) {
     RecordProperty("p95_ms", static_cast<int>(transfer.delay(reader, 0.95) / 1ms));
   }
   EXPECT_LE(transfer.repeated(), 0.10);
+  EXPECT_TRUE(transfer.behind_at_reader().empty());
+  EXPECT_TRUE(transfer.behind_at_writer().empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -173,6 +203,18 @@ TEST(Transfer, SlowLinkCarriesFreshWholeItems) {
   EXPECT_GE(transfer.arrived(0), 18U + 16U);  // 10 s while they are made, 10 s afterwards
   EXPECT_LE(transfer.delay(0, 0.3), 1200ms);
   EXPECT_LE(transfer.repeated(), 0.10);
+}
+
+TEST(Transfer, BothEndsKnowWithinTwoSecondsThatALinkIsFullAndWhenItIsNoMore) {
+  Transfer transfer({.mbit_per_s = 2}, 1);
+  transfer.run(20, 120'000);  // in 4 s, which the link carries in 10
+  ASSERT_EQ(transfer.arrived(0), 20U);
+  for (const auto& behind : {transfer.behind_at_reader(), transfer.behind_at_writer()}) {
+    ASSERT_FALSE(behind.empty());
+    EXPECT_LE(behind.front(), 200ms + 2s) << "the second keyframe is the first that has to wait";
+    EXPECT_GE(behind.back(), 9s);
+    EXPECT_LE(behind.back(), 11s);
+  }
 }
 
 TEST(Transfer, GapIsFilledAfterwards) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/rds/status/service_report.hpp"
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 
 #include "common/service/presence.hpp"
@@ -10,6 +12,7 @@ namespace {
 
 namespace Role = rds_msgs::msg::ServiceStatus_Constants;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Clock = service::Peers::Clock;
@@ -81,12 +84,49 @@ TEST(ServiceReport, NamesAreTakenAsPeopleWriteThem) {
   EXPECT_EQ(service_name("rds-mapper"), "rds-mapper");
 }
 
-TEST(ServiceReport, TableHasOneLinePerServiceWhateverTheTextsHold) {
+TEST(ServiceReport, TableHasOneLinePerServiceAndPerMessageWhateverTheTextsHold) {
   auto odd = peer(2);
   odd.status.message("two\nlines");
   const auto table = as_table(report_on({peer(1), odd}, kMapper, kNow));
-  EXPECT_EQ(std::ranges::count(table, '\n'), 3) << table;
+  EXPECT_EQ(std::ranges::count(table, '\n'), 4) << table;
   EXPECT_THAT(table, HasSubstr("00000000 active"));
+  EXPECT_THAT(table, EndsWith("rds-mapper (00000000): two\\x0Alines\n"));
+}
+
+/// As a service publishes it.
+diagnostic_msgs::msg::DiagnosticArray diagnostics_of(
+    const std::vector<std::pair<std::string, std::string>>& figures) {
+  diagnostic_msgs::msg::DiagnosticArray report;
+  auto& status = report.status().emplace_back();
+  for (const auto& [key, value] : figures) {
+    auto& pair = status.values().emplace_back();
+    pair.key(key);
+    pair.value(value);
+  }
+  return report;
+}
+
+TEST(ServiceReport, TableSaysWhatEachLacksIn120Columns) {
+  TransfersHeard heard;
+  heard.take(diagnostics_of({{"instance", "00000000000000ff"},
+                             {"transfer items lacking", "12"},
+                             {"transfer round trip us", "3456"},
+                             {"transfer link kbit_s", "39700"}}));
+  heard.take(diagnostics_of({{"instance", "0000000000000001"}, {"transfer items lacking", "many"}}));
+  auto report = report_on({peer(1), peer(255)}, kMapper, kNow);
+  for (service::Peer& service : report.services) service.status.machine("server-room-2");
+  report.transfers = heard.figures();
+  std::istringstream table(as_table(report));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(table, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 3U);
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 120U) << line;
+  EXPECT_THAT(lines[0], HasSubstr("lacks rtt [ms] link [Mbit/s] level"));
+  EXPECT_THAT(lines[1], EndsWith("    -        -             - ok"));
+  EXPECT_THAT(lines[2], EndsWith("   12      3.5          39.7 ok"));
+  const auto json = as_json(report);
+  EXPECT_TRUE(json["services"][0]["transfer"].is_null());
+  EXPECT_EQ(json["services"][1]["transfer"]["lacking"], 12);
 }
 
 TEST(ServiceReport, JsonSaysTheSame) {

@@ -14,7 +14,7 @@ struct Node {
   Node(bus::Vendor vendor, const std::string& name)
       : bus(bus::Participant::create(
             {.vendor = vendor, .domain = test::test_domain(), .node_name = name, .loopback_only = true})),
-        context{name, *bus, diagnostics} {}
+        context{"rds-" + name, *bus, diagnostics} {}
 
   /// One of its figures; 0 where there is none of this name.
   [[nodiscard]] std::uint64_t figure(const std::string& name) const {

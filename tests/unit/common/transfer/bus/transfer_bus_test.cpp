@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Server and client over a real bus, in one process that pretends to be two machines.
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <future>
 #include <map>
@@ -12,8 +13,10 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/service/presence.hpp"
 #include "common/transfer/bus/item_client.hpp"
 #include "common/transfer/bus/item_server.hpp"
 #include "tests/unit/common/bus/bus_test_support.hpp"
@@ -23,6 +26,8 @@ namespace rds::transfer {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AllOf;
+using testing::HasSubstr;
 
 constexpr std::uint64_t kRobot = 1;
 constexpr std::uint64_t kServerRoom = 2;
@@ -44,7 +49,8 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
         there_.context, topics::kMapper, kKeyframes, Stream::kKeyframeImages, Order::kNewest,
         ItemClient::Callbacks{
             .item = [this](std::uint64_t epoch, Item item) { take(epoch, std::move(item)); },
-            .where = [this](ItemClient::Where where) { say(where); }},
+            .where = [this](ItemClient::Where where) { say(where); },
+            .has_room = [this] { return has_room_.load(); }},
         host);
   }
   void take(std::uint64_t epoch, Item item) {
@@ -93,6 +99,7 @@ class TransferBus : public testing::TestWithParam<bus::Vendor> {
   std::condition_variable changed_;
   std::map<std::uint64_t, int> arrived_;
   std::optional<std::uint64_t> made_;
+  std::atomic<bool> has_room_ = true;
   ItemClient::Where where_ = ItemClient::Where::kUnknown;
 };
 
@@ -138,7 +145,7 @@ TEST_P(TransferBus, WhatIsNotKeptIsCountedAtBothEnds) {
   const auto warnings = here_.diagnostics.warnings();
   ASSERT_TRUE(warnings.contains("rds/transfer/mapper given up"));
   EXPECT_EQ(warnings.at("rds/transfer/mapper given up"),
-            fmt::format("rds/transfer/mapper: {} items cannot be had any more", lost));
+            fmt::format("rds/transfer/mapper lacks {} items that cannot be had any more", lost));
   EXPECT_EQ(there_.figure("transfer items given up"), lost);
   const auto warnings_there = there_.diagnostics.warnings();
   ASSERT_TRUE(warnings_there.contains("transfer given up"));
@@ -189,6 +196,33 @@ TEST_P(TransferBus, OnTheLoopbackInterfaceNothingIsMade) {
   for (std::uint64_t number = 0; number < 20; ++number) share(server, number);
   std::this_thread::sleep_for(500ms);
   EXPECT_EQ(made_, std::nullopt);
+}
+
+/// What waits for room is a gap as any other.
+TEST_P(TransferBus, AGapIsAWarningAtBothEndsWhileItLasts) {
+  service::Presence tracker(here_.context, {});
+  service::Presence mapper(there_.context, {});
+  tracker.set_active(true);
+  mapper.set_active(true);
+  ItemServer server(here_.context, topics::kTracker, kKeyframes, kRoom, kRobot);
+  const auto client = make_client(kServerRoom);
+  share_each(server, 0, 3);
+  ASSERT_TRUE(all_arrive(0, 3)) << arrived_.size();
+  has_room_ = false;
+  share_each(server, 3, 6);
+  const auto warning_of = [](const Node& node) {
+    const auto warnings = node.diagnostics.warnings();
+    return warnings.empty() ? std::string() : warnings.begin()->second;
+  };
+  const auto both = [&](bool warn) {
+    return bus::eventually(
+        [&] { return warning_of(here_).empty() != warn && warning_of(there_).empty() != warn; });
+  };
+  ASSERT_TRUE(both(true)) << warning_of(here_) << "; " << warning_of(there_);
+  EXPECT_THAT(warning_of(there_), AllOf(HasSubstr(" items of rds-tracker on "), HasSubstr("in time")));
+  EXPECT_THAT(warning_of(here_), AllOf(HasSubstr("rds-mapper on "), HasSubstr(" is behind: ")));
+  has_room_ = true;
+  EXPECT_TRUE(both(false)) << warning_of(here_) << "; " << warning_of(there_);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, TransferBus, testing::ValuesIn(bus::kAllVendors),

@@ -193,7 +193,7 @@ TEST_F(OnZenoh, HostileKeysHurtNobody) {
 
 TEST_F(OnZenoh, HostileTokensAreNoEndpoints) {
   constexpr std::size_t kAtOnce = 2'000;
-  const int count = names();
+  const int count = soaks() ? 5'000 : 1'000;  // each costs more than the one before
   Stranger stranger(key);
   std::deque<detail::ZenohToken> tokens;
   const std::string domain = "@ros2_lv/" + std::to_string(test_domain());

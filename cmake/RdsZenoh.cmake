@@ -23,10 +23,11 @@ elseif(RDS_ZENOH)
   endif()
 endif()
 
-# rds_runs_on_zenoh(TARGET): a test that is run on Zenoh as well, where it is built.
+# rds_runs_on_zenoh(TARGET): a test of all vendors (tests/support/bus/vendors.hpp): on Zenoh as well, where it is built.
 function(rds_runs_on_zenoh target)
+  target_link_libraries(${target} PRIVATE rds_bus)
+  target_compile_definitions(${target} PRIVATE RDS_HAS_ZENOH=$<TARGET_EXISTS:rds_zenoh>)
   if(TARGET rds_zenoh)
-    target_compile_definitions(${target} PRIVATE RDS_HAS_ZENOH)
     add_dependencies(${target} rds_zenoh)
   endif()
 endfunction()

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tests/support/bus/vendors.hpp"
+
 namespace rds::test {
 namespace {
 
@@ -37,19 +39,19 @@ const std::vector<Kind> kKinds{
     {Fault::kFramesMixed, "mixed_frames", {kCamera}},
 };
 
-bus::Vendor vendor_of(std::size_t index) {
-  return index % 2 == 0 ? bus::Vendor::kFastDds : bus::Vendor::kCycloneDds;
-}
-
+/// A fault of a service meets each vendor, and from one service to the next each moment does.
 std::vector<Row> make_table() {
   std::vector<Row> rows;
+  std::size_t first_turn = 0;
   for (const Kind& kind : kKinds)
-    for (const std::string& service : kind.services)
+    for (const std::string& service : kind.services) {
+      std::size_t turn = first_turn++;
       for (const Moment& moment : kMoments) {
-        const std::size_t index = rows.size();
-        const std::string& recording = kRecordings[index / 2 % kRecordings.size()];
-        rows.push_back({index, kind.fault, kind.name, service, moment, recording, vendor_of(index)});
+        const std::string& recording = kRecordings[turn / kAllVendors.size() % kRecordings.size()];
+        rows.push_back(
+            {rows.size(), kind.fault, kind.name, service, moment, recording, vendor_in_turn(turn++)});
       }
+    }
   return rows;
 }
 
@@ -100,7 +102,7 @@ std::vector<Row> undisturbed_rows() {
   std::vector<Row> rows;
   for (const Moment& moment : kMoments)
     for (const std::string& recording : kRecordings)
-      for (const bus::Vendor vendor : {bus::Vendor::kFastDds, bus::Vendor::kCycloneDds})
+      for (const bus::Vendor vendor : kAllVendors)
         rows.push_back({rows.size(), Fault::kNone, "undisturbed", kCamera, moment, recording, vendor});
   return rows;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rds run --hosts` on three machines, as its users start it: one folder of results, as of a run on one machine.
+// `rds run --hosts` on three machines, as its users start it: one folder of results, as of a run on one
+// machine.
 #include <optional>
 #include <set>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "common/bus/participant.hpp"
 #include "tests/hosts/host_network.hpp"
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 
 namespace rds::test {
@@ -41,8 +43,8 @@ class HostsRun : public testing::TestWithParam<bus::Vendor> {
     network_.emplace(std::vector<std::string>{"A", "B", "C"}, Link{});
     write_text(hosts_, "domain: 3\nmachines:\n  robot: {address: " + network_->address("A") +
                            ", services: [tracker]}\n  desk: {address: " + network_->address("B") +
-                           ", services: [detector, transformer]}\n  nas: {address: " + network_->address("C") +
-                           ", services: [mapper, loop_closer]}\n");
+                           ", services: [detector, transformer]}\n  nas: {address: " +
+                           network_->address("C") + ", services: [mapper, loop_closer]}\n");
   }
 
   /// On a host, as this machine of the file.
@@ -54,8 +56,8 @@ class HostsRun : public testing::TestWithParam<bus::Vendor> {
     return network_->on(host, command);
   }
   std::vector<std::string> with_camera(const fs::path& out, const std::string& rate) const {
-    return on("A", "robot", {"--dataset", recording_.string(), "--out", out.string(), "--frames", kFrames,
-                             "--rate", rate});
+    return on("A", "robot",
+              {"--dataset", recording_.string(), "--out", out.string(), "--frames", kFrames, "--rate", rate});
   }
 
   void run_on_three(const fs::path& out, const std::string& rate);
@@ -83,7 +85,8 @@ TEST_P(HostsRun, LeavesOneFolderWithTheFilesOfOneMachine) {
   const fs::path one = folder_ / "one";
   const fs::path three = folder_ / "three";
   ASSERT_EQ(
-      run(recording_, one, {"--frames", kFrames, "--rate", "max", "--bus", bus::name_of(GetParam())}, kLimit).status,
+      run(recording_, one, {"--frames", kFrames, "--rate", "max", "--bus", bus::name_of(GetParam())}, kLimit)
+          .status,
       0);
   ASSERT_NO_FATAL_FAILURE(run_on_three(three, "1.0"));
   EXPECT_EQ(files_of(three), files_of(one));
@@ -97,8 +100,8 @@ TEST_P(HostsRun, LeavesOneFolderWithTheFilesOfOneMachine) {
 
 TEST_P(HostsRun, GivesTheSameBytesEveryTimeAtRateMax) {
   for (const char* out : {"first", "second"}) ASSERT_NO_FATAL_FAILURE(run_on_three(folder_ / out, "max"));
-  for (const char* file : {"trajectory.txt", "trajectory_optimized.txt", "predictions.jsonl", "detections.jsonl",
-                           "objects.json", "map.ot"})
+  for (const char* file : {"trajectory.txt", "trajectory_optimized.txt", "predictions.jsonl",
+                           "detections.jsonl", "objects.json", "map.ot"})
     EXPECT_TRUE(read_text(folder_ / "first" / file) == read_text(folder_ / "second" / file)) << file;
 }
 
@@ -128,8 +131,7 @@ TEST_P(HostsRun, EndsOnEveryMachineWhenItIsInterrupted) {
   EXPECT_THAT(nas.standard_error(), HasSubstr("the run has failed where the camera is"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, HostsRun, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& vendor) { return bus::name_of(vendor.param); });
+INSTANTIATE_TEST_SUITE_P(Each, HostsRun, testing::ValuesIn(kAllVendors), vendor_name);
 
 }  // namespace
 }  // namespace rds::test

@@ -7,14 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/bus/vendors.hpp"
+
 namespace rds::test {
 namespace {
 
-#ifdef RDS_HAS_ZENOH
-constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds, bus::Vendor::kZenoh};
-#else
-constexpr std::array kVendors{bus::Vendor::kFastDds, bus::Vendor::kCycloneDds};
-#endif
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kLongS = 55;           // 5 before an absence of 20, 30 after it
 constexpr double kLongestS = 95;        // and of 60
@@ -102,7 +99,7 @@ void PrintTo(const Row& row, std::ostream* out) {
 
 std::vector<Row> one_machine_rows() {
   std::vector<Row> rows;
-  for (const bus::Vendor vendor : kVendors)
+  for (const bus::Vendor vendor : kAllVendors)
     for (const double length_s : {0.0, kLongS, kLateS, kLongestS})
       rows.push_back(on_one_machine({.vendor = vendor, .length_s = length_s}));
   return rows;
@@ -112,16 +109,16 @@ std::vector<Row> short_rows() {
   std::vector<Row> rows;
   std::size_t next = 0;
   for (const Row& row : kinds()) {
-    if (!is_short(row) || std::ranges::none_of(kVendors, [&](auto vendor) { return fits(row, vendor); }))
+    if (!is_short(row) || std::ranges::none_of(kAllVendors, [&](auto vendor) { return fits(row, vendor); }))
       continue;
-    while (!fits(row, kVendors[next % kVendors.size()])) ++next;
-    rows.push_back(of(row, kVendors[next++ % kVendors.size()]));
+    while (!fits(row, vendor_in_turn(next))) ++next;
+    rows.push_back(of(row, vendor_in_turn(next++)));
   }
   return rows;
 }
 
 CoreRows core_rows(bus::Vendor vendor) {
-  return {{.name = "cores_split", .vendor = vendor, .cores = Cores::kOfEachHost},
+  return {of({.name = "cores_split", .cores = Cores::kOfEachHost}, vendor),
           {.name = "cores_beside", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOfEachHost},
           {.name = "cores_shared", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOne},
           {.name = "cores_alone", .vendor = vendor, .on_one_machine = true, .cores = Cores::kOneForTracker}};
@@ -129,7 +126,7 @@ CoreRows core_rows(bus::Vendor vendor) {
 
 std::vector<Row> all_rows() {
   std::vector<Row> rows;
-  for (const bus::Vendor vendor : kVendors)
+  for (const bus::Vendor vendor : kAllVendors)
     for (const Row& row : kinds())
       if (fits(row, vendor)) rows.push_back(of(row, vendor));
   return rows;

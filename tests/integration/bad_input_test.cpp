@@ -84,6 +84,8 @@ TEST_F(BadInput, FirstPictureCutShort) {
 TEST_F(BadInput, UnknownOptionAndValue) {
   expect_refused({"--speed"}, {"--speed", "3"});
   expect_refused({"--bus"}, {"--bus", "zeromq"});
+  expect_refused({"--bus: expected zenoh for all processes or for none, it does not meet DDS"},
+                 {"--bus", "tracker=zenoh"});
 }
 
 TEST_F(BadInput, ConfigurationWithAllItsFaultsAtOnce) {

@@ -8,6 +8,7 @@
 #include "common/bus/participant.hpp"
 #include "common/commander/commander.hpp"
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/rds/topology/topology.hpp"
 
@@ -41,8 +42,8 @@ class MapCommands : public ::testing::TestWithParam<std::string> {
   void SetUp() override {
     for (const std::string& service : kServices)
       processes[service] = std::make_unique<Process>(
-          std::vector<std::string>{(fs::path(rds()).parent_path() / service).string(), "--bus", GetParam(), "--domain",
-                                   std::to_string(kDomain), "--loopback"},
+          std::vector<std::string>{(fs::path(rds()).parent_path() / service).string(), "--bus", GetParam(),
+                                   "--domain", std::to_string(kDomain), "--loopback"},
           Process::Environment{{"RDS_MAPS_DIR", maps.path().string()}});
     const auto all_answer = [&] { return commander.ask_status(3, {}, 500ms).size() == 3; };
     for (int i = 0; i < 60 && !all_answer(); ++i) {
@@ -51,19 +52,24 @@ class MapCommands : public ::testing::TestWithParam<std::string> {
   }
   commander::CommandReply ask(const std::string& service, const std::string& verb,
                               const std::string& argument) {
-    return commander.ask(service, verb, argument, {}, 10s).value_or(commander::CommandReply{false, "no answer"});
+    return commander.ask(service, verb, argument, {}, 10s)
+        .value_or(commander::CommandReply{false, "no answer"});
   }
   void expect_refused(const std::string& service, const std::string& verb, const std::string& argument) {
     const auto reply = ask(service, verb, argument);
     EXPECT_FALSE(reply.success) << service << " " << verb << " " << argument;
     EXPECT_NE(reply.message, "no answer") << service << " " << verb << " " << argument;
-    EXPECT_LT(memory_of(processes[service]->pid()), kMaxKilobytes) << service << " " << verb << " " << argument;
+    EXPECT_LT(memory_of(processes[service]->pid()), kMaxKilobytes)
+        << service << " " << verb << " " << argument;
   }
 
   TemporaryFolder maps;
   TemporaryFolder outside;
-  std::unique_ptr<bus::Participant> bus = bus::Participant::create(
-      {.vendor = bus::vendor_from_name(GetParam()), .domain = kDomain, .node_name = "commander", .loopback_only = true});
+  std::unique_ptr<bus::Participant> bus =
+      bus::Participant::create({.vendor = bus::vendor_from_name(GetParam()),
+                                .domain = kDomain,
+                                .node_name = "commander",
+                                .loopback_only = true});
   commander::Commander commander{*bus};
   std::map<std::string, std::unique_ptr<Process>> processes;
 };
@@ -78,11 +84,13 @@ TEST_P(MapCommands, ThatNameDevicesPipesLinksAndPathsAreRefusedAndTheServicesGoO
   fs::create_symlink(outside.path(), maps / "link");
   fs::create_directories(maps / "closed" / "map.rds");
   for (const std::string& service : kServices) {
-    for (const std::string& name : std::vector<std::string>{"/dev/zero", (outside / "pipe").string(), "pipe", "zero",
-                                                            "link", "closed", "none", "..", "", std::string(5000, 'x')})
+    for (const std::string& name :
+         std::vector<std::string>{"/dev/zero", (outside / "pipe").string(), "pipe", "zero", "link", "closed",
+                                  "none", "..", "", std::string(5000, 'x')})
       expect_refused(service, "load", name);
-    for (const std::string& name : std::vector<std::string>{outside.path().string(), "link", "../x", "", "{}",
-                                                            R"({"name": "x", "id": "../y", "parts": ["mapper"]})"})
+    for (const std::string& name :
+         std::vector<std::string>{outside.path().string(), "link", "../x", "", "{}",
+                                  R"({"name": "x", "id": "../y", "parts": ["mapper"]})"})
       expect_refused(service, "save", name);
     EXPECT_TRUE(fs::exists(outside / "pipe"));
   }
@@ -96,7 +104,8 @@ TEST_P(MapCommands, ThatNameDevicesPipesLinksAndPathsAreRefusedAndTheServicesGoO
 }
 
 TEST_P(MapCommands, PartsOfASaveArePublishedTogether) {
-  const std::string order = R"({"name": "kitchen", "id": "one", "parts": ["tracker", "mapper", "loop_closer"]})";
+  const std::string order =
+      R"({"name": "kitchen", "id": "one", "parts": ["tracker", "mapper", "loop_closer"]})";
   for (const std::string& service : {run::kTracker, run::kMapper}) {
     const auto reply = ask(service, "save", order);
     ASSERT_TRUE(reply.success) << reply.message;
@@ -119,16 +128,18 @@ TEST_P(MapCommands, OfTheCommandLineNameMaps) {
     words.insert(words.begin(), {rds(), "map"});
     return run_process(words, 60s, {{"RDS_MAPS_DIR", maps.path().string()}});
   };
-  const std::vector<std::string> on_the_bus{"--bus", GetParam(), "--domain", std::to_string(kDomain), "--loopback"};
+  const std::vector<std::string> on_the_bus{"--bus", GetParam(), "--domain", std::to_string(kDomain),
+                                            "--loopback"};
   const auto with_bus = [&](std::vector<std::string> words) {
     words.insert(words.end(), on_the_bus.begin(), on_the_bus.end());
     return command(words);
   };
   const auto saved = with_bus({"save", "kitchen"});
   ASSERT_EQ(saved.status, 0) << saved.standard_error;
-  EXPECT_THAT(saved.standard_output,
-              AllOf(HasSubstr("rds-mapper: map of"), HasSubstr("saved as kitchen in " + (maps / "kitchen").string())));
-  EXPECT_THAT(command({"list"}).standard_output, AllOf(HasSubstr("kitchen"), HasSubstr("tracker, mapper, loop_closer")));
+  EXPECT_THAT(saved.standard_output, AllOf(HasSubstr("rds-mapper: map of"),
+                                           HasSubstr("saved as kitchen in " + (maps / "kitchen").string())));
+  EXPECT_THAT(command({"list"}).standard_output,
+              AllOf(HasSubstr("kitchen"), HasSubstr("tracker, mapper, loop_closer")));
   EXPECT_EQ(with_bus({"load", "kitchen"}).status, 0);
   EXPECT_EQ(with_bus({"load", "none"}).status, 1);
   EXPECT_EQ(with_bus({"save", (outside / "map.rds").string()}).status, 0);
@@ -136,8 +147,7 @@ TEST_P(MapCommands, OfTheCommandLineNameMaps) {
   EXPECT_THAT(command({"list"}).standard_output, testing::Not(HasSubstr("for-rds-map-save")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, MapCommands, ::testing::Values("fastdds", "cyclonedds"),
-                         [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(Vendors, MapCommands, ::testing::ValuesIn(all_vendor_names()), given_name);
 
 }  // namespace
 }  // namespace rds::test

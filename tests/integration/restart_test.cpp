@@ -18,6 +18,7 @@
 #include "rds_msgs/msg/MapInfo.h"
 #include "rds_msgs/msg/TrackingState.h"
 #include "tests/integration/fleet.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 
 namespace rds::test {
@@ -145,10 +146,10 @@ void start_and_go_on(Fleet& fleet, Watch& watch, const Watch::Seen& before, cons
 }
 
 int kills() {
-  return std::getenv("RDS_SOAK") != nullptr ? 20 : 3;
+  return std::getenv("RDS_SOAK") != nullptr ? 20 : 2;
 }
 
-class Restart : public ::testing::TestWithParam<const char*> {};
+class Restart : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Restart, AllFiveGoOnInTheSameMap) {
   const TestRecording room = recording_of_a_room();
@@ -170,7 +171,7 @@ TEST_P(Restart, AllFiveGoOnInTheSameMap) {
   ASSERT_TRUE(player.running()) << player.standard_error();
 }
 
-INSTANTIATE_TEST_SUITE_P(OnBoth, Restart, ::testing::Values("fastdds", "cyclonedds"));
+INSTANTIATE_TEST_SUITE_P(Vendors, Restart, ::testing::ValuesIn(all_vendor_names()), given_name);
 
 }  // namespace
 }  // namespace rds::test

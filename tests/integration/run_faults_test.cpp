@@ -8,6 +8,7 @@
 #include "common/bus/participant.hpp"
 #include "common/commander/commander.hpp"
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -85,8 +86,8 @@ TEST(PausedServices, DoNotHoldALockstepRunUp) {
 
 TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
   const TemporaryFolder place;
-  Process process({rds(), "run", "--dataset", recording_of_a_room().folder.string(), "--out",
-                   (place / "out").string()});
+  Process process(
+      {rds(), "run", "--dataset", recording_of_a_room().folder.string(), "--out", (place / "out").string()});
   ASSERT_TRUE(process.wait_for_output("frame", 60s));
   std::vector<pid_t> services;
   for (const std::string& name : kServices)
@@ -101,7 +102,7 @@ TEST(StoppedRun, EndsWithinThreeSecondsAndLeavesNothing) {
 class LoneService : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(LoneService, StartsWithoutTheOthersAndStopsWhenAsked) {
-  for (const char* bus : {"fastdds", "cyclonedds"}) {
+  for (const std::string& bus : all_vendor_names()) {
     Process process(
         {std::string(RDS_BIN_DIR) + "/" + GetParam(), "--bus", bus, "--domain", "25", "--loopback"});
     ASSERT_TRUE(process.wait_for_output("version", 20s)) << bus << process.standard_error();

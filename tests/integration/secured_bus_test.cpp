@@ -10,6 +10,7 @@
 #include "common/geometry/trajectory.hpp"
 #include "services/mapper/reader/map_follower.hpp"
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -43,7 +44,8 @@ class SecuredBus : public ::testing::TestWithParam<std::string> {
   void SetUp() override {
     make_small_dataset(place_ / "data", 30);
     write_text(place_ / "detections.jsonl", "");
-    write_text(place_ / "rds-detector.yaml", "detections_file: " + (place_ / "detections.jsonl").string() + "\n");
+    write_text(place_ / "rds-detector.yaml",
+               "detections_file: " + (place_ / "detections.jsonl").string() + "\n");
     write_text(place_ / "poses.txt", standing_poses());
     write_text(place_ / "rds-tracker.yaml", "poses_file: " + (place_ / "poses.txt").string() + "\n");
     secured_ = make_secured(place_ / "secured");
@@ -63,7 +65,8 @@ class SecuredBus : public ::testing::TestWithParam<std::string> {
   /// The five services and a player of recordings.
   /// @param secure  {"--secure", FOLDER}, or nothing.
   void start(const std::vector<std::string>& secure) {
-    for (const char* name : {"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper", "rds-loop-closer"}) {
+    for (const char* name :
+         {"rds-tracker", "rds-detector", "rds-transformer", "rds-mapper", "rds-loop-closer"}) {
       std::vector<std::string> line{std::string(RDS_BIN_DIR) + "/" + name};
       const std::filesystem::path config = place_ / (std::string(name) + ".yaml");
       if (exists(config)) line = line + std::vector<std::string>{"--config", config};
@@ -71,26 +74,26 @@ class SecuredBus : public ::testing::TestWithParam<std::string> {
     }
     for (const auto& service : services_)
       ASSERT_TRUE(service->wait_for_output("version", 20s)) << service->standard_error();
-    player_ = std::make_unique<Process>(
-        std::vector<std::string>{rds(), "play", place_ / "data", "--loop"} + on_the_bus() + secure);
+    player_ = std::make_unique<Process>(std::vector<std::string>{rds(), "play", place_ / "data", "--loop"} +
+                                        on_the_bus() + secure);
   }
 
   /// What somebody hears who tries to give the tracker this command all the time, until he has heard all that
   /// he may or for so many seconds.
   json report(const std::string& verb, const std::vector<std::string>& credentials, int seconds) {
-    const ProcessResult peer =
-        run_process(std::vector<std::string>{RDS_BIN_DIR "/secured_peer", GetParam(), kDomain,
-                                             std::to_string(seconds), verb} +
-                        credentials,
-                    60s);
+    const ProcessResult peer = run_process(std::vector<std::string>{RDS_BIN_DIR "/secured_peer", GetParam(),
+                                                                    kDomain, std::to_string(seconds), verb} +
+                                               credentials,
+                                           60s);
     EXPECT_EQ(peer.status, 0) << peer.standard_error;
     return json::parse(peer.standard_output);
   }
 
   ProcessResult echo(const std::string& topic, const std::vector<std::string>& secure) {
-    return run_process(std::vector<std::string>{rds(), "topic", "echo", topic, "--count", "1", "--timeout", "5"} +
-                           on_the_bus() + secure,
-                       60s);
+    return run_process(
+        std::vector<std::string>{rds(), "topic", "echo", topic, "--count", "1", "--timeout", "5"} +
+            on_the_bus() + secure,
+        60s);
   }
 
   /// The tracker answers, and tracks nothing.
@@ -136,12 +139,12 @@ TEST_P(SecuredBus, AStrangerHearsNothingAndChangesNothing) {
 
 TEST_P(SecuredBus, AReaderOnAnotherMachineAsksForTheMap) {
   start({"--secure", secured_});
-  const auto bus = bus::Participant::create(
-      {.vendor = bus::vendor_from_name(GetParam()),
-       .domain = std::stoi(kDomain),
-       .node_name = "reader",
-       .loopback_only = true,
-       .credentials = bus::read_credentials(secured_, "reader").value()});
+  const auto bus =
+      bus::Participant::create({.vendor = bus::vendor_from_name(GetParam()),
+                                .domain = std::stoi(kDomain),
+                                .node_name = "reader",
+                                .loopback_only = true,
+                                .credentials = bus::read_credentials(secured_, "reader").value()});
   service::Diagnostics diagnostics;
   service::ServiceContext context{"reader", *bus, diagnostics};
   constexpr std::uint64_t kElsewhere = 1;
@@ -156,12 +159,14 @@ TEST_P(SecuredBus, AReaderOnAnotherMachineAsksForTheMap) {
 TEST_P(SecuredBus, AReaderReadsTheMapAndDoesNotCommand) {
   start({"--secure", secured_});
   const json heard = report("pause", {secured_, "reader"}, kEnough);
-  EXPECT_THAT(heard["refused"], UnorderedElementsAre("camera/color/image_raw", "rds/command_result", "rds/command"));
+  EXPECT_THAT(heard["refused"],
+              UnorderedElementsAre("camera/color/image_raw", "rds/command_result", "rds/command"));
   EXPECT_GT(heard["samples"]["rds/map/full"], 0);
   EXPECT_GT(heard["samples"]["rds/tracking_state"], 0);
   const ProcessResult echoed = echo("rds/map/full", {"--secure", secured_, "--identity", "reader"});
   EXPECT_EQ(echoed.status, 0) << echoed.standard_error;
-  const ProcessResult refused = echo("camera/color/image_raw", {"--secure", secured_, "--identity", "reader"});
+  const ProcessResult refused =
+      echo("camera/color/image_raw", {"--secure", secured_, "--identity", "reader"});
   EXPECT_EQ(refused.status, 2) << refused.standard_output;
   EXPECT_THAT(refused.standard_error, HasSubstr("the permissions of 'reader' must allow"));
 }
@@ -186,10 +191,10 @@ TEST_P(SecuredDds, AForeignClientHearsNothing) {
   if (run_process({interpreter, "-c", "import cyclonedds.idl"}, 20s).status != 0)
     GTEST_SKIP() << "no Python package cyclonedds (set RDS_PYTHON)";
   start({"--secure", secured_});
-  const ProcessResult client =
-      run_process({interpreter, "-B", RDS_SOURCE_DIR "/tests/integration/bus/external_client.py", "--domain", kDomain,
-                   "--seconds", "6", "--loopback", "--topic", "rds/odometry", "--topic", "rds/map/full"},
-                  60s);
+  const ProcessResult client = run_process(
+      {interpreter, "-B", RDS_SOURCE_DIR "/tests/integration/bus/external_client.py", "--domain", kDomain,
+       "--seconds", "6", "--loopback", "--topic", "rds/odometry", "--topic", "rds/map/full"},
+      60s);
   EXPECT_EQ(client.status, 1) << client.standard_output << client.standard_error;
   const json counts = json::parse(client.standard_output)["counts"];
   EXPECT_EQ(counts["rds/odometry"], 0);
@@ -216,17 +221,12 @@ TEST_P(SecuredBus, ARunGivesTheSameBytesAsOnAnOpenBus) {
     ASSERT_EQ(done.status, 0) << done.standard_error;
     EXPECT_THAT(read_text(place_ / out / "log/rds-tracker.log"), Not(HasSubstr("has come on")));
   }
-  for (const char* file : {"trajectory.txt", "detections.jsonl", "predictions.jsonl", "objects.json", "map.ot"})
+  for (const char* file :
+       {"trajectory.txt", "detections.jsonl", "predictions.jsonl", "objects.json", "map.ot"})
     EXPECT_TRUE(read_text(place_ / "open" / file) == read_text(place_ / "secured_run" / file)) << file;
 }
 
-#ifdef RDS_HAS_ZENOH
-#define RDS_SECURED_VENDORS "fastdds", "cyclonedds", "zenoh"
-#else
-#define RDS_SECURED_VENDORS "fastdds", "cyclonedds"
-#endif
-INSTANTIATE_TEST_SUITE_P(On, SecuredBus, ::testing::Values(RDS_SECURED_VENDORS),
-                         [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(On, SecuredBus, ::testing::ValuesIn(all_vendor_names()), given_name);
 INSTANTIATE_TEST_SUITE_P(On, SecuredDds, ::testing::Values("fastdds", "cyclonedds"),
                          [](const auto& each) { return each.param; });
 
@@ -250,7 +250,8 @@ class BadCredentials : public ::testing::Test {
 };
 
 TEST_F(BadCredentials, OfAServiceAreOneSentence) {
-  write_text(place_ / "secured/tracker/permissions.p7s", read_text(place_ / "secured/mapper/permissions.p7s"));
+  write_text(place_ / "secured/tracker/permissions.p7s",
+             read_text(place_ / "secured/mapper/permissions.p7s"));
   expect_refused(tracker(), "tracker/permissions.p7s: are of 'CN=mapper,O=RDS-SLAM'");
   write_text(place_ / "secured/tracker/cert.pem", "-----BEGIN");
   expect_refused(tracker(), "tracker/cert.pem: is damaged");
@@ -281,8 +282,9 @@ TEST_F(BadCredentials, AnExistingFolderIsLeftAlone) {
 
 TEST_F(BadCredentials, TheTwoHighestDomainsCannotBeSecured) {
   for (const char* vendor : {"fastdds", "cyclonedds"})
-    expect_refused({RDS_BIN_DIR "/rds-tracker", "--bus", vendor, "--domain", "231", "--loopback", "--secure", secured_},
-                   "DDS domain 231, expected 0 to 230 for a secured one");
+    expect_refused(
+        {RDS_BIN_DIR "/rds-tracker", "--bus", vendor, "--domain", "231", "--loopback", "--secure", secured_},
+        "DDS domain 231, expected 0 to 230 for a secured one");
 }
 
 }  // namespace

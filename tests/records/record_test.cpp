@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/small_dataset.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test_domain.hpp"
@@ -28,7 +29,7 @@ std::int64_t now_ns() {
       .count();
 }
 
-class Record : public testing::TestWithParam<const char*> {
+class Record : public testing::TestWithParam<std::string> {
  protected:
   Record() {
     make_small_dataset(place_ / "data", 30);
@@ -70,8 +71,7 @@ class Record : public testing::TestWithParam<const char*> {
   TemporaryFolder place_;
   std::unique_ptr<Process> player_;
 };
-INSTANTIATE_TEST_SUITE_P(Vendors, Record, testing::Values("fastdds", "cyclonedds"),
-                         [](const auto& instance) { return instance.param; });
+INSTANTIATE_TEST_SUITE_P(Vendors, Record, testing::ValuesIn(all_vendor_names()), given_name);
 
 TEST_P(Record, NothingOfACameraIsLost) {
   const auto result = run_process(recorder({"--camera", "--seconds", "4"}), 30s);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/integration/run_support.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/recording/bag/bag.hpp"
@@ -31,18 +32,17 @@ std::map<std::string, int> counted(const fs::path& file) {
   return counts;
 }
 
-class RunRecord : public testing::TestWithParam<const char*> {
+class RunRecord : public testing::TestWithParam<std::string> {
  protected:
   [[nodiscard]] ProcessResult run_with(const std::string& record) const {
-    return run(recording_of_a_room().folder, place_ / "out",
-               {"--rate", "max", "--no-dynamics", "--frames", std::to_string(kFrames), "--bus", GetParam(),
-                record},
-               std::chrono::seconds(120));
+    return run(
+        recording_of_a_room().folder, place_ / "out",
+        {"--rate", "max", "--no-dynamics", "--frames", std::to_string(kFrames), "--bus", GetParam(), record},
+        std::chrono::seconds(120));
   }
   TemporaryFolder place_;
 };
-INSTANTIATE_TEST_SUITE_P(Vendors, RunRecord, testing::Values("fastdds", "cyclonedds"),
-                         [](const auto& instance) { return instance.param; });
+INSTANTIATE_TEST_SUITE_P(Vendors, RunRecord, testing::ValuesIn(all_vendor_names()), given_name);
 
 TEST_P(RunRecord, KeepsAllOutputsBesideTheResults) {
   const auto result = run_with("--record");

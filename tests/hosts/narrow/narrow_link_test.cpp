@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/hosts/host_network.hpp"
+#include "tests/support/bus/vendors.hpp"
 
 namespace rds::test {
 namespace {
@@ -56,13 +57,7 @@ TEST_P(NarrowLink, ThatLosesFramesCarriesPicturesAsWell) {
   EXPECT_GE(line["small"], kSmall * 98 / 100);
 }
 
-#ifdef RDS_HAS_ZENOH
-#define RDS_NARROW_VENDORS "fastdds", "cyclonedds", "zenoh"
-#else
-#define RDS_NARROW_VENDORS "fastdds", "cyclonedds"
-#endif
-INSTANTIATE_TEST_SUITE_P(On, NarrowLink, ::testing::Values(RDS_NARROW_VENDORS),
-                         [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(On, NarrowLink, ::testing::ValuesIn(all_vendor_names()), given_name);
 
 }  // namespace
 }  // namespace rds::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program of ROS 2 asks of our nodes by services, on both vendors, each in the form of its own rmw.
+// What a program of ROS 2 asks of our nodes by services, on each bus, each in the form of its own rmw.
 #include <array>
 
 #include <gmock/gmock.h>
@@ -31,6 +31,7 @@
 #include "std_srvs/srv/Trigger_Response.h"
 #include "tests/integration/run_support.hpp"
 #include "tests/support/service_client.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace rds::test {
@@ -293,19 +294,9 @@ TEST_P(ManagedNode, IsBroughtUpByAManagerWithABond) {
   EXPECT_FALSE(end->active());
 }
 
-constexpr std::array kVendors{
-    bus::Vendor::kFastDds,
-    bus::Vendor::kCycloneDds,
-#ifdef RDS_HAS_ZENOH
-    bus::Vendor::kZenoh,
-#endif
-};
-INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices, ::testing::ValuesIn(kVendors),
-                         [](const auto& tested) { return name_of(tested.param); });
-INSTANTIATE_TEST_SUITE_P(Vendors, NodesWithAMap, ::testing::ValuesIn(kVendors),
-                         [](const auto& tested) { return name_of(tested.param); });
-INSTANTIATE_TEST_SUITE_P(Vendors, ManagedNode, ::testing::ValuesIn(kVendors),
-                         [](const auto& tested) { return name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Vendors, NodeServices, ::testing::ValuesIn(kAllVendors), vendor_name);
+INSTANTIATE_TEST_SUITE_P(Vendors, NodesWithAMap, ::testing::ValuesIn(kAllVendors), vendor_name);
+INSTANTIATE_TEST_SUITE_P(Vendors, ManagedNode, ::testing::ValuesIn(kAllVendors), vendor_name);
 
 }  // namespace
 }  // namespace rds::test

@@ -14,6 +14,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/messages/image_conversions.hpp"
 #include "rds_msgs/msg/KeyFrameImages.h"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tools/evaluation/trajectory_evaluation.hpp"
 
@@ -35,8 +36,7 @@ class Driver : public ::testing::TestWithParam<bus::Vendor> {
   /// asserted).
   void expect_warning(const std::string& name, const DriverHabits& habits,
                       const std::vector<std::string>& words) {
-    const bool has_this_turn = warnings_++ % 2 == (GetParam() == bus::Vendor::kFastDds ? 0 : 1);
-    if (!has_this_turn) return;  // each with one vendor
+    if (vendor_in_turn(warnings_++) != GetParam()) return;
     SCOPED_TRACE(name);
     TrackerWithDriver driver(GetParam(), kDomain, habits);
     const auto started = std::chrono::steady_clock::now();
@@ -56,7 +56,7 @@ class Driver : public ::testing::TestWithParam<bus::Vendor> {
   }
 
  private:
-  int warnings_ = 0;
+  std::size_t warnings_ = 0;
 };
 
 TEST_P(Driver, WithSensorDataQosIsReadWithoutASetting) {
@@ -90,8 +90,7 @@ TEST_P(Driver, ThatIsSilentlyWrongGetsASentence) {
                  {"no tf joins them, so depth is not registered to colour", "tf_static", "align_depth"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Driver, ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& vendor) { return name_of(vendor.param); });
+INSTANTIATE_TEST_SUITE_P(Of, Driver, ::testing::ValuesIn(kAllVendors), vendor_name);
 
 /// How two depth pictures agree where both measure.
 struct Agreement {

@@ -6,6 +6,7 @@
 #include "common/messages/conversions.hpp"
 #include "tests/integration/camera/camera_driver.hpp"
 #include "tests/integration/camera/told_diagnostics.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/test_domain.hpp"
 
 namespace rds::test {
@@ -72,8 +73,7 @@ TEST_P(OdometryByTf, IsReadFromTheFrameThatIsNamed) {
   EXPECT_THAT(driver_.log(), Not(HasSubstr("no odometry of the pictures' time")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, OdometryByTf, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& vendor) { return name_of(vendor.param); });
+INSTANTIATE_TEST_SUITE_P(Of, OdometryByTf, testing::ValuesIn(kAllVendors), vendor_name);
 
 }  // namespace
 }  // namespace rds::test

@@ -14,6 +14,7 @@
 #include "nav_msgs/msg/Odometry.h"
 #include "nav_msgs/msg/Path.h"
 #include "tests/integration/camera/camera_driver.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/shared_data.hpp"
 #include "tf2_msgs/msg/TFMessage.h"
 
@@ -146,8 +147,8 @@ TEST_P(Frames, OfACameraThatMovesOnItsRobotLeaveTheBaseInItsPlace) {
   for (std::int64_t i = 0, ns = frames[0].stamp_ns - kMastNs; i < std::ssize(frames); ++i) {
     const auto& frame = frames[static_cast<std::size_t>(i)];
     for (; ns < frame.stamp_ns; ns += kMastNs)
-      wheels_.write(tree_of(transform("base_link", "camera_link",
-                                      base_from_camera(ns) * link_from_optical().inverse(), ns)));
+      wheels_.write(tree_of(
+          transform("base_link", "camera_link", base_from_camera(ns) * link_from_optical().inverse(), ns)));
     std::this_thread::sleep_for(i == 0 ? 500ms : 10ms);  // as long as a camera takes; the tracker has read it
     driver_->track(static_cast<std::size_t>(i));
     const Pose moved = base_from_camera(frame.stamp_ns) * base_from_camera(frames[0].stamp_ns).inverse();
@@ -217,8 +218,7 @@ TEST_P(Frames, APathOfKeyframesIsThereForWhoComesLate) {
       << "the map begins there";
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Frames, ::testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& vendor) { return name_of(vendor.param); });
+INSTANTIATE_TEST_SUITE_P(Of, Frames, ::testing::ValuesIn(kAllVendors), vendor_name);
 
 INSTANTIATE_TEST_SUITE_P(Of, FramesBesideFastDds, ::testing::Values(bus::Vendor::kFastDds));
 

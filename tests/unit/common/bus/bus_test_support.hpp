@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "common/bus/participant.hpp"
+#include "tests/support/bus/vendors.hpp"
 #include "tests/support/test_domain.hpp"
 
 namespace rds::bus {
 
+using test::kAllVendors;
 using test::test_domain;
 
 inline std::unique_ptr<Participant> join(Vendor vendor, const std::string& node_name,
@@ -66,16 +68,8 @@ inline std::string name_of(const VendorPair& pair) {
 inline const VendorPair kAllPairs[] = {
     {Vendor::kFastDds, Vendor::kFastDds},    {Vendor::kFastDds, Vendor::kCycloneDds},
     {Vendor::kCycloneDds, Vendor::kFastDds}, {Vendor::kCycloneDds, Vendor::kCycloneDds},
-#ifdef RDS_HAS_ZENOH
+#if RDS_HAS_ZENOH
     {Vendor::kZenoh, Vendor::kZenoh},
-#endif
-};
-
-inline const Vendor kAllVendors[] = {
-    Vendor::kFastDds,
-    Vendor::kCycloneDds,
-#ifdef RDS_HAS_ZENOH
-    Vendor::kZenoh,
 #endif
 };
 

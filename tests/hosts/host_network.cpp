@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hosts/host_network.hpp"
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,6 +12,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace rds::test {
@@ -72,7 +77,8 @@ HostNetwork::HostNetwork(const std::vector<std::string>& hosts, const Link& link
     : multicast_(multicast) {
   holders_[kSwitch] = hold_namespace();
   run(kSwitch,
-      "sysctl -qw net.ipv6.conf.default.disable_ipv6=1; ip link add name bridge0 type bridge mcast_snooping 0; "
+      "sysctl -qw net.ipv6.conf.default.disable_ipv6=1; ip link add name bridge0 type bridge mcast_snooping "
+      "0; "
       "ip link set bridge0 up");
   for (const std::string& host : hosts) add_host(host);
   limit_rate(hosts.front(), link.rate_mbit);
@@ -137,8 +143,9 @@ void HostNetwork::plug(const std::string& host) {
 }
 
 void HostNetwork::hide(const std::string& host) {
-  run(kSwitch, fmt::format("tc qdisc add dev to{0} clsact; tc filter add dev to{0} egress bpf da bytecode '{1}'", host,
-                           kNoDialling));
+  run(kSwitch,
+      fmt::format("tc qdisc add dev to{0} clsact; tc filter add dev to{0} egress bpf da bytecode '{1}'", host,
+                  kNoDialling));
 }
 
 std::string HostNetwork::address(const std::string& host) const {
@@ -158,6 +165,28 @@ OnHost::OnHost(const HostNetwork& network, const std::string& host)
 OnHost::~OnHost() {
   (void)setns(before_, CLONE_NEWNET);
   close(before_);
+}
+
+void in_own_process(const std::function<void()>& work) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork: no process for a trial");
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    int status = 0;
+    try {
+      work();
+    } catch (const std::exception& e) {
+      fmt::print("{}\n", e.what());
+      status = 1;
+    }
+    std::fflush(nullptr);
+    _exit(status);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status != 0) throw std::runtime_error("the trial in its own process failed, see above");
 }
 
 std::uint64_t bytes_sent() {

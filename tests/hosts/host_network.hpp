@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -70,6 +71,11 @@ class OnHost {
  private:
   int before_ = -1;
 };
+
+/// Runs this in a process of its own, which leaves its results in files: Zenoh's threads stay in the network
+/// in which the first of them began. Before, this process must have had no other thread.
+/// @throws std::runtime_error if `work` throws, after printing what.
+void in_own_process(const std::function<void()>& work);
 
 /// Bytes that the calling thread's host has sent to its link since it was made.
 std::uint64_t bytes_sent();

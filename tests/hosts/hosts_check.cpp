@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hosts/hosts_check.hpp"
 
-#include <chrono>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -24,7 +22,6 @@ constexpr double kMaxGapS = 0.1;       // longer than one machine's
 constexpr double kMaxRepeats = 0.1;
 constexpr double kMaxReaderBytes = 0.2e6;  // a keyframe
 constexpr double kTurnS = 15;
-constexpr std::chrono::minutes kBaselineLimit{3};
 constexpr double kMaxIdleKbitS = 10;
 constexpr double kMaxLinkBytes = 0.8e6;  // a keyframe; one raw keyframe or camera frame has 1.5 MB
 constexpr double kMaxOfBeside = 1.1;     // p99 of a frame, of that without a network
@@ -54,30 +51,30 @@ RecordingPair recording_of(const Row& row, const fs::path& place) {
   return {place / "recording", place / "background"};
 }
 
+HostFigures figures_in(const fs::path& out) {
+  return nlohmann::json::parse(read_text(out / kFiguresFile)).get<HostFigures>();
+}
+
 /// @param scored  whether path and map are compared with the truth, and with one machine.
 HostFigures run_row(const Row& row, bool scored = true) {
   const fs::path out = results_of(row.label());
   fs::remove_all(out);
   fs::create_directories(out);
-  const TemporaryFolder place;
-  const RecordingPair recording = recording_of(row, place.path());
-  HostFigures figures = HostsTrial(row, recording.dataset, out).run();
-  if (scored) add_scores(recording, out, results_of(on_one_machine(row).label()), figures);
-  write_text(out / kFiguresFile, nlohmann::json(figures).dump(2));
-  return figures;
+  in_own_process([&] {
+    const TemporaryFolder place;
+    const RecordingPair recording = recording_of(row, place.path());
+    HostFigures figures = HostsTrial(row, recording.dataset, out).run();
+    if (scored) add_scores(recording, out, results_of(on_one_machine(row).label()), figures);
+    write_text(out / kFiguresFile, nlohmann::json(figures).dump(2));
+  });
+  return figures_in(out);
 }
 
-/// Those of this sitting's run on one machine, made now if there is none: in a process of its own, as Zenoh's
-/// threads stay in the network in which the first of them began.
+/// Those of this sitting's run on one machine, made now if there is none.
 HostFigures figures_on_one_machine(const Row& row) {
-  const std::string label = on_one_machine(row).label();
-  const fs::path file = results_of(label) / kFiguresFile;
-  if (!fs::exists(file)) {
-    const std::string filter = "--gtest_filter=*HostsTableOnOneMachine*/" + label;
-    const auto result = run_process({fs::read_symlink("/proc/self/exe"), filter}, kBaselineLimit);
-    if (!fs::exists(file)) throw std::runtime_error(result.standard_output);
-  }
-  return nlohmann::json::parse(read_text(file)).get<HostFigures>();
+  const Row one_machine = on_one_machine(row);
+  const fs::path out = results_of(one_machine.label());
+  return fs::exists(out / kFiguresFile) ? figures_in(out) : run_row(one_machine);
 }
 
 /// What does not depend on how fast the machine is.

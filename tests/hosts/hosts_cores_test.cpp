@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/hosts/hosts_check.hpp"
+#include "tests/support/bus/vendors.hpp"
 
 namespace rds::test {
 namespace {
@@ -12,8 +13,7 @@ TEST_P(HostsCores, LeaveTheTrackerItsOwn) {
   expect_split_cores(core_rows(GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, HostsCores, testing::Values(bus::Vendor::kFastDds, bus::Vendor::kCycloneDds),
-                         [](const auto& vendor) { return bus::name_of(vendor.param); });
+INSTANTIATE_TEST_SUITE_P(Each, HostsCores, testing::ValuesIn(kAllVendors), vendor_name);
 
 }  // namespace
 }  // namespace rds::test

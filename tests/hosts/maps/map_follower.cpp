@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// map_follower VENDOR DOMAIN topics|transfer: keeps a copy of the map, from its topics as a program of
+// map_follower VENDOR DOMAIN topics|transfer PEERS: keeps a copy of the map, from its topics as a program of
 // somebody else would, or as ours do, and prints at each change the time of the steady clock [s] and the
 // revision. Ends when it is killed.
+#include "services/mapper/reader/map_follower.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -9,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "services/mapper/reader/map_follower.hpp"
+#include "common/bus/peer_addresses.hpp"
 #include "tests/support/map_reader.hpp"
 
 namespace {
@@ -35,10 +37,11 @@ template <class Revision>
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
+  if (argc != 5) return 2;
   const auto bus = rds::bus::Participant::create({.vendor = rds::bus::vendor_from_name(argv[1]),
                                                   .domain = std::stoi(argv[2]),
-                                                  .node_name = "map_follower"});
+                                                  .node_name = "map_follower",
+                                                  .peers = rds::bus::peer_addresses(argv[4])});
   if (argv[3] == std::string("topics")) {
     rds::test::MapReader reader(*bus);
     follow([&] { return reader.revision(); });

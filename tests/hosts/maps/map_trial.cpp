@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include "common/bus/peer_addresses.hpp"
 #include "tests/hosts/figures.hpp"
 #include "tests/integration/run_support.hpp"
 #include "tools/rds/run/services/service_commands.hpp"
@@ -71,8 +72,10 @@ MapTrial::MapTrial(const MapRow& row, const std::filesystem::path& recording, st
       dataset_(image::TumDataset::open(recording).value()),
       network_({kSlow, kFast}, {.rate_mbit = row.rate_mbit}),
       here_(network_, kFast),
-      bus_(bus::Participant::create(
-          {.vendor = row.vendor, .domain = domain_.domain(), .node_name = "map_trial"})),
+      bus_(bus::Participant::create({.vendor = row.vendor,
+                                     .domain = domain_.domain(),
+                                     .node_name = "map_trial",
+                                     .peers = bus::peer_addresses(peers_of(kFast))})),
       commander_(*bus_),
       arrivals_(*bus_),
       revisions_(*bus_),
@@ -83,9 +86,17 @@ std::vector<run::ServiceCommand> MapTrial::commands() const {
   run::RunOptions options;
   options.default_vendor = row_.vendor;
   options.network = true;
+  if (const std::string peers = peers_of(kFast); !peers.empty())
+    options.here = {run::services_of(options), peers};
   auto commands = run::service_commands(options, domain_.domain(), out_);
   for (auto& command : commands) command.command.front() = RDS_BIN_DIR "/" + command.name;
   return commands;
+}
+
+/// Zenoh does not go by multicast between machines, so they are told each other's addresses.
+std::string MapTrial::peers_of(const std::string& host) const {
+  if (row_.vendor != bus::Vendor::kZenoh) return "";
+  return network_.address(host == kFast ? kSlow : kFast);
 }
 
 MapFigures MapTrial::run() {
@@ -144,7 +155,8 @@ void MapTrial::start_readers() {
                                          RDS_MAP_FOLLOWER,
                                          bus::name_of(row_.vendor),
                                          std::to_string(domain_.domain()),
-                                         name_of(row_.readers)};
+                                         name_of(row_.readers),
+                                         peers_of(kSlow)};
   while (followers_.size() < kFollowers)
     followers_.push_back(std::make_unique<Process>(network_.on(kSlow, command)));
 }

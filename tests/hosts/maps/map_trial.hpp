@@ -41,6 +41,9 @@ struct MapFigures {
   double boxes_p95_ms = 0;
   double gap_s = 0;  // longest time between two tracking states
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MapFigures, followers, offered_mbit_s, mapper_cpu, near_p50_ms,
+                                   near_p95_ms, boxes_p50_ms, boxes_p95_ms, gap_s)
+
 std::string to_line(const MapRow& row, const MapFigures& figures);
 
 /// Five services, a camera at its recorded speed and a reader of the map on one machine; slow readers on
@@ -54,6 +57,7 @@ class MapTrial {
 
  private:
   std::vector<run::ServiceCommand> commands() const;
+  [[nodiscard]] std::string peers_of(const std::string& host) const;
   void wait_until_connected();
   void play();
   void start_readers();

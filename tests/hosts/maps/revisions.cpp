@@ -2,7 +2,6 @@
 #include "tests/hosts/maps/revisions.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "common/messages/conversions.hpp"
@@ -56,7 +55,7 @@ std::vector<double> Revisions::delays_ms(const std::map<std::int64_t, Clock::tim
 
 FollowerFigures Revisions::follower(const std::string& printed, double end_s) const {
   const auto steps = steps_in(printed);
-  FollowerFigures figures{.first_s = std::numeric_limits<double>::infinity()};
+  FollowerFigures figures{.first_s = kNever};
   if (steps.size() < 2) return figures;
   const double first_at_s = steps[1].first;
   figures.first_s = first_at_s - steps[0].first;

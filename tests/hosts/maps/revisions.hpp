@@ -3,23 +3,29 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "common/bus/participant.hpp"
 #include "rds_msgs/msg/OctreeDelta.h"
 
 namespace rds::test {
 
+constexpr double kNever = std::numeric_limits<double>::max();
+
 /// How a reader of the map on another machine fared.
 struct FollowerFigures {
-  double first_s = 0;       // from its start to its first map; infinite: none came
+  double first_s = 0;       // from its start to its first map; kNever: none came
   double behind_p95_s = 0;  // from a revision's arrival beside the mapper to its arrival there, after that
   double behind_max_s = 0;
   std::size_t steps = 0;  // changes of its copy
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FollowerFigures, first_s, behind_p95_s, behind_max_s, steps)
 
 /// When the revisions of the map arrive at this process, which is beside the mapper.
 class Revisions {

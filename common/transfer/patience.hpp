@@ -15,11 +15,13 @@ class Patience {
  public:
   /// Longer than a participant that missed an announcement waits for the next one (3 s), and an offer (1 s).
   static constexpr Time kLong = std::chrono::seconds(5);
+  /// Where everything is on this machine: until then a tracker has offered, so that strangers are told from it.
+  static constexpr Time kShort = std::chrono::seconds(2);
 
-  bool is_over(bool is_written, Time now) {
+  bool is_over(bool is_written, Time now, Time least = kLong) {
     if (!is_written) since_.reset();
     if (is_written && !since_) since_ = now;
-    return since_ && now - *since_ >= kLong;
+    return since_ && now - *since_ >= least;
   }
 
  private:

@@ -106,7 +106,7 @@ void ItemClient::step() {
 
 /// On the loopback interface everything is.
 bool ItemClient::is_here_without_offer(Time now) {
-  if (context_.participant.loopback_only) return true;
+  if (context_.participant.loopback_only) return source_.patience.is_over(true, now, Patience::kShort);
   const std::string topic = context_.bus.full_name(near_topic(self_.stream));
   const auto writes = [&topic](const auto& endpoint) {
     return endpoint.publisher && endpoint.topic == topic;

@@ -172,7 +172,7 @@ void join_late(Participant& participant) {
 void measure(Participant& participant) {
   const auto ignore = [](const auto&) {};
   const auto numbers =
-      participant.subscribe<std_msgs::msg::Header>("number", rds::bus::kLatchedEvery, ignore);
+      participant.subscribe<String>("number", rds::bus::kLatchedEvery, ignore);
   const auto pictures = participant.subscribe<Image>("picture", rds::bus::kSensor, ignore);
   const std::jthread speaker([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) {

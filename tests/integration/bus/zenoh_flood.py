@@ -19,7 +19,7 @@ from zenoh.ext import UInt32, z_serialize
 
 attack, domain, seconds = sys.argv[1], int(sys.argv[2]), float(sys.argv[3])
 HASH = "RIHS01_" + 64 * "0"  # of another version: counted, not decoded
-NUMBER = f"{domain}/number/std_msgs::msg::dds_::Header_/{HASH}"
+NUMBER = f"{domain}/number/std_msgs::msg::dds_::String_/{HASH}"
 PICTURE = f"{domain}/picture/sensor_msgs::msg::dds_::Image_/{HASH}"
 LARGEST = 8 << 20  # bytes of a message: as zenoh_flood_test.py sets it
 

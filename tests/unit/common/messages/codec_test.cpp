@@ -122,7 +122,7 @@ TEST(Registry, FindsEveryTypeByItsDdsName) {
     ASSERT_NE(find_message_type(type.ops->dds_name), nullptr) << type.ops->dds_name;
     EXPECT_EQ(find_message_type(type.ops->dds_name)->ops, type.ops);
   }
-  EXPECT_EQ(find_message_type("std_msgs::msg::dds_::String_"), nullptr);
+  EXPECT_EQ(find_message_type("std_msgs::msg::dds_::Int64_"), nullptr);
   EXPECT_EQ(find_message_type(""), nullptr);
 }
 

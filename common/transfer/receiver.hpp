@@ -32,9 +32,8 @@ struct ReceiverStatistics {
   std::uint64_t repeated = 0;     // came twice, or when nobody waited for them
   std::uint64_t asked_again = 0;  // chunks that were lost
   std::uint64_t absent = 0;       // numbers of which there never was an item
-  std::uint64_t given_up =
-      0;  // items that are lacking and cannot be had, those from before the first offer too
-  std::uint64_t impossible = 0;  // chunks that cannot be right
+  std::uint64_t given_up = 0;     // items that cannot be had any more, those from before the first offer too
+  std::uint64_t impossible = 0;   // chunks that cannot be right
 };
 
 /// Fetches the items of one writer's stream. An item that has been begun is finished first, so a slow link

@@ -146,7 +146,7 @@ void start_and_go_on(Fleet& fleet, Watch& watch, const Watch::Seen& before, cons
 }
 
 int kills() {
-  return std::getenv("RDS_SOAK") != nullptr ? 20 : 2;
+  return std::getenv("RDS_SOAK") != nullptr ? 20 : 3;
 }
 
 class Restart : public ::testing::TestWithParam<std::string> {};

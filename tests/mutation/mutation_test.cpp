@@ -43,7 +43,7 @@ constexpr auto kDrain = 5s;              // until what was written has been look
 constexpr auto kRest = 15s;              // until what was freed is given back
 constexpr double kMaxGrowthMb = 5;
 constexpr double kMaxFreedMb = 34;  // that a service keeps
-constexpr int kPoses = 20;          // by which the camera is found again
+constexpr int kPoses = 50;          // by which the camera is found again
 constexpr std::uint64_t kInstance = 4711;
 
 /// Of a service [MB].
@@ -64,7 +64,7 @@ void print_growth(const MemoryOfAll& before, const MemoryOfAll& after, const std
 
 std::uint64_t mutations() {
   const char* given = std::getenv("RDS_MUTATIONS");
-  return given == nullptr ? 200 : std::stoull(given);
+  return given == nullptr ? 300 : std::stoull(given);
 }
 
 /// Fewer say nothing of memory; then nobody waits for it to be given back.

@@ -116,8 +116,10 @@ class RosGraph(unittest.TestCase):
     def check_robots_apart(self):
         instances = {}
         for robot in ROBOTS:
-            status = self.rds("status", "--wait", 30, "--namespace", robot)
+            status = self.rds("status", "--json", "--wait", 30, "--namespace", robot)
             self.assertEqual(status.returncode, 0, status.stdout + status.stderr)  # each service once, and active
+            lacks = {s["service"]: s["transfer"] and s["transfer"]["lacking"] for s in json.loads(status.stdout)["services"]}
+            self.assertEqual(lacks["rds-mapper"], 0)
             odometry = self.messages("rds/odometry", 3, "--namespace", robot)
             self.assertEqual({m["header"]["frame_id"] for m in odometry}, {f"{robot}/odom"})
             states = self.messages("rds/tracking_state", 3, "--namespace", robot)

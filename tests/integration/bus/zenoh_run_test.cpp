@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole run over Zenoh gives what it gives over DDS, byte for byte; and a stranger reads its map.
+// A stranger reads the map of a run over Zenoh. That a run gives the same bytes on every bus: RecordedRun.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -71,19 +71,12 @@ void expect_that_a_stranger_reads(const fs::path& saved_map) {
   EXPECT_EQ(sum, occupied);
 }
 
-TEST(ZenohRun, GivesTheSameBytesAsDdsAndAMapThatAStrangerReads) {
+TEST(ZenohRun, MakesAMapThatAStrangerReads) {
   const TemporaryFolder place;
   const auto dataset = recording_with_people().folder;
-  for (const char* bus : {"fastdds", "zenoh"}) {
-    const ProcessResult result = run(dataset, place / bus, {"--rate", "max", "--frames", "90", "--bus", bus});
-    ASSERT_EQ(result.status, 0) << bus << ": " << result.standard_error;
-  }
-  for (const char* file : {"trajectory.txt", "trajectory_optimized.txt", "keyframes.txt", "detections.jsonl",
-                           "predictions.jsonl", "map.ot", "map.rds", "objects.json"}) {
-    const std::string expected = read_text(place / "fastdds" / file);
-    EXPECT_FALSE(expected.empty()) << file;
-    EXPECT_EQ(expected, read_text(place / "zenoh" / file)) << file;
-  }
+  const ProcessResult result =
+      run(dataset, place / "zenoh", {"--rate", "max", "--frames", "90", "--bus", "zenoh"});
+  ASSERT_EQ(result.status, 0) << result.standard_error;
   if (!fs::exists(RDS_ZENOH_PYTHON))
     GTEST_SKIP() << "no Python packages of zenoh_requirements.txt (tools/setup.sh --ros)";
   expect_that_a_stranger_reads(place / "zenoh");

@@ -15,6 +15,8 @@
 namespace rds::bus::detail {
 namespace {
 
+const eprosima::fastrtps::Duration_t kLastAnswersLimit{1, 0};
+
 rtps::GUID_t from_guid(const Guid& guid) {
   rtps::GUID_t target;
   std::copy_n(guid.begin(), 12, std::begin(target.guidPrefix.value));
@@ -71,7 +73,11 @@ class FastService final : public BackendService {
                                              dds::StatusMask::publication_matched())) {
     if (writer_ == nullptr) throw BusError("Fast DDS refused a writer on " + reply_topic->get_name());
   }
-  ~FastService() override { publisher_->delete_datawriter(writer_); }
+  /// Answers leave first: Fast DDS drops at once what a reader has not acknowledged when its writer goes.
+  ~FastService() override {
+    writer_->wait_for_acknowledgments(kLastAnswersLimit);
+    publisher_->delete_datawriter(writer_);
+  }
   FastService(const FastService&) = delete;
   FastService& operator=(const FastService&) = delete;
 

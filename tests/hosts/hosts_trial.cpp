@@ -84,6 +84,7 @@ HostsTrial::HostsTrial(const Row& row, const fs::path& recording, fs::path out)
     : row_(row),
       out_(std::move(out)),
       dataset_(image::TumDataset::open(recording).value()),
+      poses_(row.poses_are_given() ? recording / "groundtruth.txt" : fs::path()),
       network_(hosts_of(row), row.link, row.has_multicast),
       routers_(network_, row.way, out_),
       here_(network_, kA),
@@ -120,6 +121,7 @@ std::vector<run::ServiceCommand> HostsTrial::commands(bool late) const {
     run::RunOptions options;
     options.default_vendor = row_.vendor;
     options.network = true;
+    options.poses = poses_;
     if (!row_.has_multicast) options.here = {run::services_of(options), peers_of(host)};
     for (auto& command : run::service_commands(options, domain_.domain(), folder_of(host))) {
       if (placement().at(command.name) != host) continue;

@@ -51,6 +51,7 @@ class HostsTrial {
   Row row_;
   std::filesystem::path out_;
   image::TumDataset dataset_;
+  std::filesystem::path poses_;  // given to the tracker; empty: it finds its own
   HostNetwork network_;
   HostRouters routers_;
   OnHost here_;  // all that follows is on A

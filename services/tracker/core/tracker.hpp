@@ -17,7 +17,7 @@
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/map/map_drift.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
-#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/motion/gyroscope_prior.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/removal/movable_segmenter.hpp"

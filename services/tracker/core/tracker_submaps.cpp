@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/tracker/core/submaps/submap_search.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace rds::tracker {
@@ -52,9 +53,10 @@ std::optional<JoinedSubmap> Tracker::join_submaps() {
   const KeyframeId newest = keyframes_.newest_in_map();
   if (map.records().submaps().is_whole() || std::exchange(searched_, newest) == newest) return std::nullopt;
   localizer_.relocalizer().index_pending(map);
-  const auto seen = localizer_.relocalizer().find_in_others(map, localizer_.settings(), newest);
+  auto seen = localizer_.relocalizer().find_in_others(map, localizer_.settings(), newest);
+  if (!seen) seen = find_around_loss(map, newest);
   if (!seen) return std::nullopt;
-  const auto agreeing = sightings_.add(map, seen->match);
+  const auto agreeing = sightings_.add(map, *seen);
   if (agreeing.empty()) return std::nullopt;
   const Pose before = last_map_from_camera();
   const SubmapMove move = move_of(map, seen->match);

@@ -58,11 +58,7 @@ std::optional<double> way_of(const SlamMap& map, KeyframeId from, KeyframeId to)
   return way_between(map, map.records().anchor_of(from).first, map.records().anchor_of(to).first);
 }
 
-/// Where a submap begins, and the last keyframe of another one before that.
-struct SubmapBorder {
-  KeyframeId before = kNoId;
-  KeyframeId first = kNoId;
-};
+}  // namespace
 
 std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId older, SubmapId younger) {
   const auto& rows = records.submaps().rows();
@@ -72,6 +68,8 @@ std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId o
     if (records.contains(id) && records.submaps().of(id) == older) return SubmapBorder{id, row->first};
   return std::nullopt;
 }
+
+namespace {
 
 std::optional<LoopDrift> drift_between_submaps(const SlamMap& map, const geometry::LoopMatch& loop) {
   const KeyframeRecords& records = map.records();

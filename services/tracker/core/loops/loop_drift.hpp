@@ -25,6 +25,14 @@ struct LoopDrift {
   [[nodiscard]] double log_odds() const;
 };
 
+/// Where a submap begins, and the last keyframe of an older one before that.
+struct SubmapBorder {
+  KeyframeId before = kNoId;
+  KeyframeId first = kNoId;
+};
+/// @return nullopt where the records of either are not kept.
+std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId older, SubmapId younger);
+
 /// Of keyframes in one submap or in two. Of two, moved_m is from the last keyframe of the older one, before
 /// the camera was lost, to where the loop has the first of the younger one.
 /// @param loop  whose keyframes the map knows.

@@ -8,7 +8,7 @@
 #include "services/tracker/core/mapping/global_adjustment.hpp"
 #include "services/tracker/core/mapping/map_building.hpp"
 #include "services/tracker/core/mapping/mapping_exchange.hpp"
-#include "services/tracker/core/mapping/submap_fit.hpp"
+#include "services/tracker/core/submaps/submap_fit.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -171,11 +171,13 @@ ReplacedPoints LocalMapper::join(std::span<const LoopMatch> loops) {
 }
 
 std::optional<ReplacedPoints> LocalMapper::join(const SubmapMove& move,
-                                                std::span<const LoopMatch> sightings) {
-  if (!confirms(map_, sightings) || !fits(map_, move)) return std::nullopt;
+                                                std::span<const FoundKeyframe> sightings) {
+  if (!are_confirmed(map_, sightings) || !fits(map_, move)) return std::nullopt;
   move_submap(map_, move);
   ++revision_;
-  return join(sightings);
+  std::vector<LoopMatch> loops;
+  std::ranges::transform(sightings, std::back_inserter(loops), &FoundKeyframe::match);
+  return join(loops);
 }
 
 std::optional<LocalMappingJob> LocalMapper::take_adjustment(const SelfCalibration& calibration) {

@@ -11,7 +11,7 @@
 #include "services/tracker/core/map/map_checkpoint.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
-#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
 #include "common/dynamic_segmentation/depth_grid.hpp"
 
@@ -64,7 +64,7 @@ class LocalMapper {
                                         std::span<const LoopMatch> loops);
   /// Puts a submap into an older one and joins what the sightings say is one place; then a global adjustment
   /// is due. @return as correct(); nullopt, too, if what the two measured contradicts each other.
-  std::optional<ReplacedPoints> join(const SubmapMove& move, std::span<const LoopMatch> sightings);
+  std::optional<ReplacedPoints> join(const SubmapMove& move, std::span<const FoundKeyframe> sightings);
   /// Snapshot of the whole map; nullopt where no global adjustment is due.
   std::optional<LocalMappingJob> take_adjustment(const SelfCalibration& calibration);
   /// Brings a global adjustment in. @return false if it is outdated.

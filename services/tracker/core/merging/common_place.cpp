@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "services/tracker/core/mapping/submap_fit.hpp"
+#include "services/tracker/core/submaps/submap_fit.hpp"
 
 namespace rds::tracker {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/mapping/global_adjustment.hpp"
-#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/merging/common_place.hpp"
 #include "services/tracker/core/merging/map_union.hpp"
 
@@ -79,12 +79,12 @@ double median(std::vector<double> values) {
 void measure(const SlamMap& map, const Sightings& found, MapJoint& joint) {
   std::vector<double> off_m;
   std::vector<double> off_rad;
-  for (const auto& [match, inliers] : found) {
-    if (!is_in_place(map, match)) continue;
-    const Pose off = map.pose_of(match.later).inverse() * placed_by(map, match);
+  for (const FoundKeyframe& seen : found) {
+    if (!is_in_place(map, seen.match)) continue;
+    const Pose off = map.pose_of(seen.match.later).inverse() * placed_by(map, seen.match);
     off_m.push_back(off.translation().norm());
     off_rad.push_back(geometry::rotation_angle_rad(off.linear()));
-    joint.inliers += static_cast<std::size_t>(inliers);
+    joint.inliers += static_cast<std::size_t>(seen.inliers);
   }
   joint.agreeing = off_m.size();
   if (off_m.empty()) return;

@@ -6,19 +6,16 @@
 #include <iterator>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
+
+#include "services/tracker/core/relocalization/relief.hpp"
 
 namespace rds::tracker {
 namespace {
 
 constexpr std::size_t kCandidates = 4;           // keyframes tried per frame
 constexpr std::size_t kCandidatesElsewhere = 2;  // keyframes of other submaps tried per keyframe
-// The pattern of a wall repeats, and so do walls: a place is recognised by what does not lie in one plane.
-// How far it stands off, of its distance; of a rendered building, 2 … 4 m away, walls .001, what else is seen
-// .1.
-constexpr double kMinRelief = 0.05;
 constexpr int kRansacIterations = 200;
 constexpr float kRansacErrorPx = 6;
 constexpr double kRansacConfidence = 0.995;
@@ -65,24 +62,11 @@ bool solve_pnp(const SlamMap& map, TrackedFrame& frame) {
   return geometry::is_finite(frame.camera_from_map);
 }
 
-/// How far the points that a frame sees stand off the plane that fits them best, a standard deviation,
-/// relative to their distance from the camera.
-double relief_of(const SlamMap& map, const TrackedFrame& frame) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
-  for (const PointId id : frame.points) {
-    const MapPoint* point = map.point(id);
-    if (point == nullptr) continue;
-    sum += point->position;
-    squares += point->position * point->position.transpose();
-    ++count;
-  }
-  if (count == 0) return 0;
-  const Eigen::Vector3d mean = sum / count;
-  const Eigen::Matrix3d covariance = squares / count - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, axes.eigenvalues()[0])) / (frame.camera_from_map * mean).norm();
+double relief_seen_by(const SlamMap& map, const TrackedFrame& frame) {
+  std::vector<Eigen::Vector3d> points;
+  for (const PointId id : frame.points)
+    if (const MapPoint* point = map.point(id)) points.push_back(point->position);
+  return relief_of(points, frame.camera_from_map.inverse().translation());
 }
 
 /// Points of the keyframe and its best neighbours, each once.
@@ -163,7 +147,7 @@ bool Relocalizer::localize_against(const TrackingContext& context, KeyframeId id
   if (!solve_pnp(context.map, frame)) return false;
   if (optimize(context, frame) < kMinRefined) return false;
   localize_near(context, *keyframe, frame);
-  return frame.static_matches() >= kMinInliers && relief_of(context.map, frame) >= kMinRelief;
+  return frame.static_matches() >= kMinInliers && relief_seen_by(context.map, frame) >= kMinRelief;
 }
 
 void Relocalizer::localize_near(const TrackingContext& context, const Keyframe& keyframe,

@@ -4,9 +4,9 @@
 #include <functional>
 #include <optional>
 
-#include "common/geometry/loop_match.hpp"
 #include "common/vision/place_index.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
+#include "services/tracker/core/relocalization/found_keyframe.hpp"
 
 namespace rds::tracker {
 
@@ -18,12 +18,6 @@ struct SoughtPlace {
 
   /// True of a camera that stands and looks so. Of one that looks steeply up or down only the place counts.
   [[nodiscard]] bool contains(const Pose& map_from_other) const;
-};
-
-/// A keyframe that was found in another submap.
-struct FoundKeyframe {
-  geometry::LoopMatch match;
-  int inliers = 0;  // map points that agree
 };
 
 /// Localises a frame without a usable motion prediction: candidates by appearance, PnP with RANSAC,

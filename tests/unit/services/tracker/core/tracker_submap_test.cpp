@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "services/tracker/core/mapping/global_adjustment.hpp"
-#include "services/tracker/core/mapping/submap_fit.hpp"
+#include "services/tracker/core/submaps/submap_fit.hpp"
 #include "tests/unit/services/tracker/core/tracker_scene.hpp"
 
 namespace rds::tracker {

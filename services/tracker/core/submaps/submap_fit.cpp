@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/mapping/submap_fit.hpp"
+#include "services/tracker/core/submaps/submap_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/tracker/core/loops/loop_fusion.hpp"
+#include "services/tracker/core/relocalization/found_keyframe.hpp"
 
 namespace rds::tracker {
 
@@ -23,11 +24,11 @@ class SubmapSightings {
   /// @param seen  the newest keyframe of the map, as the later one, and one of another submap that shows the
   /// same place.
   /// @return the sightings that agree with it, this one last; nothing while they are too few.
-  std::vector<LoopMatch> add(const SlamMap& map, const LoopMatch& seen);
+  std::vector<FoundKeyframe> add(const SlamMap& map, const FoundKeyframe& seen);
   void clear() { seen_.clear(); }
 
  private:
-  std::deque<LoopMatch> seen_;  // oldest first
+  std::deque<FoundKeyframe> seen_;  // oldest first
 };
 
 /// A submap moves into an older one.
@@ -36,6 +37,10 @@ struct SubmapMove {
   SubmapId into = 0;
   Pose into_from_moved = Pose::Identity();
 };
+
+/// Whether the map confirms sightings that agree: confirms() of those by features, or, of kAgreeingSightings by
+/// votes, that the camera can have walked there while it was lost (LoopDrift::log_odds()).
+bool are_confirmed(const SlamMap& map, std::span<const FoundKeyframe> sightings);
 
 /// What a sighting says: the younger of its two submaps goes to its place in the older one.
 SubmapMove move_of(const SlamMap& map, const LoopMatch& seen);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
+
+#include "services/tracker/core/loops/loop_drift.hpp"
 
 namespace rds::tracker {
 namespace {
@@ -36,18 +38,29 @@ bool agree(const SlamMap& map, const LoopMatch& newest, const LoopMatch& before)
   return are_one(by_newest, by_before);
 }
 
-std::vector<LoopMatch> SubmapSightings::add(const SlamMap& map, const LoopMatch& seen) {
-  std::erase_if(seen_, [&](const LoopMatch& s) {  // not all poses are kept for ever
-    return !map.records().contains(s.later) || !map.records().contains(s.earlier);
+std::vector<FoundKeyframe> SubmapSightings::add(const SlamMap& map, const FoundKeyframe& seen) {
+  std::erase_if(seen_, [&](const FoundKeyframe& s) {  // not all poses are kept for ever
+    return !map.records().contains(s.match.later) || !map.records().contains(s.match.earlier);
   });
-  std::vector<LoopMatch> agreeing;
-  std::ranges::copy_if(seen_, std::back_inserter(agreeing),
-                       [&](const LoopMatch& before) { return agree(map, seen, before); });
+  std::vector<FoundKeyframe> agreeing;
+  std::ranges::copy_if(seen_, std::back_inserter(agreeing), [&](const FoundKeyframe& before) {
+    return agree(map, seen.match, before.match);
+  });
   agreeing.push_back(seen);
   seen_.push_back(seen);
   if (seen_.size() > kNewest) seen_.pop_front();
   if (agreeing.size() < kAgreeingSightings) agreeing.clear();
   return agreeing;
+}
+
+bool are_confirmed(const SlamMap& map, std::span<const FoundKeyframe> sightings) {
+  std::vector<LoopMatch> by_features;
+  std::vector<LoopMatch> by_votes;
+  for (const FoundKeyframe& s : sightings) (s.by_votes ? by_votes : by_features).push_back(s.match);
+  if (!by_features.empty() && confirms(map, by_features)) return true;
+  if (by_votes.size() < kAgreeingSightings) return false;
+  const auto drift = drift_of(map, by_votes.back());
+  return drift && drift->log_odds() >= 0;
 }
 
 SubmapMove move_of(const SlamMap& map, const LoopMatch& seen) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "services/tracker/core/mapping/submap_joining.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 
 namespace rds::tracker {
 

@@ -64,8 +64,8 @@ struct Row {
   Way way = Way::kDirect;
   int clock_shift_s = 0;  // by which B's clock is set late, and C's early
 
-  /// The tracker is given the true poses where an absence may cost the map .01: with its own, one machine's map
-  /// differs from run to run by .04, and by .15 where tracking among people forks.
+  /// The tracker is given the true poses where an absence may cost the map .01: with its own, one machine's
+  /// map differs from run to run by .04, and by .15 where tracking among people forks.
   [[nodiscard]] bool poses_are_given() const { return length_s > 0; }
   /// Name and vendor, for GoogleTest.
   [[nodiscard]] std::string label() const { return name + "_" + bus::name_of(vendor); }

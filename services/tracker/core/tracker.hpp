@@ -17,10 +17,10 @@
 #include "services/tracker/core/map/map_bytes.hpp"
 #include "services/tracker/core/map/map_drift.hpp"
 #include "services/tracker/core/mapping/local_mapper.hpp"
-#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/motion/gyroscope_prior.hpp"
 #include "services/tracker/core/motion/odometry_prior.hpp"
 #include "services/tracker/core/removal/movable_segmenter.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 
 namespace rds::tracker {
 
@@ -54,7 +54,8 @@ struct JoinedSubmap {
 /// (OdometryPrior). Who is lost for config.submap_after_s begins a submap: a map beside the map, in a frame
 /// of its own, that join_submaps() puts in its place once it is known. Where stamps go back, time goes on
 /// (ContinuousTime): the camera is lost, until it has found itself in the map. With config.localize_only
-/// keyframes are temporary: the oldest leave the map again, and those that it started from stay. Same calls, same results, bit by bit.
+/// keyframes are temporary: the oldest leave the map again, and those that it started from stay. Same calls,
+/// same results, bit by bit.
 class Tracker {
  public:
   explicit Tracker(const TrackerConfig& config, TrackerPorts ports = {});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program (LD_PRELOAD), it is the clock of a machine that is set wrong: the time of day is
-// RDS_CLOCK_SHIFT_S seconds later than it is, and who waits until a time of day waits by that clock; time that
-// only goes on (CLOCK_MONOTONIC) is as it is.
+// RDS_CLOCK_SHIFT_S seconds later than it is, and who waits until a time of day waits by that clock; time
+// that only goes on (CLOCK_MONOTONIC) is as it is.
 #include <cstdlib>
 #include <ctime>
 

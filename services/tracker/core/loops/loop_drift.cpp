@@ -65,7 +65,10 @@ std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId o
   const auto row = std::ranges::find(rows, younger, [](const auto& r) { return r.second; });
   if (row == rows.end() || !records.contains(row->first)) return std::nullopt;
   for (KeyframeId id = row->first; id-- > 0;)
-    if (records.contains(id) && records.submaps().of(id) == older) return SubmapBorder{id, row->first};
+    if (records.contains(id) && records.submaps().of(id) == older) {
+      const std::int64_t gap_ns = records[row->first].stamp_ns - records[id].stamp_ns;
+      return SubmapBorder{id, row->first, static_cast<double>(gap_ns) / kNsPerSecond};
+    }
   return std::nullopt;
 }
 
@@ -86,9 +89,8 @@ std::optional<LoopDrift> drift_between_submaps(const SlamMap& map, const geometr
   const Pose older_from_younger = later_is_younger ? earlier_from_later : earlier_from_later.inverse();
   const Pose before_from_first =
       map.pose_of(border->before).inverse() * older_from_younger * map.pose_of(border->first);
-  const std::int64_t gap_ns = records[border->first].stamp_ns - records[border->before].stamp_ns;
-  return LoopDrift{before_from_first.translation().norm(), *way + *way_on,
-                   static_cast<double>(gap_ns) / kNsPerSecond, angle_of(before_from_first)};
+  return LoopDrift{before_from_first.translation().norm(), *way + *way_on, border->gap_s,
+                   angle_of(before_from_first)};
 }
 
 double sigma_m(const LoopDrift& drift) {
@@ -109,13 +111,18 @@ double LoopDrift::log_odds() const {
   return std::log((1 - kAstray) * here * kFloorM2 + kAstray);
 }
 
+std::optional<double> LoopDrift::reach_m() const {
+  const double sigma = sigma_m(*this);
+  const double rarer = kFloorM2 / (2 * std::numbers::pi * sigma * sigma);
+  if (gap_s < 0 || rarer <= 1) return std::nullopt;
+  return sigma * std::sqrt(2 * std::log(rarer));
+}
+
 std::optional<LoopDrift> drift_of(const SlamMap& map, const geometry::LoopMatch& loop) {
   const Submaps& submaps = map.records().submaps();
   if (submaps.of(loop.earlier) != submaps.of(loop.later)) {
     const auto drift = drift_between_submaps(map, loop);
-    const bool is_known =
-        drift && drift->gap_s >= 0 && 2 * std::numbers::pi * std::pow(sigma_m(*drift), 2) < kFloorM2;
-    return is_known ? drift : std::nullopt;
+    return drift && drift->reach_m() ? drift : std::nullopt;
   }
   const auto way = way_of(map, loop.earlier, loop.later);
   if (!way) return std::nullopt;

@@ -23,12 +23,16 @@ struct LoopDrift {
   /// The tracker drifts (d, φ) by a share of its way, or in one case of so many (ε) it has been led astray; a
   /// lost camera walks on; places that look alike stand anywhere on a floor of area A, turned as they are.
   [[nodiscard]] double log_odds() const;
+  /// The moved_m at which log_odds() is 0 for who has not turned; nullopt where it is less for all, as the
+  /// camera was lost for so long that nothing is known.
+  [[nodiscard]] std::optional<double> reach_m() const;
 };
 
 /// Where a submap begins, and the last keyframe of an older one before that.
 struct SubmapBorder {
   KeyframeId before = kNoId;
   KeyframeId first = kNoId;
+  double gap_s = 0;  // between them
 };
 /// @return nullopt where the records of either are not kept.
 std::optional<SubmapBorder> border_of(const KeyframeRecords& records, SubmapId older, SubmapId younger);

@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "common/dynamic_segmentation/depth_grid.hpp"
 #include "services/tracker/core/calibration/self_calibration.hpp"
 #include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/map/map_checkpoint.hpp"
 #include "services/tracker/core/mapping/keyframe_data.hpp"
 #include "services/tracker/core/mapping/local_mapping.hpp"
-#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/pose/tracking_context.hpp"
-#include "common/dynamic_segmentation/depth_grid.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 
 namespace rds::tracker {
 

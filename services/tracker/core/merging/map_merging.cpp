@@ -9,9 +9,9 @@
 
 #include "services/tracker/core/loops/loop_fusion.hpp"
 #include "services/tracker/core/mapping/global_adjustment.hpp"
-#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/merging/common_place.hpp"
 #include "services/tracker/core/merging/map_union.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 
 namespace rds::tracker {
 namespace {

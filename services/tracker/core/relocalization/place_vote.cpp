@@ -11,14 +11,14 @@
 namespace rds::tracker {
 namespace {
 
-constexpr int kMaxDistance = 60;       // bits in which descriptors that look alike differ at most
-constexpr double kMaxHeightM = 0.25;   // by which the frames' heights differ at most
-constexpr double kCellM = 0.2;         // of the votes
+constexpr int kMaxDistance = 60;      // bits in which descriptors that look alike differ at most
+constexpr double kMaxHeightM = 0.25;  // by which the frames' heights differ at most
+constexpr double kCellM = 0.2;        // of the votes
 constexpr float kCellsPerM = 1 / static_cast<float>(kCellM);
-constexpr int kTurns = 120;            // around the vertical: 3 degrees each
+constexpr int kTurns = 120;  // around the vertical: 3 degrees each
 constexpr std::size_t kPeaks = 4;
 constexpr float kShareOfMost = 0.5;
-constexpr int kApartCells = 3;         // peaks that are nearer are one …
+constexpr int kApartCells = 3;  // peaks that are nearer are one …
 constexpr int kApartTurns = 4;
 constexpr std::size_t kMinMet = 10;
 
@@ -49,7 +49,8 @@ class Votes {
     float votes = 0;
   };
 
-  /// Where the sums of four cells that share a corner are largest, the largest first, none beside another one.
+  /// Where the sums of four cells that share a corner are largest, the largest first, none beside another
+  /// one.
   [[nodiscard]] std::vector<Peak> peaks(double radius_m) const {
     float most = 0;
     for_each_sum(radius_m, [&](const Peak& p) { most = std::max(most, p.votes); });
@@ -78,8 +79,8 @@ class Votes {
         for (int x = 1; x < size_; ++x)
           if (shift_of({t, x, y}).squaredNorm() <= radius_m * radius_m)
             visit(Peak{t, x, y,
-                   counts_[index(t, x, y)] + counts_[index(t, x - 1, y)] + counts_[index(t, x, y - 1)] +
-                       counts_[index(t, x - 1, y - 1)]});
+                       counts_[index(t, x, y)] + counts_[index(t, x - 1, y)] + counts_[index(t, x, y - 1)] +
+                           counts_[index(t, x - 1, y - 1)]});
   }
   static bool are_one(const Peak& a, const Peak& b) {
     const int turns = std::abs(a.turn - b.turn);
@@ -133,7 +134,8 @@ std::vector<Ballot> ballots_of(std::span<const PlacedFeature> here, std::span<co
   ballots.reserve(pairs.size());
   for (const AlikePair& p : pairs)
     ballots.push_back({(there[p.there].position - window.point_there).head<2>().cast<float>(),
-                       (here[p.here].position - window.point_here).head<2>().cast<float>(), 1 / alike[p.here]});
+                       (here[p.here].position - window.point_here).head<2>().cast<float>(),
+                       1 / alike[p.here]});
   return ballots;
 }
 
@@ -155,8 +157,8 @@ std::vector<AlikePair> alike_pairs(std::span<const PlacedFeature> here, std::spa
 }
 
 std::vector<VotedPose> vote_for_poses(std::span<const PlacedFeature> here,
-                                      std::span<const PlacedFeature> there,
-                                      std::span<const AlikePair> pairs, const VoteWindow& window) {
+                                      std::span<const PlacedFeature> there, std::span<const AlikePair> pairs,
+                                      const VoteWindow& window) {
   const std::vector<Ballot> ballots = ballots_of(here, there, pairs, window);
   Votes votes(window.radius_m);
   for (int t = 0; t < kTurns; ++t) {
@@ -169,8 +171,9 @@ std::vector<VotedPose> vote_for_poses(std::span<const PlacedFeature> here,
   return poses;
 }
 
-std::vector<std::size_t> align_alike(std::span<const PlacedFeature> here, std::span<const PlacedFeature> there,
-                                     std::span<const AlikePair> pairs, Pose& there_from_here) {
+std::vector<std::size_t> align_alike(std::span<const PlacedFeature> here,
+                                     std::span<const PlacedFeature> there, std::span<const AlikePair> pairs,
+                                     Pose& there_from_here) {
   std::vector<std::size_t> met;
   for (const double radius_m : {0.4, 0.25, 0.15, 0.1}) {
     std::vector<double> nearest(here.size(), radius_m);

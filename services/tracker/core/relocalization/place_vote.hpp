@@ -47,12 +47,13 @@ std::vector<AlikePair> alike_pairs(std::span<const PlacedFeature> here, std::spa
 /// still tell the place.
 /// Source: Ballard 1981, "Generalizing the Hough transform to detect arbitrary shapes".
 std::vector<VotedPose> vote_for_poses(std::span<const PlacedFeature> here,
-                                      std::span<const PlacedFeature> there,
-                                      std::span<const AlikePair> pairs, const VoteWindow& window);
+                                      std::span<const PlacedFeature> there, std::span<const AlikePair> pairs,
+                                      const VoteWindow& window);
 
 /// Lays features on those that look alike and stand nearest, closer and closer.
 /// @return the features of there that are met, by index; fewer than 10: it could not be done.
-std::vector<std::size_t> align_alike(std::span<const PlacedFeature> here, std::span<const PlacedFeature> there,
-                                     std::span<const AlikePair> pairs, geometry::Pose& there_from_here);
+std::vector<std::size_t> align_alike(std::span<const PlacedFeature> here,
+                                     std::span<const PlacedFeature> there, std::span<const AlikePair> pairs,
+                                     geometry::Pose& there_from_here);
 
 }  // namespace rds::tracker

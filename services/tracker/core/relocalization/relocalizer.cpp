@@ -122,8 +122,7 @@ std::optional<FoundKeyframe> Relocalizer::find_in_others(SlamMap& map, const Pos
   if (keyframe == nullptr) return std::nullopt;
   image::RgbdFrame no_picture;
   no_picture.camera = keyframe->features->camera();
-  const TrackingContext context{
-      map, settings, no_picture, ObservationModel(no_picture.camera), {}, {}};
+  const TrackingContext context{map, settings, no_picture, ObservationModel(no_picture.camera), {}, {}};
   TrackedFrame frame;
   frame.features = keyframe->features;
   frame.time_ns = keyframe->time_ns;

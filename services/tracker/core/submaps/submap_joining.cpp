@@ -43,9 +43,8 @@ std::vector<FoundKeyframe> SubmapSightings::add(const SlamMap& map, const FoundK
     return !map.records().contains(s.match.later) || !map.records().contains(s.match.earlier);
   });
   std::vector<FoundKeyframe> agreeing;
-  std::ranges::copy_if(seen_, std::back_inserter(agreeing), [&](const FoundKeyframe& before) {
-    return agree(map, seen.match, before.match);
-  });
+  std::ranges::copy_if(seen_, std::back_inserter(agreeing),
+                       [&](const FoundKeyframe& before) { return agree(map, seen.match, before.match); });
   agreeing.push_back(seen);
   seen_.push_back(seen);
   if (seen_.size() > kNewest) seen_.pop_front();

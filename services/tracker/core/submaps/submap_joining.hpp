@@ -38,8 +38,8 @@ struct SubmapMove {
   Pose into_from_moved = Pose::Identity();
 };
 
-/// Whether the map confirms sightings that agree: confirms() of those by features, or, of kAgreeingSightings by
-/// votes, that the camera can have walked there while it was lost (LoopDrift::log_odds()).
+/// Whether the map confirms sightings that agree: confirms() of those by features, or, of kAgreeingSightings
+/// by votes, that the camera can have walked there while it was lost (LoopDrift::log_odds()).
 bool are_confirmed(const SlamMap& map, std::span<const FoundKeyframe> sightings);
 
 /// What a sighting says: the younger of its two submaps goes to its place in the older one.

@@ -2,23 +2,17 @@
 #include "services/tracker/core/submaps/submap_search.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "services/tracker/core/loops/loop_drift.hpp"
-#include "services/tracker/core/submaps/submap_fit.hpp"
 #include "services/tracker/core/relocalization/place_vote.hpp"
 #include "services/tracker/core/relocalization/relief.hpp"
+#include "services/tracker/core/submaps/submap_fit.hpp"
 
 namespace rds::tracker {
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
-constexpr double kMaxGapS = 5;
-constexpr double kBesideM = 1;  // of one who stands and turns
-constexpr double kWalkingMPerS = 1.5;
 constexpr double kSeesM = 6;  // how far a keyframe's features stand from it
 constexpr std::size_t kMinMet = 50;
 
@@ -29,16 +23,14 @@ struct Surroundings {
   std::vector<const MapPoint*> points;  // of the same index
 };
 
-/// Where the younger submap's first keyframe may lie in the older one.
+/// Where the younger submap's first keyframe may lie in the older one, by how far the camera can have walked.
 std::optional<VoteWindow> window_of(const SlamMap& map, SubmapId older, SubmapId younger) {
-  const KeyframeRecords& records = map.records();
-  const auto border = border_of(records, older, younger);
+  const auto border = border_of(map.records(), older, younger);
   if (!border) return std::nullopt;
-  const std::int64_t gap_ns = records[border->first].stamp_ns - records[border->before].stamp_ns;
-  const double gap_s = static_cast<double>(gap_ns) / kNsPerSecond;
-  if (gap_s < 0 || gap_s > kMaxGapS) return std::nullopt;
+  const auto reach_m = LoopDrift{.gap_s = border->gap_s}.reach_m();
+  if (!reach_m) return std::nullopt;
   return VoteWindow{map.pose_of(border->first).translation(), map.pose_of(border->before).translation(),
-                    kBesideM + kWalkingMPerS * gap_s};
+                    *reach_m};
 }
 
 Surroundings surroundings_of(const SlamMap& map, const VoteWindow& window, SubmapId older, double way_m) {
@@ -81,8 +73,10 @@ bool have_relief(const Surroundings& around, const std::vector<std::size_t>& ind
   return relief_of(points, camera) >= kMinRelief;
 }
 
+/// @return the place where most is met, of those that are believed.
 std::optional<FoundKeyframe> find_in(const SlamMap& map, const Surroundings& around, SubmapId older,
                                      const Keyframe& keyframe) {
+  const SubmapId younger = map.records().submaps().of(keyframe.id);
   const auto here = placed_features(keyframe);
   const auto pairs = alike_pairs(here, around.features, around.window);
   if (pairs.size() < kMinMet) return std::nullopt;
@@ -91,30 +85,20 @@ std::optional<FoundKeyframe> find_in(const SlamMap& map, const Surroundings& aro
   for (const VotedPose& voted : vote_for_poses(here, around.features, pairs, around.window)) {
     Pose older_from_younger = voted.there_from_here;
     const auto met = align_alike(here, around.features, pairs, older_from_younger);
+    const Pose placed = older_from_younger * keyframe.map_from_camera;
+    const bool is_known =
+        std::ranges::any_of(tried, [&](const Pose& other) { return are_one(other, placed); });
+    tried.push_back(placed);
     const int count = static_cast<int>(met.size());
-    const Pose older_from_camera = older_from_younger * keyframe.map_from_camera;
-    const auto is_same = [&](const Pose& other) { return are_one(other, older_from_camera); };
-    if (met.size() < kMinMet || (best && best->inliers >= count) || std::ranges::any_of(tried, is_same) ||
-        !have_relief(around, met, older_from_camera.translation()))
-      continue;
-    tried.push_back(older_from_camera);
+    if (is_known || met.size() < kMinMet || (best && best->inliers >= count)) continue;
     const Keyframe* seen_from = keyframe_that_sees_most(map, around, met);
-    const SubmapId younger = map.records().submaps().of(keyframe.id);
-    if (seen_from != nullptr && fits(map, {younger, older, older_from_younger}))
-      best = FoundKeyframe{{keyframe.id, seen_from->id, seen_from->map_from_camera.inverse() * older_from_camera},
-                           count,
-                           true};
+    if (seen_from == nullptr || !have_relief(around, met, placed.translation()) ||
+        !fits(map, {younger, older, older_from_younger}))
+      continue;
+    best = FoundKeyframe{
+        {keyframe.id, seen_from->id, seen_from->map_from_camera.inverse() * placed}, count, true};
   }
   return best;
-}
-
-/// The older submaps, each once, the youngest first.
-std::set<SubmapId, std::greater<>> older_than(const Submaps& submaps, SubmapId younger) {
-  std::set<SubmapId, std::greater<>> older;
-  if (younger > Submaps::kMap) older.insert(Submaps::kMap);
-  for (const auto& [first, submap] : submaps.rows())
-    if (submap < younger) older.insert(submap);
-  return older;
 }
 
 }  // namespace
@@ -122,9 +106,9 @@ std::set<SubmapId, std::greater<>> older_than(const Submaps& submaps, SubmapId y
 std::optional<FoundKeyframe> find_around_loss(const SlamMap& map, KeyframeId id) {
   const Keyframe* keyframe = map.keyframe(id);
   if (keyframe == nullptr) return std::nullopt;
-  const Submaps& submaps = map.records().submaps();
-  for (const SubmapId older : older_than(submaps, submaps.of(id))) {
-    const auto window = window_of(map, older, submaps.of(id));
+  const SubmapId younger = map.records().submaps().of(id);
+  for (SubmapId older = younger; older-- > Submaps::kMap;) {
+    const auto window = window_of(map, older, younger);
     if (!window) continue;
     const double way_m = (keyframe->map_from_camera.translation() - window->point_here).norm();
     if (const auto found = find_in(map, surroundings_of(map, *window, older, way_m), older, *keyframe))

@@ -7,11 +7,11 @@
 
 namespace rds::tracker {
 
-/// Looks for the place that a keyframe of a submap shows around the place where the camera was lost, in an older
-/// submap that it had a pose in within the five seconds before: by votes of all its features
+/// Looks for the place that a keyframe of a submap shows in older submaps, as far around the place where the
+/// camera was lost as it can have walked (LoopDrift::reach_m()): by votes of all the keyframe's features
 /// (vote_for_poses()), which tell the place where too few of them match for certain.
-/// @return the keyframe that sees most of what is met; nullopt if the keyframe meets fewer than 50 points that
-/// look like its features, or these lie in one plane, or the submaps do not fit (fits()).
+/// @return the keyframe that sees most of what is met; nullopt if the keyframe meets fewer than 50 points
+/// that look like its features, or these lie in one plane, or the submaps do not fit (fits()).
 std::optional<FoundKeyframe> find_around_loss(const SlamMap& map, KeyframeId keyframe);
 
 }  // namespace rds::tracker

@@ -124,5 +124,18 @@ TEST(LoopDriftOdds, WhoIsLedAstrayIsAsUnlikelyHoweverFar) {
   EXPECT_GT(astray, -4);
 }
 
+TEST(LoopDriftOdds, AreEvenAsFarAsALostCameraCanHaveWalked) {
+  double before_m = 0;
+  for (const double gap_s : {0.5, 1.0, 2.0}) {
+    const auto reach_m = LoopDrift{.gap_s = gap_s}.reach_m();
+    ASSERT_TRUE(reach_m);
+    EXPECT_GT(*reach_m, before_m);
+    EXPECT_NEAR((LoopDrift{.moved_m = *reach_m, .gap_s = gap_s}.log_odds()), 0, 1e-9);
+    before_m = *reach_m;
+  }
+  EXPECT_FALSE(LoopDrift{.gap_s = 4}.reach_m()) << "anywhere";
+  EXPECT_FALSE(LoopDrift{.gap_s = -1}.reach_m()) << "the clock went back";
+}
+
 }  // namespace
 }  // namespace rds::tracker

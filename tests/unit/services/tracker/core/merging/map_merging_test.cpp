@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "services/tracker/core/merging/map_union.hpp"
+#include "services/tracker/core/submaps/submap_joining.hpp"
 #include "tests/unit/services/tracker/core/mapping/two_laps.hpp"
 #include "tests/unit/services/tracker/core/tracker_scene.hpp"
 

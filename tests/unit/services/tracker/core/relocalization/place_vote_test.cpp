@@ -58,8 +58,8 @@ class PlaceVote : public testing::Test {
   [[nodiscard]] std::vector<PlacedFeature> there() const { return placed(there_at, there_looks); }
 
   std::mt19937 random{5};
-  geometry::Pose truth = geometry::make_pose(
-      {3, 1, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitZ())));
+  geometry::Pose truth =
+      geometry::make_pose({3, 1, 0.1}, Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitZ())));
   VoteWindow window{{0, 0, 0}, {2, 0, 0.1}, 2};  // the truth has that point at (3, 1)
   std::vector<Descriptor> patterns, here_looks, there_looks;
   std::vector<Eigen::Vector3d> here_at, there_at;

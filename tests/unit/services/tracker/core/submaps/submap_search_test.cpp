@@ -32,8 +32,8 @@ class SubmapSearch : public testing::Test, protected test::KnownPlace {
 };
 
 TEST_F(SubmapSearch, FindsTheKeyframeWhereTheCameraWasLost) {
-  const Pose submap_from_map =
-      geometry::make_pose({0.4, -0.3, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ())));
+  const Pose submap_from_map = geometry::make_pose(
+      {0.4, -0.3, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ())));
   const KeyframeId id = begin_submap(1, submap_from_map);
   const auto found = find_around_loss(map, id);
   ASSERT_TRUE(found);
